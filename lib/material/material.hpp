@@ -1,0 +1,72 @@
+// A material: the sum of energy terms.                                                [A23] eqs 12-20, 30, 44
+//   W(C) = sum matrix_i(I1_bar or I2_bar) + sum fibre_k(I4_bar_k) + volume(J)
+//   S = 2 dW/dC,  D = 4 d2W/dC2
+//   C   right Cauchy-Green tensor (3,3);  a  unit fibre direction of each family in the reference state
+//   S   second Piola-Kirchhoff stress [MPa], components;  D  (6,6) [MPa], S = D E with engineering shear in E
+// The fibre acts where I4_bar >= 1 (default, W is C1) or where I4 >= 1 (the paper's eq. 16; S jumps when J != 1).
+#pragma once
+
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "material/hgo_fibre.hpp"
+#include "material/neo_hooke.hpp"
+#include "material/quadratic_volume.hpp"
+#include "material/yeoh.hpp"
+#include "tensor/types.hpp"
+
+namespace langer {
+
+// Each alternative is an EnergyTerm with `static constexpr Invariant of` (I1_bar or I2_bar).
+using MatrixTerm = std::variant<NeoHooke, Yeoh, YeohI2>;
+
+enum class FibreSwitch { I4_bar, I4, off };  // off: the fibre also acts in compression
+constexpr auto names(FibreSwitch) { return std::array{"I4_bar", "I4", "off"}; }
+
+struct Fibre {
+  HgoFibre hgo;
+  double alpha_deg = 0;
+  FibreSwitch tension_switch = FibreSwitch::I4_bar;
+  static void fields(auto& v) {
+    v(&Fibre::hgo, "hgo", unit::none, "exponential fibre energy, eq. 14", required);
+    v(&Fibre::alpha_deg, "alpha", unit::deg, "angle between the fibres and the frame's x axis, in the x-z plane, eq. 1");
+    v(&Fibre::tension_switch, "switch", unit::none, "which invariant decides that the fibre is stretched; the paper prints I4, eq. 16");
+  }
+};
+
+struct Volume {
+  QuadraticVolume quadratic;
+  static void fields(auto& v) {
+    v(&Volume::quadratic, "quadratic", unit::none, "(J-1)^2/d, eq. 15", required);
+  }
+};
+
+struct Material {
+  std::vector<MatrixTerm> matrix;
+  std::vector<Fibre> fibres;
+  Volume volume;
+  static void fields(auto& v) {
+    v(&Material::matrix, "matrix", unit::none, "isotropic terms; several are summed", required);
+    v(&Material::fibres, "fibres", unit::none, "fibre families; none means an isotropic material");
+    v(&Material::volume, "volume", unit::none, "how volume change is resisted", required);
+  }
+};
+
+struct Response {
+  double W = 0;
+  Vec6 S = Vec6::Zero();
+  Mat6 D = Mat6::Zero();
+};
+
+// reference direction of each family in a frame: a = cos(alpha) e_x + sin(alpha) e_z        [A23] eq. 1
+std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame = Mat3::Identity());
+
+// isochoric part: matrix and fibres, no volume term
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a);
+
+// all terms; J_minus_1 may be given where it is known without cancellation
+Response response(const Material& material, const Mat3& C, std::span<const Vec3> a);
+
+}  // namespace langer

@@ -1,0 +1,19 @@
+// Volumetric energy  W = (J - 1)^2 / d, bulk modulus kappa = 2/d.                      [A23] eq. 15
+#pragma once
+
+#include "base/fields.hpp"
+#include "material/energy.hpp"
+
+namespace langer {
+
+struct QuadraticVolume {
+  static constexpr const char* key = "quadratic";
+  double d = 0;
+  static void fields(auto& v) {
+    v(&QuadraticVolume::d, "d", unit::per_MPa, "compressibility: 2/d is the bulk modulus", required, positive,
+      Hint{"[A23] uses 1e-6; its tables were made with 2e-3 (FER) and 4.4e-4 (ANSYS)"});
+  }
+  double bulk_modulus() const { return 2 / d; }  // [MPa]
+};
+
+}  // namespace langer

@@ -1,0 +1,45 @@
+// A mesh with named sets and one orthonormal frame per cell.
+//   X             reference positions [mm], one per node
+//   connectivity  nodes of cell e at [e * nodes_per_cell, ...), in VTK order (hex8: xi fastest round the bottom, then the top)
+//   body          per cell, index into `bodies`
+//   frames        per cell, columns e_x e_y e_z (orthonormal, right-handed); a = cos(alpha) e_x + sin(alpha) e_z   [A23] eq. 1
+//   node_sets     name -> nodes, ascending; observation points are sets of one node
+//   facet_sets    name -> (cell, local facet)
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tensor/types.hpp"
+
+namespace langer {
+
+enum class CellType { hex8 };
+constexpr int nodes_per_cell(CellType) { return 8; }
+
+struct Facet {
+  int cell = 0;
+  int local = 0;  // hex8: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta
+};
+
+struct Mesh {
+  CellType type = CellType::hex8;
+  std::vector<Vec3> X;
+  std::vector<int> connectivity;
+  std::vector<int> body;
+  std::vector<std::string> bodies;
+  std::vector<Mat3> frames;
+  std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, std::vector<Facet>> facet_sets;
+
+  int n_nodes() const { return static_cast<int>(X.size()); }
+  int n_cells() const { return static_cast<int>(connectivity.size()) / nodes_per_cell(type); }
+  std::span<const int> cell(int e) const {
+    const int n = nodes_per_cell(type);
+    return {connectivity.data() + static_cast<std::size_t>(e) * n, static_cast<std::size_t>(n)};
+  }
+};
+
+}  // namespace langer

@@ -1,0 +1,18 @@
+// mesh.h5: a static VTKHDF file with sets and frames.                                  docs/schema.md
+#pragma once
+
+#include <string>
+
+#include "mesh/mesh.hpp"
+#include "store/identity.hpp"
+
+namespace langer {
+
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity);
+struct MeshFile {
+  Mesh mesh;
+  std::string content_id;
+};
+MeshFile read_mesh(const std::string& path);  // throws Failure(input) with the path and what is wrong
+
+}  // namespace langer

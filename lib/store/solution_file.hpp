@@ -1,0 +1,80 @@
+// solution.h5: one record per accepted step, appended and flushed before the next step begins.   docs/schema.md
+// Arrays keep the mesh's node and cell order. n nodes, e cells, k contact candidates.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+#include "store/identity.hpp"
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct ContactRecord {
+  std::vector<Vec3> r;      // reaction on the body, global frame [N], one per candidate node
+  std::vector<int> status;  // 0 open, 1 stick, 2 slip
+  std::vector<double> gap;  // [mm]
+};
+
+struct StepRecord {
+  double t = 0;          // path parameter
+  double increment = 0;  // of t
+  int iterations = 0;
+  double residual = 0;   // relative
+  std::vector<Vec3> u;         // (n) [mm]
+  std::vector<Vec3> reaction;  // (n) internal minus external force: supports and contact [N]
+  std::map<std::string, std::vector<double>> cell_fields;  // (e): J, I4_bar, von_mises [MPa], pressure [MPa]
+  std::map<std::string, double> scalars;                   // further /history values, e.g. penetration, cone, complementarity
+  Vec3 u_ind = Vec3::Zero();                               // [mm]; only with contact
+  Vec3 force_ind = Vec3::Zero();                           // force on the indenter [N]; only with contact
+  std::map<std::string, ContactRecord> contacts;           // by contact name; empty without contact
+};
+
+// What does not change from step to step.
+struct SolutionHeader {
+  Mesh mesh;
+  Material material;
+  std::string formulation;                                // "mean_dilatation" | "displacement"
+  std::map<std::string, std::vector<int>> contact_nodes;  // candidates by contact name; empty without contact
+  Identity identity;
+};
+
+// Writes <path>.part and renames it to <path> in finish(); a killed run leaves a readable .part.
+class SolutionWriter {
+ public:
+  // Starts a new file; or continues <path>.part if that has the same config_hash and inputs.
+  SolutionWriter(const std::string& path, const SolutionHeader& header);
+  ~SolutionWriter();
+  // last record of a continued file, with everything a step needs to start from
+  std::optional<StepRecord> resumed() const;
+  int n_steps() const;
+  void append(const StepRecord& record);
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Reads a whole solution lazily.
+class SolutionReader {
+ public:
+  explicit SolutionReader(const std::string& path);  // throws Failure(input): missing, truncated, wrong schema
+  ~SolutionReader();
+  const SolutionHeader& header() const;
+  int n_steps() const;
+  StepRecord step(int i) const;
+  const std::string& content_id() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace langer
