@@ -1,0 +1,29 @@
+#include "assembly/dofs.hpp"
+
+#include <algorithm>
+
+namespace langer {
+
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed) {
+  DofsResult result;
+  Dofs& dofs = result.dofs;
+  dofs.n = 3 * n_nodes;
+  std::sort(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) { return a.dof < b.dof; });
+  for (const Prescribed& p : prescribed) {
+    if (!dofs.prescribed.empty() && dofs.prescribed.back().dof == p.dof) {
+      if (dofs.prescribed.back().value != p.value && result.conflict < 0) result.conflict = p.dof;
+      continue;
+    }
+    dofs.prescribed.push_back(p);
+  }
+  dofs.equation.assign(dofs.n, 0);
+  for (const Prescribed& p : dofs.prescribed) dofs.equation[p.dof] = -1;
+  for (int i = 0; i < dofs.n; ++i)
+    if (dofs.equation[i] == 0) {
+      dofs.equation[i] = dofs.n_free();
+      dofs.free.push_back(i);
+    }
+  return result;
+}
+
+}  // namespace langer

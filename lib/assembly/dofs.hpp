@@ -1,0 +1,32 @@
+// Which degrees of freedom are free. Dof 3 i + k is displacement component k of node i.
+// A prescribed component moves as  value * ramp(t);  held components have value 0.
+#pragma once
+
+#include <vector>
+
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct Prescribed {
+  int dof = 0;
+  double value = 0;  // [mm] at t = 1; proportional to t
+};
+
+struct Dofs {
+  int n = 0;                           // 3 * nodes
+  std::vector<int> equation;           // (n) row of a free dof, -1 where prescribed
+  std::vector<int> free;               // dof of each row
+  std::vector<Prescribed> prescribed;  // ascending dof
+
+  int n_free() const { return static_cast<int>(free.size()); }
+};
+
+// Later entries for the same dof must agree in value; `conflict` is the dof where they do not, or -1.
+struct DofsResult {
+  Dofs dofs;
+  int conflict = -1;
+};
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed);
+
+}  // namespace langer

@@ -1,0 +1,64 @@
+// Balance of a meshed body: internal force, tangent and the pressures that the tangent uses.   [A23] eqs 31-33
+//   F_int(u) - F_ext - R = 0
+// Vectors have one entry per dof (3 n); the tangent has the free rows only, lower triangle in the pattern's order.
+// A cell's material is materials[body[e]]. The parallel loop over elements lives here; sums are made in element order,
+// so the number of threads does not change a bit of the result.
+#pragma once
+
+#include <vector>
+
+#include "assembly/dofs.hpp"
+#include "assembly/pattern.hpp"
+#include "element/solid.hpp"
+#include "mesh/mesh.hpp"
+
+namespace langer {
+
+class Equilibrium {
+ public:
+  Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1);
+
+  // Forces and, if asked, the tangent at u. False where an element is turned inside out.
+  // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
+  bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);
+
+  const VecX& f_int() const { return f_; }                 // (3 n) [N]
+  const std::vector<double>& K() const { return K_; }      // (nnz) [N/mm]
+  const VecX& K_du() const { return K_du_; }               // (3 n) K times du_prescribed [N]
+  double W() const { return W_; }                          // stored energy [N mm]
+  double J_min() const { return J_min_; }
+  // what rounding leaves in the residual: kappa eps |grad u| through each element's dilatation gradient [N]
+  double rounding_floor() const { return floor_; }
+
+  // Pressure of the linearised dilatation after u + du (fraction `step` of it taken): the next tangent uses it.
+  void predict_pressures(const VecX& du, double step);
+  void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
+  std::vector<double>& pressures() { return p_; }
+
+  const Dofs& dofs() const { return dofs_; }
+  const Pattern& pattern() const { return pattern_; }
+  const Mesh& mesh() const { return mesh_; }
+  Formulation formulation() const { return formulation_; }
+  const Material& material(int e) const { return materials_[mesh_.body.empty() ? 0 : mesh_.body[e]]; }
+  std::span<const Vec3> fibres(int e) const { return fibres_[e]; }
+  const ElementGeometry& geometry(int e) const { return geometry_[e]; }
+  ElementNodes element_displacements(const VecX& u, int e) const;
+
+ private:
+  const Mesh& mesh_;
+  std::vector<Material> materials_;
+  Formulation formulation_;
+  Dofs dofs_;
+  Pattern pattern_;
+  int threads_;
+  std::vector<ElementGeometry> geometry_;
+  std::vector<std::vector<Vec3>> fibres_;
+  std::vector<double> p_;          // per element (mean dilatation) or per Gauss point
+  std::vector<double> J_minus_1_;  // same shape
+  std::vector<Vec24> dJ_du_;       // same shape
+  VecX f_, K_du_;
+  std::vector<double> K_;
+  double W_ = 0, J_min_ = 1, floor_ = 0;
+};
+
+}  // namespace langer

@@ -1,0 +1,53 @@
+#include "assembly/pattern.hpp"
+
+#include <algorithm>
+
+namespace langer {
+
+namespace {
+// neighbours of each node through cells, ascending, itself included
+std::vector<std::vector<int>> node_graph(const Mesh& mesh) {
+  std::vector<std::vector<int>> cells_of(mesh.n_nodes());
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (int a : mesh.cell(e)) cells_of[a].push_back(e);
+  std::vector<std::vector<int>> graph(mesh.n_nodes());
+  for (int i = 0; i < mesh.n_nodes(); ++i) {
+    auto& near = graph[i];
+    for (int e : cells_of[i])
+      for (int b : mesh.cell(e)) near.push_back(b);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+  }
+  return graph;
+}
+}  // namespace
+
+Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
+  Pattern pattern;
+  pattern.n = dofs.n_free();
+  pattern.column_start.assign(pattern.n + 1, 0);
+  const auto graph = node_graph(mesh);
+  for (int c = 0; c < pattern.n; ++c) {  // rows are numbered by node, so neighbours in order give ascending rows
+    const int dof = dofs.free[c];
+    for (int b : graph[dof / 3])
+      for (int k = 0; k < 3; ++k)
+        if (int r = dofs.equation[3 * b + k]; r >= c) pattern.row.push_back(r);
+    pattern.column_start[c + 1] = pattern.nnz();
+  }
+  pattern.slot.assign(static_cast<std::size_t>(mesh.n_cells()) * Pattern::slots_per_element, -1);
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto nodes = mesh.cell(e);
+    int* slot = pattern.slot.data() + static_cast<std::size_t>(e) * Pattern::slots_per_element;
+    for (int i = 0; i < 24; ++i)
+      for (int j = 0; j <= i; ++j, ++slot) {
+        int r = dofs.equation[3 * nodes[i / 3] + i % 3], c = dofs.equation[3 * nodes[j / 3] + j % 3];
+        if (r < 0 || c < 0) continue;
+        if (r < c) std::swap(r, c);
+        const auto first = pattern.row.begin() + pattern.column_start[c], last = pattern.row.begin() + pattern.column_start[c + 1];
+        *slot = static_cast<int>(std::lower_bound(first, last, r) - pattern.row.begin());
+      }
+  }
+  return pattern;
+}
+
+}  // namespace langer
