@@ -4,3 +4,165 @@
 //
 //   auto [config, where] = read_config<SolveConfig>(load_yaml("solve.yaml"));
 //   where("contacts[0].friction")  ->  Place, for errors found later
+#pragma once
+
+#include <algorithm>
+
+#include "config/member.hpp"
+#include "config/tree.hpp"
+
+namespace langer {
+
+struct Where {
+  Tree tree;
+  Place operator()(const std::string& key) const { return place_of(tree, key); }
+};
+
+template <class Config>
+struct Loaded {
+  Config config;
+  Where where;
+};
+
+// Errors found so far. A reading that says something leaves the value as it was.
+struct Findings {
+  std::vector<Error> errors;
+  void say(const Place& where, const std::string& key, std::string found, std::string expected = "", std::string hint = "") {
+    errors.push_back({where, key, std::move(found), std::move(expected), std::move(hint)});
+  }
+};
+
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, bool& out, Findings& f);
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out, Findings& f);
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out, Findings& f);
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f);
+long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f);
+int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words,
+              Findings& f);  // -1: none
+void say_unknown(const Tree::Entry& entry, const std::string& path, const std::vector<std::string>& known, Findings& f);
+[[noreturn]] void throw_sorted(std::vector<Error> errors);  // by place
+bool is_name(const std::string& name);                      // may stand in file names, HDF5 paths and paths of keys
+std::string join(const std::string& path, const std::string& key);
+std::string item(const std::string& path, std::size_t index);
+
+template <class T>
+void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
+
+template <Listed T>
+void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f) {
+  const std::size_t before = f.errors.size();
+  std::vector<std::string> known;
+  for_each_line(out, [&](const Member& m, auto& value) {
+    known.push_back(m.key);
+    const std::string key = join(path, m.key);
+    using V = std::remove_cvref_t<decltype(value)>;
+    if (const Tree* given = tree.find(m.key))
+      read_value(*given, key, m, value, f);
+    else if (m.required)
+      f.say(tree.place, key, "missing", type_words<V>(m) + " (" + m.doc + ")", m.hint);
+  });
+  for (const Tree::Entry& entry : tree.map)
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) say_unknown(entry, path, known, f);
+  if constexpr (Complaining<T>) {
+    if (f.errors.size() > before) return;
+    for (const Complaint& c : out.complaints()) {
+      const Place place = c.key.empty() ? tree.place : place_of(tree, c.key);
+      f.say(place, c.key.empty() ? path : c.key[0] == '[' ? path + c.key : join(path, c.key), c.found, c.expected, c.hint);
+    }
+  }
+}
+
+// Reads the alternative that `entry` names; false if there is none of that name.
+template <class Choice>
+bool read_alternative(const Tree::Entry& entry, const std::string& path, const Member& m, Choice& out, Findings& f) {
+  bool found = false;
+  for_each_alternative<Choice>([&](auto alternative) {
+    if (entry.key != decltype(alternative)::key) return;
+    found = true;
+    read_value(entry.value, join(path, entry.key), m, alternative, f);
+    out = alternative;
+  });
+  if (!found) say_unknown(entry, path, alternatives<Choice>(), f);
+  return found;
+}
+
+template <class T>
+void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
+  using Kind = Tree::Kind;
+  const auto wrong = [&](const std::string& found) { f.say(tree.place, path, found, type_words<T>(m), m.hint); };
+  const auto wrong_kind = [&] { wrong("found " + description(tree)); };
+  if constexpr (is_whole_number<T>) {
+    constexpr auto low = static_cast<long long>(std::numeric_limits<T>::min());
+    constexpr auto high =
+        sizeof(T) < 8 ? static_cast<long long>(std::numeric_limits<T>::max()) : std::numeric_limits<long long>::max();
+    const std::size_t before = f.errors.size();
+    const long long value = read_whole(tree, path, m, low, high, f);
+    if (f.errors.size() == before) out = static_cast<T>(value);
+  } else if constexpr (Named<T>) {
+    if (const int i = read_word(tree, path, m, words_of<T>(), f); i >= 0) out = static_cast<T>(i);
+  } else if constexpr (is_leaf<T>) {
+    read_leaf(tree, path, m, out, f);
+  } else if constexpr (is_optional<T>) {
+    if (tree.kind == Kind::null && !Listed<typename T::value_type>) return;
+    typename T::value_type value{};
+    read_value(tree, path, m, value, f);
+    out = std::move(value);
+  } else if constexpr (is_choice<T>) {
+    if (tree.kind != Kind::map) return wrong_kind();
+    if (tree.map.size() != 1) return wrong("found " + std::to_string(tree.map.size()) + " keys");
+    read_alternative(tree.map.front(), path, m, out, f);
+  } else if constexpr (is_sum<T>) {
+    if (tree.kind != Kind::map && tree.kind != Kind::list) return wrong_kind();
+    out.clear();
+    for (const Tree::Entry& entry : tree.map) {
+      typename T::value_type term;
+      if (read_alternative(entry, path, m, term, f)) out.push_back(std::move(term));
+    }
+    for (std::size_t i = 0; i < tree.list.size(); ++i) {
+      typename T::value_type term;
+      read_value(tree.list[i], item(path, i), m, term, f);
+      out.push_back(std::move(term));
+    }
+  } else if constexpr (is_vector<T>) {
+    if (tree.kind != Kind::list) return wrong_kind();
+    out.clear();
+    for (std::size_t i = 0; i < tree.list.size(); ++i) {
+      typename T::value_type value{};
+      read_value(tree.list[i], item(path, i), m, value, f);
+      out.push_back(std::move(value));
+    }
+  } else if constexpr (is_array<T>) {
+    if (tree.kind != Kind::list) return wrong_kind();
+    if (tree.list.size() != out.size()) return wrong("found " + std::to_string(tree.list.size()) + " items");
+    for (std::size_t i = 0; i < out.size(); ++i) read_value(tree.list[i], item(path, i), m, out[i], f);
+  } else if constexpr (is_named_things<T>) {
+    if (tree.kind != Kind::map) return wrong_kind();
+    out.clear();
+    for (const Tree::Entry& entry : tree.map) {
+      if (!is_name(entry.key)) {
+        f.say(entry.value.place, path, "found the name \"" + entry.key + "\"", "letters, digits, _, + and - only");
+        continue;
+      }
+      read_value(entry.value, join(path, entry.key), m, out[entry.key], f);
+    }
+  } else {
+    // an empty value stands for a map without keys
+    if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();
+    read_struct(tree, path, out, f);
+  }
+}
+
+// Throws one Failure(config) with everything that is wrong.
+template <Listed Config>
+Loaded<Config> read_config(Tree tree) {
+  Findings f;
+  Config config{};
+  if (tree.kind == Tree::Kind::map || tree.kind == Tree::Kind::null)
+    read_struct(tree, "", config, f);
+  else
+    f.say(tree.place, "", "found " + description(tree), "a map with the keys " + list_words(keys_of<Config>()));
+  if (!f.errors.empty()) throw_sorted(std::move(f.errors));
+  return {std::move(config), {std::move(tree)}};
+}
+
+}  // namespace langer

@@ -1,6 +1,7 @@
 // A YAML file as a tree that knows where each part stands. The parser itself stays behind tree.cpp.
-// `include: file` (path relative to the including file) is merged first, keys beside it win; deep for maps.
-// Refused with the right line: duplicate keys, `<<`, anchors' cycles, include cycles, non-YAML.
+// `include: file` (or a list of files; paths relative to the including file) is merged first, keys beside it win; deep for
+// maps. Refused with the right line: duplicate keys, `<<`, tags, anchors that contain themselves, include cycles, more than one
+// document, nesting deeper than 64 and more than 100 000 parts (aliases counted as often as they are used), non-YAML.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@ struct Tree {
   std::string scalar;   // text as written
   bool quoted = false;  // a quoted scalar is a string, never a number or a bool
   struct Entry;
-  std::vector<Entry> map;   // in file order
+  std::vector<Entry> map;  // in file order
   std::vector<Tree> list;
   Place place;  // of the value's key, or of the list item
   const Tree* find(const std::string& key) const;
@@ -25,10 +26,23 @@ struct Tree::Entry {
   Tree value;
 };
 
-Tree load_yaml(const std::string& path);                                  // throws Failure(config) or Failure(input) if missing
+Tree load_yaml(const std::string& path);  // throws Failure(config), or Failure(input) if there is no such file
 Tree parse_yaml(const std::string& text, const std::string& shown_name);  // for tests, --set and sweeps
+
+// One step of a path like "contacts[0].friction": a key, or an index where the key is empty.
+struct PathStep {
+  std::string key;
+  int index = -1;
+};
+std::vector<PathStep> split_path(const std::string& path);  // empty if the path is malformed
 
 // Sets the value at a path like "contacts[0].friction", making maps on the way; throws Failure(config) where it cannot.
 void set_value(Tree& tree, const std::string& path, Tree value);
+
+// Place of the part at a path; of the deepest part on the way if the path leads further than the tree.
+Place place_of(const Tree& tree, const std::string& path);
+
+// "a list", "a map", "the text "abc"", "nothing": for messages
+std::string description(const Tree& tree);
 
 }  // namespace langer
