@@ -32,15 +32,14 @@ struct Fibre {
   static void fields(auto& v) {
     v(&Fibre::hgo, "hgo", unit::none, "exponential fibre energy, eq. 14", required);
     v(&Fibre::alpha_deg, "alpha", unit::deg, "angle between the fibres and the frame's x axis, in the x-z plane, eq. 1");
-    v(&Fibre::tension_switch, "switch", unit::none, "which invariant decides that the fibre is stretched; the paper prints I4, eq. 16");
+    v(&Fibre::tension_switch, "switch", unit::none,
+      "which invariant decides that the fibre is stretched; the paper prints I4, eq. 16");
   }
 };
 
 struct Volume {
   QuadraticVolume quadratic;
-  static void fields(auto& v) {
-    v(&Volume::quadratic, "quadratic", unit::none, "(J-1)^2/d, eq. 15", required);
-  }
+  static void fields(auto& v) { v(&Volume::quadratic, "quadratic", unit::none, "(J-1)^2/d, eq. 15", required); }
 };
 
 struct Material {
@@ -63,10 +62,11 @@ struct Response {
 // reference direction of each family in a frame: a = cos(alpha) e_x + sin(alpha) e_z        [A23] eq. 1
 std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame = Mat3::Identity());
 
-// isochoric part: matrix and fibres, no volume term
-Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a);
+// isochoric part: matrix and fibres, no volume term; without tangent D stays zero
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent = true);
 
-// all terms; J_minus_1 may be given where it is known without cancellation
+// all terms; J_minus_1 where it is known without cancellation (tensor/kinematics.hpp)
 Response response(const Material& material, const Mat3& C, std::span<const Vec3> a);
+Response response(const Material& material, const Mat3& C, double J_minus_1, std::span<const Vec3> a);
 
 }  // namespace langer

@@ -1,0 +1,113 @@
+#include "material/material.hpp"
+
+#include <limits>
+#include <numbers>
+
+#include "tensor/invariants.hpp"
+#include "tensor/kinematics.hpp"
+
+namespace langer {
+
+std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame) {
+  std::vector<Vec3> a;
+  for (const Fibre& fibre : material.fibres) {
+    const double alpha = fibre.alpha_deg * std::numbers::pi / 180;
+    a.push_back(std::cos(alpha) * frame.col(0) + std::sin(alpha) * frame.col(2));
+  }
+  return a;
+}
+
+namespace {
+
+// At rest I4_bar is 1 up to the rounding of a a^T: such a fibre counts as stretched, so that the tangent at rest does
+// not depend on the digits of cos(alpha).
+constexpr double stretched_from = 1 - 16 * std::numeric_limits<double>::epsilon();
+
+bool slack(FibreSwitch tension_switch, double I4, double I4_bar) {
+  switch (tension_switch) {
+    case FibreSwitch::I4_bar:
+      return I4_bar < stretched_from;
+    case FibreSwitch::I4:
+      return I4 < stretched_from;
+    case FibreSwitch::off:
+      return false;
+  }
+  return false;
+}
+
+// the terms of one C, gathered before the derivatives of the invariants are formed once
+Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product) {
+  Response r;
+  Vec6 M = Vec6::Zero();  // sum W' M, M = I or a a^T
+  double dW_I2 = 0;
+  const auto square = [&](double ddW, const Vec6& dI_dC) {
+    if (C_inverse_product && ddW != 0) r.D.noalias() += (4 * ddW * dI_dC) * dI_dC.transpose();
+  };
+
+  for (const MatrixTerm& term : material.matrix)
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (law.of == Invariant::I1_bar) {
+            const Energy<double> e = law(v.m * v.I1);
+            r.W += e.W;
+            M.head<3>().array() += e.dW;
+            square(e.ddW, dlinear_bar_dC(v, identity6()));
+          } else {
+            const Energy<double> e = law(I2_bar(v));
+            r.W += e.W;
+            dW_I2 += e.dW;
+            square(e.ddW, dI2_bar_dC(v));
+          }
+        },
+        term);
+
+  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
+    const Fibre& fibre = material.fibres[k];
+    if (fibre.hgo.c1 == 0) continue;
+    const Vec6 aa = structural_tensor(a[k]);
+    const double I4_bar = linear_bar(v, aa);
+    if (slack(fibre.tension_switch, I4_bar / v.m, I4_bar)) continue;
+    const Energy<double> e = fibre.hgo(I4_bar);
+    r.W += e.W;
+    M += e.dW * aa;
+    square(e.ddW, dlinear_bar_dC(v, aa));
+  }
+
+  r.S = 2 * dlinear_bar_dC(v, M);
+  if (C_inverse_product) r.D += 4 * d2linear_bar_dC2(v, M, *C_inverse_product);
+  if (dW_I2 != 0) {
+    r.S += 2 * dW_I2 * dI2_bar_dC(v);
+    if (C_inverse_product) r.D += 4 * dW_I2 * d2I2_bar_dC2(v, *C_inverse_product);
+  }
+  return r;
+}
+
+}  // namespace
+
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent) {
+  const Invariants v = invariants(C);
+  if (!with_tangent) return isochoric(material, v, a, nullptr);
+  const Mat6 P = inverse_product(v);
+  return isochoric(material, v, a, &P);
+}
+
+Response response(const Material& material, const Mat3& C, double J_minus_1, std::span<const Vec3> a) {
+  const Invariants v = invariants(C);
+  const Mat6 P = inverse_product(v);
+  Response r = isochoric(material, v, a, &P);
+  const double J = 1 + J_minus_1;
+  const Energy<double> U = material.volume.quadratic.of_change(J_minus_1);
+  const Vec6 g = dJ_dC(v, J);
+  r.W += U.W;
+  r.S += 2 * U.dW * g;
+  r.D += 4 * (U.ddW * g * g.transpose() + U.dW * d2J_dC2(v, J, P));
+  return r;
+}
+
+Response response(const Material& material, const Mat3& C, std::span<const Vec3> a) {
+  //   J - 1 = (I3 - 1)/(J + 1)
+  const double I3_minus_1 = determinant_minus_1(C - Mat3::Identity());
+  return response(material, C, I3_minus_1 / (std::sqrt(1 + I3_minus_1) + 1), a);
+}
+
+}  // namespace langer

@@ -1,0 +1,46 @@
+// Materials that every property of the law is tested on: one per term and per way of combining terms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+
+namespace langer {
+
+struct NamedMaterial {
+  std::string name;
+  Material material;
+};
+
+inline Fibre hgo_fibre(double c1, double c2, double alpha_deg, FibreSwitch tension_switch = FibreSwitch::I4_bar) {
+  return {HgoFibre{c1, c2}, alpha_deg, tension_switch};
+}
+
+inline Material table1_hgo_yeoh(double alpha_deg = 0, double d = 1e-6) {
+  return {{Yeoh{0.269, 0.376, 0.415}}, {hgo_fibre(-0.317, 0.319, alpha_deg)}, {QuadraticVolume{d}}};
+}
+
+// the set PP: positive fibre modulus, so that W is bounded below
+inline Material positive_hgo_yeoh(double alpha_deg = 0, double d = 1e-6) {
+  return {{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.10, 0.30, alpha_deg)}, {QuadraticVolume{d}}};
+}
+
+inline std::vector<NamedMaterial> catalogue() {
+  const Volume volume{QuadraticVolume{0.5}};
+  return {
+      {"neo-Hooke", {{NeoHooke{0.3}}, {}, volume}},
+      {"Yeoh", {{Yeoh{0.2, 0.1, 0.05}}, {}, volume}},
+      {"Yeoh of I2", {{YeohI2{0.2, 0.1, 0.05}}, {}, volume}},
+      {"Mooney-Rivlin", {{NeoHooke{0.2}, YeohI2{0.1, 0, 0}}, {}, volume}},
+      {"HGO, linear fibre", {{NeoHooke{0.3}}, {hgo_fibre(0.2, 0, 20)}, volume}},
+      {"HGO-Yeoh of Table 1", table1_hgo_yeoh(30, 0.5)},
+      {"HGO-Yeoh, positive", positive_hgo_yeoh(60, 0.5)},
+      {"HGO-Yeoh, switch on I4", {{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.1, 0.3, 60, FibreSwitch::I4)}, volume}},
+      {"HGO-Yeoh, fibre without switch", {{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.1, 0.3, 60, FibreSwitch::off)}, volume}},
+      {"law (44): I1, I2 and two families",
+       {{Yeoh{0.1, 0.05, 0.01}, YeohI2{0.05, 0.02, 0.01}}, {hgo_fibre(0.2, 0.4, 35), hgo_fibre(0.1, 0.9, -50)}, volume}},
+  };
+}
+
+}  // namespace langer
