@@ -12,7 +12,7 @@
 // The same listing reads, checks, echoes the effective config, prints --describe and feeds the hash.
 // A key without `required` may be left out; the member's initial value is then its default.
 // A struct may add `std::vector<Complaint> complaints() const` for rules between keys.
-// Member types: bool, int, double, std::string, enum (with names()), nested struct with a listing,
+// Member types: bool, int, double, std::string, InputPath, enum (with names()), nested struct with a listing,
 // std::optional, std::vector, std::array<T, N>, std::map<std::string, T> (named things),
 // std::variant<A, B> (a map with exactly one key, the alternative's `key`),
 // std::vector<std::variant<A, B>> (a sum: a map with one or more such keys, or a list of one-key maps).

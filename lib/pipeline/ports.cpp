@@ -1,0 +1,45 @@
+#include "pipeline/ports.hpp"
+
+namespace langer {
+
+const std::vector<StageSpec>& stages() {
+  static const std::vector<StageSpec> table{
+      {"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"},
+      {"fit", "Finds material parameters from a measured curve.", {}, "material.h5"},
+      {"sensitivity",
+       "Ranks material parameters by Morris.",
+       {{.name = "material", .says = "the material whose parameters are ranked", .takes_yaml = true}},
+       "sensitivity.h5"},
+      {"solve",
+       "Finds equilibrium along a load path.",
+       {{.name = "mesh", .says = "mesh with named sets and frames"},
+        {.name = "material", .says = "energy terms and their parameters", .takes_yaml = true}},
+       "solution.h5"},
+      {"post", "Turns a solution into fields and curves.", {{.name = "solution", .says = "steps of a load path"}}, "curves.h5"},
+      {"gather",
+       "Collects one quantity or several over a sweep.",
+       {{.name = "curves", .says = "a member of the sweep: any file with a /summary", .several = true}},
+       "sweep.h5"},
+  };
+  return table;
+}
+
+const Port* StageSpec::port(const std::string& wanted) const {
+  for (const Port& p : inputs)
+    if (wanted == p.name) return &p;
+  return nullptr;
+}
+
+const StageSpec* find_stage(const std::string& name) {
+  for (const StageSpec& s : stages())
+    if (name == s.name) return &s;
+  return nullptr;
+}
+
+std::vector<std::string> stage_names() {
+  std::vector<std::string> names;
+  for (const StageSpec& s : stages()) names.push_back(s.name);
+  return names;
+}
+
+}  // namespace langer

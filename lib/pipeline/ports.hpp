@@ -1,0 +1,30 @@
+// Which inputs and which output each stage has: the single table used by the programs' arguments, by plan and by the docs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace langer {
+
+struct Port {
+  const char* name;
+  const char* says;  // what the file holds
+  bool required = true;
+  bool several = false;     // --port may be repeated; the order counts
+  bool takes_yaml = false;  // the file may be written by hand, as YAML
+};
+
+struct StageSpec {
+  const char* name;
+  const char* sentence;  // first line of --help
+  std::vector<Port> inputs;
+  const char* output;  // name of the main output file in the node's folder
+
+  const Port* port(const std::string& name) const;
+};
+
+const std::vector<StageSpec>& stages();
+const StageSpec* find_stage(const std::string& name);  // nullptr if there is none
+std::vector<std::string> stage_names();
+
+}  // namespace langer

@@ -1,0 +1,91 @@
+#include "pipeline/run_files.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "post/column.hpp"
+
+namespace langer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, std::string found, std::string hint = "") {
+  throw Failure(Exit::input, Error{{path, 0, 0}, "", std::move(found), "", std::move(hint)});
+}
+
+// what was typed has no line to point at
+void forget_lines(Tree& tree) {
+  tree.place.line = tree.place.column = 0;
+  for (Tree& part : tree.list) forget_lines(part);
+  for (auto& entry : tree.map) forget_lines(entry.value);
+}
+
+}  // namespace
+
+void need_file(const std::string& path, const Place& named_at, const std::string& key) {
+  std::error_code ec;
+  std::string trouble;
+  if (!fs::exists(path, ec))
+    trouble = "there is no such file";
+  else if (fs::is_directory(path, ec))
+    trouble = "this is a folder, not a file";
+  else if (access(path.c_str(), R_OK) != 0)
+    trouble = "cannot be read";
+  else
+    return;
+  if (key.empty()) refuse(path, trouble);
+  throw Failure(Exit::input, Error{named_at, key, path + ": " + trouble, "", ""});
+}
+
+void need_output(const std::string& output, const std::string& config, const InputFiles& inputs) {
+  std::error_code ec;
+  if (fs::is_directory(output, ec)) refuse(output, "the output is a folder", "-o names the main output file");
+  std::vector<std::string> sources{config};
+  for (const auto& [port, files] : inputs) sources.insert(sources.end(), files.begin(), files.end());
+  for (const std::string& source : sources)
+    if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
+  const fs::path folder = fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
+  fs::create_directories(folder, ec);
+  if (!fs::is_directory(folder))
+    refuse(folder.string(), "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(folder.string(), "this folder cannot be written to");
+}
+
+std::string content_of(const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  if (extension == ".h5") return read_origin(path).content_id;
+  if (extension == ".yaml" || extension == ".yml") return fnv1a(to_text(load_yaml(path)));
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return fnv1a(bytes.str());
+}
+
+std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
+  std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage, identity.config_hash);
+  for (const Summary& r : results)
+    s += fmt::format(", \"{}\": {}", column_name(r.name, r.unit), std::isfinite(r.value) ? number_text(r.value) : "null");
+  return s + "}\n";
+}
+
+void apply_setting(Tree& config, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Failure(
+        Exit::config,
+        Error{
+            {"--set", 0, 0}, "", "found \"" + setting + "\"", "key=value, for example --set material.fibres[0].alpha=30", ""});
+  const std::string key = setting.substr(0, equals);
+  Tree value = parse_yaml(setting.substr(equals + 1), "--set");
+  forget_lines(value);
+  set_value(config, key, std::move(value));
+}
+
+}  // namespace langer

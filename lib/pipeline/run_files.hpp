@@ -1,0 +1,47 @@
+// What a run does with its files before and after the work: inputs are there, the output can be written, who made what.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "config/reader.hpp"
+#include "config/writer.hpp"
+#include "store/identity.hpp"
+#include "store/provenance.hpp"
+
+namespace langer {
+
+using InputFiles = std::map<std::string, std::vector<std::string>>;  // port -> files in the order given
+
+void need_file(const std::string& path, const Place& named_at = {}, const std::string& key = "");  // throws Failure(input)
+
+// Makes the folder of an output file; throws Failure(input) where it cannot be written or would replace an input.
+void need_output(const std::string& output, const std::string& config, const InputFiles& inputs);
+
+// Content id of an input: from the root attributes of an HDF5 file, from the values (not the comments) of a YAML file,
+// from the bytes of any other file.
+std::string content_of(const std::string& path);
+
+// Input paths count by what the files hold, not by where they lie.
+template <Listed Config>
+Identity identity_of(const std::string& stage, const Config& config, const Where& where, const InputFiles& inputs,
+                     const std::string& command) {
+  Identity identity{stage, to_yaml(config), fnv1a(to_yaml(config, file_name)), {}, command};
+  for (const auto& [port, files] : inputs)
+    for (std::size_t i = 0; i < files.size(); ++i)
+      identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
+  for (const NamedFile& file : files_named_by(config)) {
+    need_file(file.path, where(file.key), file.key);
+    identity.inputs[file.key] = content_of(file.path);
+  }
+  return identity;
+}
+
+// one JSON object: stage, config_hash and the results by column name (null where not finite)
+std::string json_text(const Identity& identity, const std::vector<Summary>& results);
+
+// "key=value" of the command line, applied to a config that was read from a file
+void apply_setting(Tree& config, const std::string& setting);
+
+}  // namespace langer

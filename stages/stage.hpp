@@ -1,0 +1,140 @@
+// What every program does around its work: arguments, config, input files, identity, exit code.
+//
+//   std::vector<Summary> mesh(const Job<MeshConfig>& job);   // reads, computes, writes job.output; returns what --json prints
+//   int main(int argc, char** argv) { return langer::run_stage<MeshConfig>(argc, argv, "mesh", mesh); }
+//
+// stdout is for data (--json, --describe); stderr for everything said to the person who waits.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "base/version.hpp"
+#include "pipeline/ports.hpp"
+#include "pipeline/run_files.hpp"
+
+namespace langer {
+
+template <class Config>
+struct Job {
+  Config config;
+  Where where;  // place of a config key, for errors found later
+  InputFiles inputs;
+  std::string output;  // main output file; side files stand beside it
+  Identity identity;
+  bool quiet = false;
+  bool json = false;
+
+  bool has(const std::string& port) const { return inputs.count(port) > 0; }
+  const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
+  std::string beside(const std::string& name) const { return (std::filesystem::path(output).parent_path() / name).string(); }
+
+  template <class... Parts>
+  void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
+    if (!quiet) fmt::print(stderr, "{}: {}\n", identity.stage, fmt::format(form, std::forward<Parts>(parts)...));
+  }
+};
+
+// Runs the body and turns what it throws into a message and an exit code.
+int guarded(const std::string& program, auto&& body) {
+  try {
+    return body();
+  } catch (const Failure& failure) {
+    fmt::print(stderr, "{}\n", failure.what());
+    return static_cast<int>(failure.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: out of memory\n", program);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{} {} ({}): {}\n  this is a bug, please report it with the command and its files\n", program, version,
+               revision, e.what());
+  }
+  return static_cast<int>(Exit::bug);
+}
+
+// Reads the arguments; nothing if the program has said all it was asked for, then `code` is its exit code.
+inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& asked) {
+    code = app.exit(asked);
+  } catch (const CLI::ParseError& e) {
+    // an unknown option says more than the required one that is missing because of it
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options()) known.push_back(option->get_name());
+    for (const std::string& extra : app.remaining())
+      if (extra.rfind("-", 0) == 0) {
+        const std::string near = nearest(extra, known);
+        fmt::print(stderr, "{}: unknown option {}{}\n", app.get_name(), extra,
+                   near.empty() ? "" : "; did you mean " + near + "?");
+      }
+    fmt::print(stderr, "{}: {}\n  hint: {} --help\n", app.get_name(), e.what(), app.get_name());
+    code = static_cast<int>(Exit::config);
+  }
+  return false;
+}
+
+inline std::string command_line(int argc, char** argv) {
+  std::string line = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+inline std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
+
+template <Listed Config>
+int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
+  const StageSpec& spec = *find_stage(name);
+  const std::string program = "langer-" + name;
+  CLI::App app{spec.sentence, program};
+  Job<Config> job;
+  std::string config_file;
+  std::vector<std::string> settings;
+  app.add_option("config", config_file, "YAML file; its keys: --describe")->required()->type_name("FILE");
+  for (const Port& port : spec.inputs) {
+    auto* option = app.add_option("--" + std::string(port.name), job.inputs[port.name],
+                                  std::string(port.says) + (port.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)"));
+    option->type_name("FILE")->allow_extra_args(false)->required(port.required);
+    if (!port.several) option->expected(1);
+  }
+  app.add_option("-o,--output", job.output, fmt::format("main output file, for example {}", spec.output))
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--set", settings, "replace a value of the config; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("--quiet", job.quiet, "say errors only");
+  app.add_flag("--json", job.json, "print the results as JSON on stdout");
+  app.add_flag_callback(
+      "--describe", [] { throw CLI::CallForHelp(); }, "print the keys of the config and leave");
+  app.set_version_flag("--version", version_line(program));
+
+  return guarded(program, [&] {
+    // --describe needs none of the required arguments
+    if (std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string(a) == "--describe"; })) {
+      fmt::print("{}", describe<Config>());
+      return static_cast<int>(Exit::ok);
+    }
+    int code = 0;
+    if (!parsed(app, argc, argv, code)) return code;
+    std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
+    for (const auto& [port, files] : job.inputs)
+      for (const std::string& file : files) need_file(file);
+    Tree tree = load_yaml(config_file);
+    for (const std::string& setting : settings) apply_setting(tree, setting);
+    auto loaded = read_config<Config>(std::move(tree));
+    job.config = std::move(loaded.config);
+    job.where = std::move(loaded.where);
+    need_output(job.output, config_file, job.inputs);
+    job.identity = identity_of(name, job.config, job.where, job.inputs, command_line(argc, argv));
+    const std::vector<Summary> results = body(std::as_const(job));
+    if (job.json) fmt::print("{}", json_text(job.identity, results));
+    return static_cast<int>(Exit::ok);
+  });
+}
+
+}  // namespace langer
