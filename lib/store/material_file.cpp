@@ -1,0 +1,119 @@
+#include "store/material_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "store/listing.hpp"
+#include "store/provenance.hpp"
+
+namespace langer {
+
+namespace {
+
+std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
+
+void write_matrix(const h5::Group& group, const std::string& name, const MatX& A, const std::string& unit = "") {
+  const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = A;
+  group.write<double>(name, {size(A.rows()), size(A.cols())}, std::span(rows.data(), size(rows.size())), unit);
+}
+
+MatX read_matrix(const h5::Group& group, const std::string& name, const h5::Shape& shape) {
+  const auto array = group.read<double>(name, shape);
+  using Rows = Eigen::Matrix<double, -1, -1, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(array.values.data(), static_cast<Eigen::Index>(array.shape[0]),
+                                static_cast<Eigen::Index>(array.shape[1]));
+}
+
+void write_vector(const h5::Group& group, const std::string& name, const std::vector<double>& values, const std::string& unit) {
+  group.write<double>(name, {values.size()}, values, unit);
+}
+
+MatX correlation(const MatX& covariance) {
+  const VecX deviation = covariance.diagonal().cwiseSqrt();
+  return (deviation.cwiseInverse().asDiagonal() * covariance * deviation.cwiseInverse().asDiagonal());
+}
+
+void write_fit(const h5::Group& root, const FitRecord& fit) {
+  const h5::Group group = root.make_group("fit"), parameters = group.make_group("parameters");
+  std::string order;
+  for (const FittedParameter& p : fit.parameters) {
+    const h5::Group one = parameters.make_group(p.name);
+    one.write_scalar("value", p.value, p.unit);
+    one.write_scalar("lower", p.lower, p.unit);
+    one.write_scalar("upper", p.upper, p.unit);
+    one.write_scalar("standard_error", p.standard_error, p.unit);
+    order += (order.empty() ? "" : " ") + p.name;
+  }
+  parameters.attribute("order", order);
+  write_matrix(group, "covariance", fit.covariance);
+  write_matrix(group, "correlation", correlation(fit.covariance), "-");
+  write_matrix(group, "starts", fit.starts);
+  group.write_scalar("cost", fit.cost, "MPa^2");
+  group.write_scalar("kkt_residual", fit.kkt_residual);
+  group.write_scalar("mean_error", fit.mean_error_percent, "percent");
+  group.write_scalar("max_error", fit.max_error_percent, "percent");
+  group.write<double>("strain_range", {2}, std::vector{fit.strain_min, fit.strain_max}, "-");
+  std::vector<double> residual;
+  for (std::size_t i = 0; i < fit.stress.size(); ++i) residual.push_back(fit.model[i] - fit.stress[i]);
+  write_vector(group, "residual", residual, "MPa");
+
+  const h5::Group curve = root.make_group("curve");
+  write_vector(curve, "strain", fit.strain, "-");
+  write_vector(curve, "stress", fit.stress, "MPa");
+  write_vector(curve, "model", fit.model, "MPa");
+
+  std::vector<Summary> summary;
+  for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
+  summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
+  summary.push_back({"max_error", fit.max_error_percent, "percent"});
+  summary.push_back({"cost", fit.cost, "-"});
+  summary.push_back({"kkt_residual", fit.kkt_residual, "-"});
+  write_summary(root, summary);
+}
+
+FitRecord read_fit(const h5::Group& root) {
+  const h5::Group group = root.group("fit"), parameters = group.group("parameters"), curve = root.group("curve");
+  FitRecord fit;
+  std::istringstream order(parameters.text_attribute("order"));
+  for (std::string name; order >> name;) {
+    const h5::Group one = parameters.group(name);
+    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"),
+                              one.read_scalar("upper"), one.read_scalar("standard_error")});
+  }
+  const std::size_t p = fit.parameters.size();
+  fit.covariance = read_matrix(group, "covariance", {p, p});
+  fit.starts = read_matrix(group, "starts", {h5::any, h5::any});
+  fit.cost = group.read_scalar("cost");
+  fit.kkt_residual = group.read_scalar("kkt_residual");
+  fit.mean_error_percent = group.read_scalar("mean_error");
+  fit.max_error_percent = group.read_scalar("max_error");
+  const auto range = group.read_finite("strain_range", {2});
+  fit.strain_min = range[0], fit.strain_max = range[1];
+  fit.strain = curve.read_finite("strain", {h5::any});
+  fit.stress = curve.read_finite("stress", {fit.strain.size()});
+  fit.model = curve.read_finite("model", {fit.strain.size()});
+  return fit;
+}
+
+}  // namespace
+
+void write_material(const std::string& path, const Material& material, const std::optional<FitRecord>& fit,
+                    const Identity& identity) {
+  h5::File file = h5::File::create(path);
+  write_identity(file.root(), material_schema, identity);
+  write_listing(file.root().make_group("material"), material);
+  if (fit) write_fit(file.root(), *fit);
+  file.commit();
+}
+
+MaterialFile read_material(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  MaterialFile result;
+  result.content_id = content_id(read_identity(file.root(), material_schema), material_schema.version);
+  read_listing(file.root().group("material"), result.material);
+  if (file.root().has("fit")) result.fit = read_fit(file.root());
+  return result;
+}
+
+}  // namespace langer

@@ -1,0 +1,45 @@
+// material.h5: a material, and where it comes from a fit the record of that fit.                  docs/schema.md
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+#include "store/identity.hpp"
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct FittedParameter {
+  std::string name;  // a1, c1, ...; unique
+  std::string unit;
+  double value = 0;
+  double lower = 0, upper = 0;  // bounds; may be infinite
+  double standard_error = 0;    // NaN where the curve does not determine it
+};
+
+// How the parameters were found. p parameters, n points of the curve, k starts.
+struct FitRecord {
+  std::vector<FittedParameter> parameters;
+  MatX covariance;                                       // (p, p), products of the parameters' units
+  double cost = 0;                                       // half the sum of squared residuals [MPa^2]
+  double kkt_residual = 0;                               // largest violation of the optimality conditions at the bounds
+  double mean_error_percent = 0, max_error_percent = 0;  // of the largest measured stress
+  MatX starts;                                           // (k, p + 1) parameters and cost reached from each start; may be empty
+  double strain_min = 0, strain_max = 0;                 // range of the curve that was fitted
+  std::vector<double> strain, stress, model;             // (n) [-], [MPa], [MPa]
+};
+
+struct MaterialFile {
+  Material material;
+  std::optional<FitRecord> fit;
+  std::string content_id;
+};
+
+// /summary gets the parameters, mean_error, max_error, cost and kkt_residual of a fit
+void write_material(const std::string& path, const Material& material, const std::optional<FitRecord>& fit,
+                    const Identity& identity);
+MaterialFile read_material(const std::string& path);
+
+}  // namespace langer

@@ -1,0 +1,22 @@
+#include "store/mesh_file.hpp"
+
+#include "store/grid.hpp"
+#include "store/provenance.hpp"
+
+namespace langer {
+
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity) {
+  h5::File file = h5::File::create(path);
+  write_identity(file.root(), mesh_schema, identity);
+  write_grid(file.root(), mesh, {1, 0});
+  write_sets(file.root(), mesh);
+  file.commit();
+}
+
+MeshFile read_mesh(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  const Identity identity = read_identity(file.root(), mesh_schema);
+  return {read_grid(file.root()), content_id(identity, mesh_schema.version)};
+}
+
+}  // namespace langer

@@ -1,0 +1,94 @@
+#include "store/seal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr const char* seal_begin = "\nlanger seal ";
+constexpr std::size_t seal_length = 13 + 16 + 1;  // begin, 16 hex digits, newline
+
+[[noreturn]] void cannot_write(const std::string& path) {
+  throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+}
+
+// FNV-1a over 64-bit words: every step is one to one, so a change within one word always shows
+std::uint64_t checksum(std::ifstream& in, std::uintmax_t bytes) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  std::vector<char> block(std::size_t{1} << 20);
+  while (bytes > 0) {
+    const std::size_t n = static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, block.size()));
+    if (!in.read(block.data(), static_cast<std::streamsize>(n))) return 0;
+    for (std::size_t i = 0; i < n; i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, block.data() + i, std::min<std::size_t>(8, n - i));
+      h = (h ^ word) * 0x100000001b3u;
+    }
+    bytes -= n;
+  }
+  return h;
+}
+
+void sync_path(const std::string& path, int flags) {
+  const int fd = ::open(path.c_str(), flags);
+  if (fd < 0) return;  // a folder that cannot be opened is no reason to fail
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
+
+void append_seal(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string seal = fmt::format("{}{:016x}\n", seal_begin, checksum(in, std::filesystem::file_size(path)));
+  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND);
+  if (fd < 0) cannot_write(path);
+  const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) && ::fsync(fd) == 0;
+  ::close(fd);
+  if (!written) cannot_write(path);
+}
+
+bool seal_broken(const std::string& path) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (none || size < seal_length) return false;
+  std::ifstream in(path, std::ios::binary);
+  std::string seal(seal_length, '\0');
+  in.seekg(static_cast<std::streamoff>(size - seal_length));
+  if (!in.read(seal.data(), seal_length) || !seal.starts_with(seal_begin)) return false;
+  in.seekg(0);
+  return seal.substr(13, 16) != fmt::format("{:016x}", checksum(in, size - seal_length));
+}
+
+void rename_durably(const std::string& from, const std::string& to) {
+  sync_path(from, O_RDONLY);
+  if (std::rename(from.c_str(), to.c_str()) != 0) cannot_write(to);
+  const std::string folder = std::filesystem::path(to).parent_path().string();
+  sync_path(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const std::string part = path + ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) cannot_write(part);
+  rename_durably(part, path);
+}
+
+}  // namespace langer

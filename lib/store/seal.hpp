@@ -1,0 +1,15 @@
+// The seal of a finished file: one line of ASCII behind HDF5's last byte with a checksum of everything before it.
+// HDF5 1.10 may crash on damaged metadata, so a damaged file must be known as such before HDF5 sees it.
+// HDF5 ignores the line; a tool that edits the file cuts it off, and a file without seal is read on trust.
+#pragma once
+
+#include <string>
+
+namespace langer {
+
+void append_seal(const std::string& path);  // and forces the file to the disk
+bool seal_broken(const std::string& path);  // a seal is there and does not fit
+void rename_durably(const std::string& from, const std::string& to);
+void write_text_file(const std::string& path, const std::string& text);  // through <path>.part
+
+}  // namespace langer

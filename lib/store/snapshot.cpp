@@ -1,0 +1,28 @@
+#include "store/snapshot.hpp"
+
+#include "store/grid.hpp"
+#include "store/provenance.hpp"
+
+namespace langer {
+
+namespace {
+void write_fields(const h5::Group& group, std::size_t rows, const std::vector<Field>& fields) {
+  for (const Field& f : fields) {
+    const h5::Shape shape = f.components == 1 ? h5::Shape{rows} : h5::Shape{rows, static_cast<std::size_t>(f.components)};
+    group.write<double>(f.name, shape, f.values, f.unit);
+  }
+}
+}  // namespace
+
+void write_snapshot(const std::string& path, const Mesh& mesh, const std::vector<Field>& point_fields,
+                    const std::vector<Field>& cell_fields, const Identity& identity) {
+  h5::File file = h5::File::create(path);
+  write_identity(file.root(), snapshot_schema, identity);
+  const h5::Group grid = write_grid(file.root(), mesh, {1, 0});
+  write_fields(grid.make_group("PointData"), mesh.X.size(), point_fields);
+  write_fields(grid.group("CellData"), static_cast<std::size_t>(mesh.n_cells()), cell_fields);
+  write_sets(file.root(), mesh);
+  file.commit();
+}
+
+}  // namespace langer

@@ -1,0 +1,23 @@
+// A snapshot: one state of a mesh with fields, as static VTKHDF that every ParaView since 5.11 opens.  docs/schema.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "store/identity.hpp"
+
+namespace langer {
+
+// components per point or cell: 1, 3 (vector), 6 (symmetric tensor in our order 11 22 33 12 23 13, VTK's too), 9 (rows)
+struct Field {
+  std::string name, unit;
+  int components = 1;
+  std::vector<double> values;
+};
+
+// the mesh's own positions are written: shift them by the displacement beforehand for a deformed picture
+void write_snapshot(const std::string& path, const Mesh& mesh, const std::vector<Field>& point_fields,
+                    const std::vector<Field>& cell_fields, const Identity& identity);
+
+}  // namespace langer

@@ -1,0 +1,178 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "example.hpp"
+#include "store/curves_file.hpp"
+#include "store/h5.hpp"
+#include "store/material_file.hpp"
+#include "store/mesh_file.hpp"
+#include "store/provenance.hpp"
+
+using namespace langer;
+using example::bytes;
+
+TEST_CASE("arrays of every type and rank come back as written") {
+  const std::string path = example::folder("arrays") + "/a.h5";
+  h5::File file = h5::File::create(path);
+  const h5::Group g = file.root().make_group("deep").make_group("er");
+  const std::vector<double> reals{1, -2.5, 1e-300, 0.1, 3, 4};
+  const std::vector<std::int64_t> integers{-1, std::int64_t{1} << 60};
+  g.write<double>("reals", {2, 3}, reals, "mm");
+  g.write<std::int64_t>("integers", {2}, integers);
+  g.write<std::uint8_t>("bytes", {1, 1, 2}, std::vector<std::uint8_t>{0, 255});
+  g.write<double>("none", {0, 3}, {});
+  g.write_text("word", "");
+  g.write_text("greek", "σ = 1 MPa");
+  g.make_extendible<double>("rows", {2}, 3, "N");
+  for (int i = 0; i < 5; ++i) g.append<double>("rows", std::vector<double>{1.0 * i, 2.0 * i});
+  g.write_scalar("x", 1);
+  g.write_scalar("x", 2, "deg");
+  CHECK_FALSE(std::filesystem::exists(path));
+  file.commit();
+  CHECK_FALSE(std::filesystem::exists(path + ".part"));
+
+  const h5::Group r = h5::File::open(path).root().group("deep").group("er");
+  CHECK(r.read<double>("reals", {2, 3}).values == reals);
+  CHECK(r.unit("reals") == "mm");
+  CHECK(r.read<std::int64_t>("integers", {h5::any}).values == integers);
+  CHECK(r.read<std::uint8_t>("bytes", {1, 1, 2}).values == std::vector<std::uint8_t>{0, 255});
+  CHECK(r.read<double>("none", {h5::any, 3}).values.empty());
+  CHECK(r.read_text("word") == "");
+  CHECK(r.read_text("greek") == "σ = 1 MPa");
+  CHECK(r.shape("rows") == h5::Shape{5, 2});
+  CHECK(r.read_rows<double>("rows", 3, 2, {2}).values == std::vector<double>{3, 6, 4, 8});
+  CHECK(r.read_scalar("x") == 2);
+  CHECK(r.unit("x") == "deg");
+  CHECK(r.datasets() == std::vector<std::string>{"bytes", "greek", "integers", "none", "reals", "rows", "word", "x"});
+  CHECK_THROWS_AS(r.read<double>("reals", {3, 2}), Failure);
+  CHECK_THROWS_AS(r.read<double>("integers", {2}), Failure);
+  CHECK_THROWS_AS(r.read<double>("nothing", {}), Failure);
+  CHECK_THROWS_AS(r.read_rows<double>("rows", 4, 2, {2}), Failure);
+  CHECK_THROWS_AS(r.group("nothing"), Failure);
+}
+
+TEST_CASE("a file given up leaves nothing behind and the old one whole") {
+  const std::string path = example::folder("given_up") + "/a.h5";
+  example::write_bytes(path, "old");
+  { h5::File::create(path).root().write_scalar("x", 1); }
+  CHECK(bytes(path) == "old");
+  CHECK_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST_CASE("a mesh comes back as written, with its content id") {
+  const std::string path = example::folder("mesh") + "/mesh.h5";
+  write_mesh(path, example::bar(), example::identity());
+  const MeshFile file = read_mesh(path);
+  CHECK(example::same(file.mesh, example::bar()));
+  CHECK(file.content_id == content_id(example::identity(), 1));
+  const Origin origin = read_origin(path);
+  CHECK(origin.schema == "mesh");
+  CHECK(origin.identity.config == example::identity().config);
+  CHECK(origin.identity.inputs == example::identity().inputs);
+  CHECK(origin.identity.command == example::identity().command);
+}
+
+TEST_CASE("content ids know the stage, the config, the schema version and every input") {
+  const Identity id = example::identity();
+  Identity other = id;
+  other.inputs["mesh"] = "fedcba9876543211";
+  CHECK(content_id(id, 1) != content_id(other, 1));
+  CHECK(content_id(id, 1) != content_id(id, 2));
+  other = id, other.command = "elsewhere";
+  CHECK(content_id(id, 1) == content_id(other, 1));
+  CHECK(fnv1a("") == "cbf29ce484222325");  // the offset basis, and the published value for "a"
+  CHECK(fnv1a("a") == "af63dc4c8601ec8c");
+}
+
+TEST_CASE("equal content gives equal bytes, whenever it is written") {
+  const std::string folder = example::folder("bytes");
+  setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
+  write_mesh(folder + "/a.h5", example::bar(), example::identity());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // object times, if they were on, count seconds
+  write_mesh(folder + "/b.h5", example::bar(), example::identity());
+  unsetenv("SOURCE_DATE_EPOCH");
+  CHECK(bytes(folder + "/a.h5").size() > 2000);
+  CHECK(bytes(folder + "/a.h5") == bytes(folder + "/b.h5"));
+}
+
+namespace {
+Material two_families() {
+  Material m;
+  m.matrix = {Yeoh{0.269, 0.376, 0.415}, NeoHooke{0.1}, YeohI2{0.01, 0.02, 0.03}};
+  m.fibres = {{{-0.317, 0.319}, 30, FibreSwitch::I4}, {{0.1, 0}, -30, FibreSwitch::off}};
+  m.volume.quadratic.d = 1e-6;
+  return m;
+}
+FitRecord fit() {
+  FitRecord f;
+  f.parameters = {{"a1", "MPa", 0.269, -INFINITY, INFINITY, 0.01}, {"c2", "-", 0.319, 0, 10, 0.1}};
+  f.covariance = MatX::Identity(2, 2) * 1e-4;
+  f.covariance(0, 1) = f.covariance(1, 0) = 5e-5;
+  f.starts = VecX::LinSpaced(3, 1, 2) * VecX::LinSpaced(3, 3, 7).transpose();
+  f.cost = 1e-5, f.kkt_residual = 1e-12, f.mean_error_percent = 0.4, f.max_error_percent = 2.1;
+  f.strain_min = 0, f.strain_max = 0.6;
+  f.strain = {0, 0.3, 0.6}, f.stress = {0, 0.0709, 1.0564}, f.model = {0, 0.07, 1.06};
+  return f;
+}
+}  // namespace
+
+TEST_CASE("a material comes back as written: terms, families, switches") {
+  const std::string path = example::folder("material") + "/material.h5";
+  const Material m = two_families();
+  write_material(path, m, {}, example::identity());
+  const MaterialFile file = read_material(path);
+  CHECK_FALSE(file.fit);
+  REQUIRE(file.material.matrix.size() == 3);
+  CHECK(std::get<Yeoh>(file.material.matrix[0]).a3 == 0.415);
+  CHECK(std::get<NeoHooke>(file.material.matrix[1]).a1 == 0.1);
+  CHECK(std::get<YeohI2>(file.material.matrix[2]).b2 == 0.02);
+  REQUIRE(file.material.fibres.size() == 2);
+  CHECK(file.material.fibres[0].hgo.c1 == -0.317);
+  CHECK(file.material.fibres[0].tension_switch == FibreSwitch::I4);
+  CHECK(file.material.fibres[1].alpha_deg == -30);
+  CHECK(file.material.fibres[1].tension_switch == FibreSwitch::off);
+  CHECK(file.material.volume.quadratic.d == 1e-6);
+  CHECK(h5::File::open(path).root().group("material/volume/quadratic").unit("d") == "1/MPa");
+}
+
+TEST_CASE("the record of a fit comes back, and its parameters stand in the summary") {
+  const std::string path = example::folder("fit") + "/material.h5";
+  write_material(path, two_families(), fit(), example::identity());
+  const FitRecord f = *read_material(path).fit;
+  REQUIRE(f.parameters.size() == 2);
+  CHECK(f.parameters[1].name == "c2");
+  CHECK(f.parameters[0].lower == -INFINITY);
+  CHECK(f.parameters[1].standard_error == 0.1);
+  CHECK(f.covariance == fit().covariance);
+  CHECK(f.starts == fit().starts);
+  CHECK(f.model == fit().model);
+  CHECK(f.strain_max == 0.6);
+  const auto correlation = h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
+  CHECK(correlation[1] == doctest::Approx(0.5).epsilon(1e-14));
+  bool found = false;
+  for (const Summary& s : read_summary(path))
+    if (s.name == "a1") found = s.value == 0.269 && s.unit == "MPa";
+  CHECK(found);
+}
+
+TEST_CASE("curves, columns and summary come back; the CSV names carry units") {
+  const std::string folder = example::folder("curves");
+  Curves c;
+  c.curves = {{"force", "U_ind", "mm", "force", "N", {0, 0.5, 1}, {0, 0.1, 9.3}}};
+  c.columns = {{"u_ind", "mm", {0, 0.1}}, {"force", "N", {0, 1.0 / 3}}, {"contact_nodes", "-", {0, 12}}};
+  c.summary = {{"force", 9.3, "N"}, {"stretch", 1.1, "-"}};
+  write_curves(folder + "/curves.h5", c, example::identity());
+  const CurvesFile file = read_curves(folder + "/curves.h5");
+  REQUIRE(file.curves.curves.size() == 1);
+  CHECK(file.curves.curves[0].y == c.curves[0].y);
+  CHECK(file.curves.curves[0].x_unit == "mm");
+  CHECK(file.curves.curves[0].y_label == "force");
+  REQUIRE(file.curves.columns.size() == 3);
+  CHECK(file.curves.columns[0].name == "u_ind");
+  CHECK(file.curves.columns[1].values == c.columns[1].values);
+  CHECK(read_summary(folder + "/curves.h5").size() == 2);
+  CHECK(bytes(folder + "/curves.csv") == "u_ind_mm,force_N,contact_nodes\n0,0,0\n0.1,0.3333333333333333,12\n");
+  CHECK(csv_name("d", "1/MPa") == "d_per_MPa");
+}
