@@ -1,5 +1,6 @@
 #include "element/solid.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 

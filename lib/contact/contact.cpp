@@ -1,0 +1,92 @@
+#include "contact/contact.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace langer {
+
+Vec3 indenter_displacement(const RigidContact& contact, double t) {
+  Waypoint before;
+  for (const Waypoint& w : contact.motion) {
+    if (t <= w.t) return before.u_ind + (t - before.t) / (w.t - before.t) * (w.u_ind - before.u_ind);
+    before = w;
+  }
+  return before.u_ind;
+}
+
+Mat3 contact_frame(const Vec3& n) {
+  // the axis least aligned with n keeps the frame well defined everywhere
+  int axis = 0;
+  n.cwiseAbs().minCoeff(&axis);
+  Mat3 frame;
+  frame.col(0) = n;
+  frame.col(1) = Vec3::Unit(axis).cross(n).normalized();
+  frame.col(2) = n.cross(frame.col(1));
+  return frame;
+}
+
+LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0, const Vec3& r) {
+  LinearisedContact out;
+  const Vec3 n = normal(contact.shape, x - c);
+  const double bend = curvature(contact.shape, x - c);
+  out.frame = contact_frame(n);
+  const Vec3 v = (x - x0) - (c - c0);
+  const Vec3 v_local = out.frame.transpose() * v;
+  // d(t.v) = t.d - bend (t.d)(n.v): the factor 1 - bend n.v is common to both tangents
+  const double factor = 1 - bend * v_local[0];
+  out.q = Vec3(gap(contact.shape, x - c), v_local[1], v_local[2]);
+  if (factor > 0.1) out.q.tail<2>() /= factor;
+  // dn = bend P d, dt_i = -bend (t_i.d) n:   d(frame r) = bend (r_n P d - n (r_t.d))
+  const Vec3 r_local = out.frame.transpose() * r;
+  out.D.setZero();
+  out.D(0, 1) = -bend * r_local[1], out.D(0, 2) = -bend * r_local[2];
+  out.D(1, 1) = out.D(2, 2) = bend * r_local[0];
+  return out;
+}
+
+Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
+  const Vec3 axis = n_old.cross(n_new);
+  const double cosine = n_old.dot(n_new);
+  if (cosine <= -0.5) return r;  // a leap across the indenter: no meaningful rotation, the next iteration decides
+  return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
+}
+
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
+                             const Vec3& c0, const std::vector<Vec3>& r) {
+  ContactDefect defect;
+  double largest = 0, motion = (c - c0).norm();
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const int node = contact.nodes[i];
+    largest = std::max(largest, r[i].norm());
+    motion = std::max(motion, (u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0)).norm());
+  }
+  const double tiny = std::numeric_limits<double>::min();
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const int node = contact.nodes[i];
+    const Vec3 x = X[node] + u.segment<3>(3 * node);
+    const double g = gap(contact.shape, x - c);
+    defect.gap.push_back(g);
+    const bool closed = r[i].squaredNorm() > 0;
+    defect.penetration = std::max(defect.penetration, closed ? std::abs(g) : -g);
+    if (!closed) {
+      defect.status.push_back(ContactStatus::open), ++defect.open;
+      continue;
+    }
+    const Vec3 n = normal(contact.shape, x - c);
+    const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
+    const Vec3 x_t = v - v.dot(n) * n;
+    const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();
+    defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
+    // frictionless: only the normal part does work against the law
+    const double power = contact.mu > 0 ? r[i].dot(x_t) + r_n * (g + contact.mu * slip) : r_n * g;
+    defect.complementarity = std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
+    const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
+    defect.status.push_back(sticks ? ContactStatus::stick : ContactStatus::slip);
+    ++(sticks ? defect.stick : defect.slip);
+    defect.force += r[i];
+  }
+  return defect;
+}
+
+}  // namespace langer

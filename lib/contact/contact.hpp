@@ -1,0 +1,61 @@
+// A rigid indenter against nodes of the body: kinematics, linearisation and what is left of the law at a state.
+//                                                                                      [A23] section 2.4
+// At a candidate with position x and start-of-increment position x0, the indenter displaced by c (c0 at the start):
+//   gap g and normal n of the shape at x - c;   v = (x - x0) - (c - c0);   slip x_t = v - (v.n) n
+// The law holds at the END of the increment: x_n is the gap there, x_t the slip of the whole increment.
+// Reactions r are global vectors acting on the body; r_n = r.n >= 0.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/local_problem.hpp"
+#include "contact/rigid.hpp"
+
+namespace langer {
+
+struct Waypoint {
+  double t = 0;
+  Vec3 u_ind = Vec3::Zero();  // displacement of the indenter [mm]
+};
+
+struct RigidContact {
+  std::string name;
+  Indenter shape;
+  double mu = 0;
+  std::vector<int> nodes;       // candidates
+  std::vector<Waypoint> motion; // ascending t; before the first (0 at t = 0) and between them linear
+};
+
+Vec3 indenter_displacement(const RigidContact& contact, double t);
+
+// Orthonormal columns n, t1, t2.
+Mat3 contact_frame(const Vec3& n);
+
+// A candidate's law, linearised for a movement d of the node: x_n = q_n + d.n,  x_t = q_t + d.t (a positive factor of the
+// slip is divided out: the law does not feel it).  Reaction force moves with the frame:  r + D d, in local components.
+struct LinearisedContact {
+  Mat3 frame;
+  Vec3 q;
+  Mat3 D;
+};
+LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0, const Vec3& r);
+
+// r turned by the smallest rotation that takes n_old to n_new
+Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new);
+
+// What is left of the law at a state.
+struct ContactDefect {
+  double penetration = 0;      // largest -gap, or |gap| where there is a reaction [mm]
+  double cone = 0;             // largest of |r_t| - mu r_n and -r_n, relative to the largest reaction
+  double complementarity = 0;  // largest |r.(x_t + (x_n + mu |x_t|) n)|, relative to largest reaction times largest motion
+  int open = 0, stick = 0, slip = 0;
+  Vec3 force = Vec3::Zero();   // sum of the reactions on the body [N]
+  std::vector<ContactStatus> status;
+  std::vector<double> gap;     // [mm]
+};
+// u, u0: (3 n) displacements now and at the start of the increment; r: one per candidate
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
+                             const Vec3& c0, const std::vector<Vec3>& r);
+
+}  // namespace langer

@@ -1,0 +1,40 @@
+// Direct solution of K x = b for the symmetric tangent: CHOLMOD supernodal, and UMFPACK where K is not positive definite.
+// The pattern is analysed once. Rows named `last` are eliminated last, so that the trailing block of the factor is the
+// Cholesky factor of their Schur complement: their compliance costs no extra solves.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/pattern.hpp"
+#include "tensor/types.hpp"
+
+namespace langer {
+
+enum class Definiteness { positive, indefinite, singular };
+
+class LinearSolver {
+ public:
+  // threads: of the BLAS under CHOLMOD
+  LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
+  ~LinearSolver();
+
+  // indefinite: solved by UMFPACK from now until the next call; singular: neither could, solve() must not be called
+  Definiteness factorize(const std::vector<double>& values);
+  VecX solve(const VecX& b) const;
+
+  // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`
+  MatX compliance(const MatX& B) const;
+
+  struct Size {
+    double factor_nonzeros = 0, factor_flops = 0, peak_bytes = 0;
+  };
+  Size size() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace langer

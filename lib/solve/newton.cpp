@@ -1,0 +1,41 @@
+#include "solve/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace langer {
+
+SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
+  SolveReport report;
+  const auto stop = [&](Outcome outcome, std::string why) {
+    report.outcome = outcome, report.why = std::move(why);
+    return report;
+  };
+  for (;; ++report.iterations) {
+    const Assessment now = problem.assess(x, true);
+    report.residual = now.residual, report.reference = now.reference;
+    report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
+    if (!now.admissible || !std::isfinite(now.residual))
+      return stop(Outcome::inadmissible, "an element is turned inside out or a force is not finite");
+    const bool balanced = now.residual <= report.tolerance;
+    if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
+    if (report.iterations == options.iterations)
+      return stop(Outcome::not_converged,
+                  balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
+                           : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations", now.residual, report.tolerance,
+                                         report.iterations));
+    const std::optional<VecX> dx = problem.correction();
+    if (!dx || !dx->allFinite()) return stop(Outcome::singular, "the tangent is singular");
+    const double longest = dx->lpNorm<Eigen::Infinity>();
+    double step = longest > options.largest_move ? options.largest_move / longest : 1;
+    int halvings = 0;
+    while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
+    if (halvings > 8) return stop(Outcome::inadmissible, "no admissible step: elements would be turned inside out");
+    problem.moved(*dx, step);
+    x += step * *dx;
+  }
+}
+
+}  // namespace langer

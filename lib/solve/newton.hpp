@@ -1,0 +1,60 @@
+// Newton-Raphson on a problem given as functions: it knows no mechanics.               [A23] section 2.5
+//   assess(x, with_tangent)   residual and tangent at x; what is missing to convergence
+//   correction()              dx of the problem linearised at the last assessed x; empty where it cannot be solved
+//   admissible(x)             cheap test that x can be assessed (det F > 0)
+//   moved(dx, step)           told before x becomes x + step dx
+// There is no test that the residual decreases: near incompressibility the first residuals of a step are huge by nature.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/fields.hpp"
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct Assessment {
+  bool admissible = true;
+  double residual = 0;   // norm [N]
+  double reference = 0;  // the force it is compared with [N]
+  double floor = 0;      // what rounding alone leaves of it [N]
+  bool others = true;    // conditions beside the residual hold (contact law, prescribed values reached)
+  std::string missing;   // which of them does not
+};
+
+struct Problem {
+  std::function<Assessment(const VecX& x, bool with_tangent)> assess;
+  std::function<std::optional<VecX>()> correction;
+  std::function<bool(const VecX& x)> admissible;
+  std::function<void(const VecX& dx, double step)> moved;
+};
+
+struct NewtonOptions {
+  static constexpr const char* key = "newton";
+  int iterations = 25;
+  double relative = 1e-9;
+  double absolute = 1e-12;
+  double largest_move = 1;
+  static void fields(auto& v) {
+    v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of iterations in one step", at_least(1));
+    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
+    v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
+    v(&NewtonOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
+  }
+};
+
+enum class Outcome { converged, not_converged, inadmissible, singular };
+
+struct SolveReport {
+  Outcome outcome = Outcome::not_converged;
+  int iterations = 0;
+  double residual = 0, tolerance = 0, reference = 0;
+  std::string why;  // in words, when not converged
+  bool converged() const { return outcome == Outcome::converged; }
+};
+
+SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options);
+
+}  // namespace langer

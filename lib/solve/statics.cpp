@@ -1,0 +1,280 @@
+#include "solve/statics.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "tensor/kinematics.hpp"
+
+namespace langer {
+
+namespace {
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(cpu_seconds()) {}
+  ~Stopwatch() { total_ += cpu_seconds() - start_; }
+
+ private:
+  double& total_;
+  double start_;
+};
+}  // namespace
+
+Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options)
+    : equilibrium_(equilibrium), contacts_(std::move(contacts)), options_(options) {
+  const Dofs& dofs = equilibrium_.dofs();
+  if (!contacts_.empty()) {
+    last_of_.assign(dofs.n, -1);
+    for (const RigidContact& contact : contacts_)
+      for (int node : contact.nodes)
+        for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
+          if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
+            last_of_[dof] = static_cast<int>(last_.size());
+            last_.push_back(dofs.equation[dof]);
+          }
+  }
+  linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
+  now_.u = VecX::Zero(dofs.n);
+  for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  before_ = now_;
+  u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+}
+
+void Statics::restore(const BodyState& accepted, const BodyState* before) {
+  now_ = accepted;
+  before_ = before ? *before : accepted;
+  t_ = now_.t, u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+}
+
+void Statics::begin(double t) {
+  t_ = t;
+  u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+  equilibrium_.pressures_from(now_.u);
+  const double last = now_.t - before_.t;
+  if (!options_.extrapolate || !(last > 0)) return;
+  const double s = std::min((t - now_.t) / last, 2.0);
+  const VecX step = s * (now_.u - before_.u);
+  if (!admissible(now_.u + step)) return;
+  // the pressures follow by extrapolation too: kappa (J - 1) at an extrapolated u is meaningless
+  const std::vector<double> p_now = equilibrium_.pressures();
+  equilibrium_.pressures_from(before_.u);
+  std::vector<double>& p = equilibrium_.pressures();
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] = p_now[i] + s * (p_now[i] - p[i]);
+  u_ += step;
+}
+
+void Statics::accept() {
+  before_ = std::move(now_);
+  now_ = {t_, u_, r_};
+}
+
+VecX Statics::remaining_prescribed(const VecX& u) const {
+  VecX du = VecX::Zero(u.size());
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) du[p.dof] = p.value * t_ - u[p.dof];
+  return du;
+}
+
+VecX Statics::free_residual() const {
+  const Dofs& dofs = equilibrium_.dofs();
+  VecX f = -equilibrium_.f_int();
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+  VecX free(dofs.n_free());
+  for (int row = 0; row < dofs.n_free(); ++row) free[row] = f[dofs.free[row]];
+  return free;
+}
+
+Assessment Statics::assess(const VecX& u, bool with_tangent) {
+  const Stopwatch watch(cost_.assembly);
+  Assessment out;
+  const VecX du = remaining_prescribed(u);
+  out.admissible = equilibrium_.assemble(u, with_tangent, &du);
+  factor_current_ = false;
+  if (!out.admissible) return out;
+  out.residual = free_residual().norm();
+  double reference = 0;
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) reference += std::pow(equilibrium_.f_int()[p.dof], 2);
+  for (const auto& r : r_)
+    for (const Vec3& r_i : r) reference += r_i.squaredNorm();
+  out.reference = std::sqrt(reference);
+  out.floor = 3 * equilibrium_.rounding_floor();
+  out.others = du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>());
+  if (!out.others) out.missing = "prescribed displacements not reached";
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactDefect d = contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
+                                           indenter_displacement(contacts_[k], now_.t), r_[k]);
+    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance) {
+      out.others = false;
+      out.missing = "the contact law does not hold";
+    }
+  }
+  return out;
+}
+
+bool Statics::admissible(const VecX& u) const {
+  const Mesh& mesh = equilibrium_.mesh();
+  bool ok = true;
+#pragma omp parallel for schedule(static) num_threads(options_.threads) reduction(&& : ok) if (options_.threads > 1)
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const ElementNodes q = equilibrium_.element_displacements(u, e);
+    for (int g = 0; g < Hex8::n_gauss; ++g) {
+      const Mat3 H = q.transpose() * equilibrium_.geometry(e).dN_dX[g];
+      ok = ok && 1 + volume_change(H) > 0.02;
+    }
+  }
+  return ok && u.allFinite();
+}
+
+std::optional<VecX> Statics::correction() {
+  const Dofs& dofs = equilibrium_.dofs();
+  if (!factor_current_) {
+    const Stopwatch watch(cost_.factor);
+    definiteness_ = linear_->factorize(equilibrium_.K());
+    factor_current_ = true, ++cost_.factorizations;
+    if (definiteness_ != Definiteness::positive) ++n_indefinite_;
+  }
+  if (definiteness_ == Definiteness::singular) return std::nullopt;
+  VecX rhs = free_residual();
+  for (int row = 0; row < dofs.n_free(); ++row) rhs[row] -= equilibrium_.K_du()[dofs.free[row]];
+  VecX move;
+  {
+    const Stopwatch watch(cost_.solve);
+    move = linear_->solve(rhs);
+  }
+  if (!contacts_.empty()) {
+    const auto forces = contact_forces(move);
+    if (!forces) return std::nullopt;
+    const Stopwatch watch(cost_.solve);
+    for (std::size_t i = 0; i < last_.size(); ++i) rhs[last_[i]] += (*forces)[i];
+    move = linear_->solve(rhs);
+  }
+  VecX du = remaining_prescribed(u_);
+  for (int row = 0; row < dofs.n_free(); ++row) du[dofs.free[row]] = move[row];
+  return du;
+}
+
+// Change of the contact forces on the rows of last_ that makes the linearised law hold; r_next_ gets the reactions.
+std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
+  const Stopwatch watch(cost_.contact);
+  const Dofs& dofs = equilibrium_.dofs();
+  const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  struct Near {
+    std::size_t contact, candidate;
+    LinearisedContact law;
+    Vec3 r, move;  // local: present reaction, movement without any change of reaction
+  };
+  std::vector<Near> near;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const RigidContact& contact = contacts_[k];
+    const Vec3 c = indenter_displacement(contact, t_), c0 = indenter_displacement(contact, now_.t);
+    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+      const int node = contact.nodes[i];
+      const Vec3 x = X[node] + u_.segment<3>(3 * node), x0 = X[node] + u_start_.segment<3>(3 * node);
+      Vec3 d = Vec3::Zero();
+      for (int j = 0; j < 3; ++j) {
+        const int row = dofs.equation[3 * node + j];
+        d[j] = row >= 0 ? free_move[row] : 0;
+      }
+      const double g = gap(contact.shape, x - c);
+      // far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away
+      const double reach = (c - c0).norm() + 2 * d.norm() + 0.05;
+      if (r_[k][i].isZero(0) && g > reach) continue;
+      Near n{k, i, linearise(contact, x, x0, c, c0, r_[k][i]), {}, {}};
+      n.r = n.law.frame.transpose() * r_[k][i];
+      n.move = n.law.frame.transpose() * d;
+      near.push_back(n);
+    }
+  }
+  VecX force = VecX::Zero(last_.size());
+  r_next_ = r_;
+  if (near.empty()) return force;
+  const int m = static_cast<int>(near.size());
+  MatX B = MatX::Zero(last_.size(), 3 * m);
+  for (int p = 0; p < m; ++p) {
+    const int node = contacts_[near[p].contact].nodes[near[p].candidate];
+    for (int j = 0; j < 3; ++j)
+      if (const int row = last_of_[3 * node + j]; row >= 0) B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j);
+  }
+  // local movement d = move + W (r + D d - r_present):  d = (1 - W D)^-1 (move + W (r - r_present))
+  MatX W = linear_->compliance(B);
+  VecX move(3 * m), present(3 * m), q(3 * m), mu(m), r(3 * m);
+  bool curved = false;
+  for (int p = 0; p < m; ++p) {
+    move.segment<3>(3 * p) = near[p].move, present.segment<3>(3 * p) = near[p].r, q.segment<3>(3 * p) = near[p].law.q;
+    mu[p] = contacts_[near[p].contact].mu;
+    curved = curved || !near[p].law.D.isZero(0);
+  }
+  VecX start = move - W * present;
+  if (curved) {
+    MatX turn = MatX::Identity(3 * m, 3 * m);
+    for (int p = 0; p < m; ++p)
+      if (!near[p].law.D.isZero(0)) turn.middleCols<3>(3 * p) -= W.middleCols<3>(3 * p) * near[p].law.D;
+    const Eigen::PartialPivLU<MatX> lu(turn);
+    W = lu.solve(W);
+    start = lu.solve(start);
+  }
+  r = present;
+  const LocalReport local = solve_local({W, q + start, mu}, r);
+  cost_.sweeps += local.sweeps;
+  if (!r.allFinite()) return std::nullopt;
+  const VecX d = start + W * r;
+  for (int p = 0; p < m; ++p) {
+    const Near& n = near[p];
+    const Vec3 change = r.segment<3>(3 * p) + n.law.D * d.segment<3>(3 * p) - n.r;
+    for (int j = 0; j < 3; ++j) {
+      const int node = contacts_[n.contact].nodes[n.candidate];
+      if (const int row = last_of_[3 * node + j]; row >= 0) force[row] += n.law.frame.row(j).dot(change);
+    }
+    r_next_[n.contact][n.candidate] = n.law.frame * r.segment<3>(3 * p);  // in the frame at u; turned in moved()
+  }
+  return force;
+}
+
+void Statics::moved(const VecX& du, double step) {
+  const Stopwatch watch(cost_.assembly);
+  equilibrium_.predict_pressures(du, step);
+  const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const Vec3 c = indenter_displacement(contacts_[k], t_);
+    for (std::size_t i = 0; i < r_[k].size(); ++i) {
+      if (r_next_[k][i].isZero(0) && r_[k][i].isZero(0)) continue;
+      const int node = contacts_[k].nodes[i];
+      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c, moved_x = x + step * du.segment<3>(3 * node);
+      const Vec3 r = step == 1 ? r_next_[k][i] : Vec3(r_[k][i] + step * (r_next_[k][i] - r_[k][i]));
+      r_[k][i] = turn_with_normal(r, normal(contacts_[k].shape, x), normal(contacts_[k].shape, moved_x));
+    }
+  }
+}
+
+Problem Statics::problem() {
+  Problem p;
+  p.assess = [this](const VecX& u, bool with_tangent) { return assess(u, with_tangent); };
+  p.correction = [this] { return correction(); };
+  p.admissible = [this](const VecX& u) { return admissible(u); };
+  p.moved = [this](const VecX& du, double step) { moved(du, step); };
+  return p;
+}
+
+std::vector<ContactDefect> Statics::defects() const {
+  std::vector<ContactDefect> out;
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_, indenter_displacement(contacts_[k], t_),
+                                 indenter_displacement(contacts_[k], now_.t == t_ ? before_.t : now_.t), r_[k]));
+  return out;
+}
+
+VecX Statics::reactions() const {
+  VecX out = VecX::Zero(equilibrium_.dofs().n);
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] = equilibrium_.f_int()[p.dof];
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    for (std::size_t i = 0; i < r_[k].size(); ++i) out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+  return out;
+}
+
+}  // namespace langer
