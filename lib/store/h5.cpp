@@ -167,10 +167,10 @@ std::string library() {
   return fmt::format("HDF5 {}.{}.{}", major, minor, release);
 }
 
-File File::create(const std::string& path, Unfinished unfinished) {
+File File::create(const std::string& path, Unfinished unfinished, const std::string& part) {
   be_quiet();
   auto file = std::make_shared<OpenFile>();
-  file->path = path, file->current = path + ".part", file->unfinished = unfinished;
+  file->path = path, file->current = part.empty() ? path + ".part" : part, file->unfinished = unfinished;
   const Handle list = creation(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);

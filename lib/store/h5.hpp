@@ -89,7 +89,8 @@ std::string library();  // "HDF5 1.10.8"
 
 class File {
  public:
-  static File create(const std::string& path, Unfinished unfinished = Unfinished::discard);
+  // `part`: the name until commit(), <path>.part where empty
+  static File create(const std::string& path, Unfinished unfinished = Unfinished::discard, const std::string& part = "");
   static File open(const std::string& path);  // for reading
   Group root() const { return {file_, "/"}; }
   void flush() const;

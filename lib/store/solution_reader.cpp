@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include "store/grid.hpp"
+#include "store/listing.hpp"
+#include "store/provenance.hpp"
+#include "store/solution_file.hpp"
+#include "store/solution_layout.hpp"
+
+namespace langer {
+
+struct SolutionReader::State {
+  h5::File file;
+  SolutionHeader header;
+  std::string id;
+  std::size_t n_steps = 0;
+};
+
+namespace {
+
+double one(const h5::Group& group, const std::string& name, std::size_t i) {
+  const double value = group.read_rows<double>(name, i, 1, {}).values[0];
+  if (!std::isfinite(value)) group.refuse(name, fmt::format("{} at step {}", value, i), "a finite number");
+  return value;
+}
+
+std::vector<double> finite_rows(const h5::Group& group, const std::string& name, std::size_t first, std::size_t count,
+                                const h5::Shape& row) {
+  auto values = group.read_rows<double>(name, first, count, row).values;
+  for (double value : values)
+    if (!std::isfinite(value)) group.refuse(name, fmt::format("{} in row {} or after", value, first), "finite numbers");
+  return values;
+}
+
+}  // namespace
+
+SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::File::open(path), {}, {}, 0}) {
+  const h5::Group root = state_->file.root();
+  SolutionHeader& header = state_->header;
+  header.identity = read_identity(root, solution_schema);
+  state_->id = langer::content_id(header.identity, solution_schema.version);
+  header.mesh = read_grid(root);
+  header.formulation = root.text_attribute("formulation");
+  read_listing(root.group("material"), header.material);
+  if (root.has("contact")) {
+    const h5::Group contacts = root.group("contact");
+    for (const std::string& name : contacts.groups()) {
+      auto& nodes = header.contact_nodes[name];
+      for (std::int64_t node : contacts.group(name).read<std::int64_t>("nodes", {h5::any}).values) {
+        if (node < 0 || node >= header.mesh.n_nodes())
+          contacts.group(name).refuse("nodes", fmt::format("node {}", node), "a node of the mesh");
+        nodes.push_back(static_cast<int>(node));
+      }
+    }
+  }
+  const h5::Group steps = root.group("VTKHDF").group("Steps");
+  const std::int64_t n = steps.integer_attribute("NSteps");
+  const std::int64_t rows = n == 0 ? 0 : static_cast<std::int64_t>(root.group("history").shape("t").at(0));
+  if (n < 0 || n > rows) steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
+  state_->n_steps = static_cast<std::size_t>(n);
+}
+
+SolutionReader::~SolutionReader() = default;
+
+const SolutionHeader& SolutionReader::header() const { return state_->header; }
+int SolutionReader::n_steps() const { return static_cast<int>(state_->n_steps); }
+const std::string& SolutionReader::content_id() const { return state_->id; }
+
+StepRecord SolutionReader::step(int index) const {
+  const std::size_t i = static_cast<std::size_t>(index), n = state_->header.mesh.X.size(),
+                    e = static_cast<std::size_t>(state_->header.mesh.n_cells());
+  if (index < 0 || i >= state_->n_steps)
+    throw Failure(Exit::bug,
+                  Error{{}, "SolutionReader::step", std::to_string(index), fmt::format("0 to {}", n_steps() - 1), ""});
+  const h5::Group root = state_->file.root(), history = root.group("history"), grid = root.group("VTKHDF");
+  StepRecord record;
+  record.t = one(history, "t", i);
+  record.increment = one(history, "increment", i);
+  record.residual = one(history, "residual", i);
+  record.iterations = static_cast<int>(history.read_rows<std::int64_t>("iterations", i, 1, {}).values[0]);
+  for (const std::string& name : history.datasets())
+    if (!solution::among(solution::histories, name)) record.scalars[name] = one(history, name, i);
+
+  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData");
+  record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
+  record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
+  for (const std::string& name : cells.datasets())
+    if (!solution::among(solution::static_cells, name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
+
+  if (state_->header.contact_nodes.empty()) return record;
+  record.u_ind = vectors(finite_rows(history, "u_ind", i, 1, {3}))[0];
+  record.force_ind = vectors(finite_rows(history, "force_ind", i, 1, {3}))[0];
+  for (const auto& [name, nodes] : state_->header.contact_nodes) {
+    const h5::Group group = root.group("contact").group(name);
+    ContactRecord& contact = record.contacts[name];
+    contact.r = vectors(finite_rows(group, "r", i, 1, {nodes.size(), 3}));
+    contact.gap = finite_rows(group, "gap", i, 1, {nodes.size()});
+    for (std::int64_t status : group.read_rows<std::int64_t>("status", i, 1, {nodes.size()}).values) {
+      if (status < 0 || status > 2) group.refuse("status", std::to_string(status), "0 open, 1 stick or 2 slip");
+      contact.status.push_back(static_cast<int>(status));
+    }
+  }
+  return record;
+}
+
+}  // namespace langer

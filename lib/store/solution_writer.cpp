@@ -1,0 +1,242 @@
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "store/grid.hpp"
+#include "store/listing.hpp"
+#include "store/provenance.hpp"
+#include "store/solution_file.hpp"
+#include "store/solution_layout.hpp"
+
+namespace langer {
+
+struct SolutionWriter::State {
+  State(h5::File f, const SolutionHeader& h) : file(std::move(f)), header(h) {}
+  h5::File file;
+  SolutionHeader header;
+  int n_steps = 0;
+  std::optional<StepRecord> last;
+
+  void begin();
+  void check(const StepRecord& record) const;
+  void append(const StepRecord& record);
+  void contact(const StepRecord& record);
+};
+
+namespace {
+
+constexpr std::size_t history_chunk = 128;  // steps; one chunk holds a usual run
+
+template <class T>
+void extend(const h5::Group& group, const std::string& name, const h5::Shape& row, std::size_t chunk,
+            const std::vector<T>& rows, const std::string& unit = "") {
+  if (!group.has(name)) group.make_extendible<T>(name, row, chunk, unit);
+  group.append<T>(name, rows);
+}
+
+void add(const h5::Group& group, const std::string& name, double value, const std::string& unit) {
+  extend<double>(group, name, {}, history_chunk, {value}, unit);
+}
+void add(const h5::Group& group, const std::string& name, const Vec3& value, const std::string& unit) {
+  extend<double>(group, name, {3}, history_chunk, {value[0], value[1], value[2]}, unit);
+}
+void add(const h5::Group& group, const std::string& name, std::int64_t value, const h5::Shape& row = {}) {
+  extend<std::int64_t>(group, name, row, history_chunk, {value});
+}
+
+[[noreturn]] void bug(const std::string& key, const std::string& found, const std::string& expected) {
+  throw Failure(Exit::bug, Error{{}, "StepRecord." + key, found, expected, ""});
+}
+
+void check_length(const std::string& key, std::size_t length, std::size_t expected) {
+  if (length != expected) bug(key, fmt::format("{} entries", length), fmt::format("{}", expected));
+}
+
+bool finite(double value) { return std::isfinite(value); }
+bool finite(const Vec3& value) { return value.allFinite(); }
+
+template <class T>
+void check_finite(const std::string& key, const std::vector<T>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!finite(values[i])) bug(key, fmt::format("entry {} is not finite", i), "finite numbers");
+}
+
+std::string names_of(const auto& map) {
+  std::string names;
+  for (const auto& [name, value] : map) names += name + " ";
+  return names;
+}
+
+// another process holds the lock that HDF5 takes on a file it writes
+bool being_written(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY);
+  if (fd < 0) return false;
+  const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) != 0;
+  ::close(fd);
+  return locked;
+}
+
+// what an earlier run left, where it is of the same config and inputs; says why not on stderr
+std::unique_ptr<SolutionReader> unfinished(const std::string& part, const SolutionHeader& header) {
+  if (!std::filesystem::exists(part)) return nullptr;
+  if (being_written(part))
+    throw Failure(Exit::input, Error{{part}, "", "is being written by another run", "", "wait for it, or end it"});
+  try {
+    auto old = std::make_unique<SolutionReader>(part);
+    const Identity &was = old->header().identity, &is = header.identity;
+    if (was.config_hash == is.config_hash && was.inputs == is.inputs && was.stage == is.stage) return old;
+    fmt::print(stderr, "{}: left by a run with another config or other inputs; starting anew\n", part);
+  } catch (const Failure& failure) {
+    fmt::print(stderr, "{}\n  an earlier run ended here; starting anew\n", failure.what());
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header) {
+  const std::string part = path + ".part";
+  const auto old = unfinished(part, header);
+  if (!old) {
+    state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header);
+    state_->begin();
+    return;
+  }
+  // A killed process may leave HDF5's own records half updated: nothing is appended to such a file. What can be read
+  // from it is written anew, and the old file is replaced when that is done.
+  state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep, part + ".new"), header);
+  state_->begin();
+  try {
+    for (int i = 0; i < old->n_steps(); ++i) state_->append(old->step(i));
+  } catch (const Failure& failure) {
+    if (failure.code() != Exit::input) throw;
+    fmt::print(stderr, "{}\n  continuing after the {} steps before it\n", failure.what(), state_->n_steps);
+  }
+  state_->file.rename_part(part);
+}
+
+SolutionWriter::~SolutionWriter() = default;
+
+std::optional<StepRecord> SolutionWriter::resumed() const { return state_->last; }
+int SolutionWriter::n_steps() const { return state_->n_steps; }
+
+void SolutionWriter::State::begin() {
+  const h5::Group root = file.root();
+  write_identity(root, solution_schema, header.identity);
+  const h5::Group grid = write_grid(root, header.mesh, {2, 0});
+  write_sets(root, header.mesh);
+  root.attribute("formulation", header.formulation);
+  write_listing(root.make_group("material"), header.material);
+  grid.make_group("PointData");
+  const h5::Group steps = grid.make_group("Steps");
+  steps.make_group("PointDataOffsets");
+  steps.make_group("CellDataOffsets");
+  steps.attribute("NSteps", std::int64_t{0});
+  root.make_group("history").make_group("reactions");
+  for (const auto& [name, nodes] : header.contact_nodes)
+    root.make_group("contact").make_group(name).write<std::int64_t>("nodes", {nodes.size()},
+                                                                    std::vector<std::int64_t>(nodes.begin(), nodes.end()));
+  file.flush();
+}
+
+// Before anything is written, so that a refused record leaves no rows behind.
+void SolutionWriter::State::check(const StepRecord& record) const {
+  check_length("u", record.u.size(), header.mesh.X.size());
+  check_length("reaction", record.reaction.size(), header.mesh.X.size());
+  check_finite("u", record.u);
+  check_finite("reaction", record.reaction);
+  check_finite("u_ind, force_ind, t, increment or residual",
+               std::vector<Vec3>{record.u_ind, record.force_ind, {record.t, record.increment, record.residual}});
+  for (const auto& [name, values] : record.cell_fields) {
+    check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells()));
+    check_finite(name, values);
+  }
+  for (const auto& [name, value] : record.scalars) {
+    check_finite(name, std::vector{value});
+    if (solution::among(solution::histories, name)) bug("scalars." + name, "a name of the file's own", "another name");
+  }
+  if (last &&
+      (names_of(record.cell_fields) != names_of(last->cell_fields) || names_of(record.scalars) != names_of(last->scalars)))
+    bug("cell_fields and scalars", names_of(record.cell_fields) + names_of(record.scalars),
+        names_of(last->cell_fields) + names_of(last->scalars) + "as in the steps before");
+  check_length("contacts", record.contacts.size(), header.contact_nodes.size());
+  for (const auto& [name, nodes] : header.contact_nodes) {
+    const auto found = record.contacts.find(name);
+    if (found == record.contacts.end()) bug("contacts", "nothing for " + name, "every contact of the header");
+    check_length(name + ".r", found->second.r.size(), nodes.size());
+    check_length(name + ".status", found->second.status.size(), nodes.size());
+    check_length(name + ".gap", found->second.gap.size(), nodes.size());
+    check_finite(name + ".r", found->second.r);
+    check_finite(name + ".gap", found->second.gap);
+    for (int status : found->second.status)
+      if (status < 0 || status > 2) bug(name + ".status", std::to_string(status), "0 open, 1 stick or 2 slip");
+  }
+}
+
+void SolutionWriter::State::append(const StepRecord& record) {
+  check(record);
+  const h5::Group root = file.root(), grid = root.group("VTKHDF"), history = root.group("history");
+  const std::size_t n = header.mesh.X.size(), e = static_cast<std::size_t>(header.mesh.n_cells());
+  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"), steps = grid.group("Steps");
+  const h5::Group point_offsets = steps.group("PointDataOffsets"), cell_offsets = steps.group("CellDataOffsets");
+  extend<double>(points, "u", {3}, n, flat(record.u), "mm");
+  extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
+  for (const char* name : {"u", "reaction"}) add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  for (const auto& [name, values] : record.cell_fields) {
+    extend<double>(cells, name, {}, e, values, solution::unit_of(name));
+    add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
+  }
+  add(steps, "Values", record.t, "-");
+  for (const char* name : {"PartOffsets", "PointOffsets"}) add(steps, name, std::int64_t{0});
+  add(steps, "NumberOfParts", std::int64_t{1});
+  for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) add(steps, name, std::int64_t{0}, {1});
+  for (const char* name : solution::static_cells) add(cell_offsets, name, std::int64_t{0});
+
+  add(history, "t", record.t, "-");
+  add(history, "increment", record.increment, "-");
+  add(history, "iterations", std::int64_t{record.iterations});
+  add(history, "residual", record.residual, "-");
+  for (const auto& [name, value] : record.scalars) add(history, name, value, solution::unit_of(name));
+  for (const auto& [name, nodes] : header.mesh.node_sets) {
+    Vec3 sum = Vec3::Zero();
+    for (int node : nodes) sum += record.reaction[static_cast<std::size_t>(node)];
+    add(history.group("reactions"), name, sum, "N");
+  }
+  if (!header.contact_nodes.empty()) contact(record);
+
+  // The commit mark, after everything it covers is in the file: a process killed before this line has n_steps steps.
+  file.flush();
+  steps.attribute("NSteps", std::int64_t{++n_steps});
+  file.flush();
+  last = record;
+}
+
+void SolutionWriter::State::contact(const StepRecord& record) {
+  const h5::Group root = file.root(), history = root.group("history");
+  add(history, "u_ind", record.u_ind, "mm");
+  add(history, "force_ind", record.force_ind, "N");
+  std::int64_t counts[3] = {0, 0, 0};
+  for (const auto& [name, nodes] : header.contact_nodes) {
+    const ContactRecord& contact = record.contacts.at(name);
+    const std::size_t k = nodes.size();
+    for (int status : contact.status) ++counts[status];
+    const h5::Group group = root.group("contact").group(name);
+    extend<double>(group, "r", {k, 3}, 1, flat(contact.r), "N");
+    extend<std::int64_t>(group, "status", {k}, 1, {contact.status.begin(), contact.status.end()});
+    extend<double>(group, "gap", {k}, 1, contact.gap, "mm");
+  }
+  for (int s = 0; s < 3; ++s)
+    add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
+}
+
+void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
+
+void SolutionWriter::finish() { state_->file.commit(); }
+
+}  // namespace langer
