@@ -32,13 +32,19 @@ inline Vec6 voigt_strain(const Mat3& E) {
 }
 
 // (A o A)_ijkl = (A_ik A_jl + A_il A_jk) / 2, the tensor with  -A o A = dA^-1/dA  for A = C^-1
+// A symmetric. Written out: this stands in the innermost loop of every tangent.
 inline Mat6 symmetric_product(const Mat3& A) {
+  const double a = A(0, 0), b = A(1, 1), c = A(2, 2), d = A(0, 1), e = A(1, 2), f = A(0, 2);
+  const double ad = a * d, af = a * f, bd = b * d, be = b * e, ce = c * e, cf = c * f, de = d * e, df = d * f, ef = e * f;
+  const double p33 = 0.5 * (a * b + d * d), p44 = 0.5 * (b * c + e * e), p55 = 0.5 * (a * c + f * f);
+  const double p34 = 0.5 * (de + b * f), p35 = 0.5 * (df + a * e), p45 = 0.5 * (ef + c * d);
   Mat6 P;
-  for (int p = 0; p < 6; ++p)
-    for (int q = 0; q < 6; ++q) {
-      const int i = voigt_i[p], j = voigt_j[p], k = voigt_i[q], l = voigt_j[q];
-      P(p, q) = 0.5 * (A(i, k) * A(j, l) + A(i, l) * A(j, k));
-    }
+  P << a * a, d * d, f * f, ad, df, af,  //
+      d * d, b * b, e * e, bd, be, de,   //
+      f * f, e * e, c * c, ef, ce, cf,   //
+      ad, bd, ef, p33, p34, p35,         //
+      df, be, ce, p34, p44, p45,         //
+      af, de, cf, p35, p45, p55;
   return P;
 }
 

@@ -89,3 +89,14 @@ TEST_CASE("the barred invariants of a rotation are 3, 3 and 1, and their gradien
   CHECK(dlinear_bar_dC(v, identity6()).norm() <= 1e-15);
   CHECK(std::abs(dlinear_bar_dC(v, M).head<3>().sum()) <= 1e-15);
 }
+
+TEST_CASE("the symmetric product is what its index form says") {
+  std::mt19937 rng(13);
+  const Mat3 C = right_cauchy_green(random_matrix(rng, 1));
+  const Mat6 P = symmetric_product(C);
+  for (int p = 0; p < 6; ++p)
+    for (int q = 0; q < 6; ++q) {
+      const int i = voigt_i[p], j = voigt_j[p], k = voigt_i[q], l = voigt_j[q];
+      CHECK(P(p, q) == doctest::Approx(0.5 * (C(i, k) * C(j, l) + C(i, l) * C(j, k))).epsilon(1e-15));
+    }
+}

@@ -1,0 +1,73 @@
+// Every energy term: its two derivatives against central differences.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "material/material.hpp"
+
+using namespace langer;
+
+namespace {
+
+template <class Term>
+struct Samples;
+template <>
+struct Samples<NeoHooke> {
+  static std::vector<NeoHooke> terms() { return {{0.3}, {-0.1}}; }
+  static std::vector<double> at() { return {3, 3.2, 5, 12}; }
+};
+template <>
+struct Samples<Yeoh> {
+  static std::vector<Yeoh> terms() { return {{0.269, 0.376, 0.415}, {-0.059, 0.291, 0.016}, {0.1, 0, 0}}; }
+  static std::vector<double> at() { return {3, 3.2, 5, 12}; }
+};
+template <>
+struct Samples<YeohI2> {
+  static std::vector<YeohI2> terms() { return {{0.2, 0.1, -0.05}}; }
+  static std::vector<double> at() { return {3, 3.2, 5, 12}; }
+};
+template <>
+struct Samples<HgoFibre> {
+  static std::vector<HgoFibre> terms() { return {{0.1, 0.3}, {-0.317, 0.319}, {0.2, 0}, {0.2, 1e-9}, {0.2, 20}}; }
+  static std::vector<double> at() { return {0.8, 1, 1.05, 1.4, 2}; }
+};
+template <>
+struct Samples<QuadraticVolume> {
+  static std::vector<QuadraticVolume> terms() { return {{0.5}, {2e-3}, {1e-6}}; }
+  static std::vector<double> at() { return {0.7, 1, 1.001, 1.4}; }
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2, HgoFibre, QuadraticVolume) {
+  static_assert(EnergyTerm<Term>);
+  for (const Term& term : Samples<Term>::terms())
+    for (double x : Samples<Term>::at()) {
+      CAPTURE(x);
+      const double h = 1e-4;
+      const Energy<double> e = term(x), p = term(x + h), m = term(x - h), p2 = term(x + 2 * h), m2 = term(x - 2 * h);
+      // fourth order: h^4 is 1e-16, so what remains is eps W/h
+      const double dW = (8 * (p.W - m.W) - (p2.W - m2.W)) / (12 * h), ddW = (8 * (p.dW - m.dW) - (p2.dW - m2.dW)) / (12 * h);
+      const double size = std::abs(e.W) + std::abs(e.dW) + std::abs(e.ddW);
+      CHECK(std::abs(dW - e.dW) <= 1e-9 * size);
+      CHECK(std::abs(ddW - e.ddW) <= 1e-9 * size);
+    }
+}
+
+TEST_CASE("a term costs no energy in the undeformed state") {
+  CHECK(NeoHooke{0.3}(3.).W == 0);
+  CHECK(Yeoh{0.269, 0.376, 0.415}(3.).W == 0);
+  CHECK(YeohI2{0.269, 0.376, 0.415}(3.).W == 0);
+  CHECK(HgoFibre{0.1, 0.3}(1.).W == 0);
+  CHECK(HgoFibre{0.1, 0.3}(1.).dW == 0);
+  CHECK(QuadraticVolume{1e-6}(1.).W == 0);
+  CHECK(QuadraticVolume{1e-6}.bulk_modulus() == 2e6);
+}
+
+TEST_CASE("the fibre energy tends to its quadratic limit as c2 goes to zero") {
+  for (double c2 : {1e-7, 1.1e-8, 1e-9}) {
+    const double x = 0.4;  // W = c1/2 x^2 (1 + c2 x^2/2 + ...), and exp(y) - 1 keeps eps/y of its digits
+    CHECK(HgoFibre{0.2, c2}(1 + x).W == doctest::Approx(HgoFibre{0.2, 0}(1 + x).W).epsilon(c2 * x * x + 2e-16 / (c2 * x * x)));
+  }
+}
