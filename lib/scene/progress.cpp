@@ -1,0 +1,52 @@
+#include "scene/progress.hpp"
+
+#include <fmt/format.h>
+
+namespace langer {
+
+Progress::Progress(bool quiet, const Equilibrium& body, const Scene& scene) : quiet_(quiet), contact_(!scene.contacts.empty()) {
+  if (quiet_) return;
+  fmt::print(stderr, "solve: {} hexahedra, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}\n",
+             body.mesh().n_cells(), body.mesh().n_nodes(), body.dofs().n_free(),
+             names(body.formulation())[static_cast<int>(body.formulation())],
+             scene.material.fibres.empty() ? "none" : std::to_string(scene.material.fibres.size()),
+             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
+}
+
+void Progress::resumed(int steps, double t) const {
+  if (!quiet_) fmt::print(stderr, "solve: continues after {} steps, at t = {:.6g}\n", steps, t);
+}
+
+void Progress::accepted(const StepRecord& record, const SolveReport& report) {
+  ++step_;
+  if (quiet_) return;
+  fmt::print(stderr, "step {:3d}  t {:.4f}", step_, record.t);
+  if (contact_) fmt::print(stderr, "  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
+  fmt::print(stderr, "  {} iterations  residual {:.1e}  J_min {:.4f}", report.iterations, record.residual,
+             record.scalars.at("J_min"));
+  if (contact_)
+    fmt::print(stderr, "  stick {:.0f} slip {:.0f}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}",
+               record.scalars.at("contact_stick"), record.scalars.at("contact_slip"), record.scalars.at("penetration"),
+               record.scalars.at("cone"), record.scalars.at("complementarity"));
+  fmt::print(stderr, "\n");
+}
+
+void Progress::failed(double t, const SolveReport& report) const {
+  if (!quiet_) fmt::print(stderr, "solve: no equilibrium found at t = {:.6g}: {}; the increment is halved\n", t, report.why);
+}
+
+void Progress::finished(const PathReport& path, const Statics& statics) const {
+  if (quiet_) return;
+  const Statics::Cost& cost = statics.cost();
+  fmt::print(stderr,
+             "solve: {} steps, {} iterations, {} cuts; CPU s: assembly {:.2f}, factor {:.2f}, solve {:.2f}, contact {:.2f}\n",
+             path.steps, path.iterations, path.cuts, cost.assembly, cost.factor, cost.solve, cost.contact);
+  if (statics.n_indefinite() > 0)
+    fmt::print(
+        stderr,
+        "solve: {} tangents were not positive definite: without its constraints the body has a direction in which it gives way "
+        "(limit point, loss of ellipticity, or loose supports)\n",
+        statics.n_indefinite());
+}
+
+}  // namespace langer

@@ -1,0 +1,28 @@
+// Config and files -> the value types that mechanics works on; names are resolved here, degrees and radians meet here.
+// Throws Failure(config) with the place of the key: a set that the mesh does not have, two different values for one dof,
+// fibre angles that do not match the material.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "assembly/dofs.hpp"
+#include "base/error.hpp"
+#include "contact/contact.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/solve_config.hpp"
+
+namespace langer {
+
+struct Scene {
+  Material material;
+  Dofs dofs;
+  std::vector<RigidContact> contacts;  // empty: no contact code runs
+  std::vector<double> stops;           // values of t where an indenter turns
+};
+
+Scene make_scene(const SolveConfig& config, const Mesh& mesh, Material material,
+                 const std::function<Place(const std::string&)>& where);
+
+}  // namespace langer

@@ -1,0 +1,114 @@
+// What the solve stage's YAML may say. A part that is not named does not exist in the scene.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "contact/rigid.hpp"
+#include "element/solid.hpp"
+#include "solve/load_path.hpp"
+#include "solve/newton.hpp"
+
+namespace langer {
+
+enum class Axis { x, y, z };
+constexpr auto names(Axis) { return std::array{"x", "y", "z"}; }
+
+struct SupportConfig {
+  std::string on;
+  std::vector<Axis> hold;
+  static void fields(auto& v) {
+    v(&SupportConfig::on, "on", unit::none, "node set of the mesh", required);
+    v(&SupportConfig::hold, "hold", unit::none, "directions that cannot move", required);
+  }
+  std::vector<Complaint> complaints() const {
+    if (!hold.empty()) return {};
+    return {{"hold", "found an empty list", "one or more of x, y, z", ""}};
+  }
+};
+
+struct Displacement {
+  std::optional<double> x, y, z;
+  static void fields(auto& v) {
+    v(&Displacement::x, "x", unit::mm, "displacement at the end of the path");
+    v(&Displacement::y, "y", unit::mm, "displacement at the end of the path");
+    v(&Displacement::z, "z", unit::mm, "displacement at the end of the path");
+  }
+};
+
+struct LoadConfig {
+  std::string on;
+  Displacement displacement;
+  static void fields(auto& v) {
+    v(&LoadConfig::on, "on", unit::none, "node set of the mesh", required);
+    v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement, grows in proportion to the path", required);
+  }
+  std::vector<Complaint> complaints() const {
+    if (displacement.x || displacement.y || displacement.z) return {};
+    return {{"displacement", "found no component", "x, y or z", ""}};
+  }
+};
+
+struct WaypointConfig {
+  double t = 1;
+  std::array<double, 3> to{};
+  static void fields(auto& v) {
+    v(&WaypointConfig::t, "t", unit::none, "place on the path, 0 to 1", required, Range{0, 1, false, true});
+    v(&WaypointConfig::to, "to", unit::mm, "displacement of the indenter from its start", required);
+  }
+};
+
+struct ContactConfig {
+  std::string on;
+  Indenter rigid;
+  double friction = 0;
+  std::vector<WaypointConfig> motion;
+  static void fields(auto& v) {
+    v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter", required);
+    v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
+    v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", at_least(0),
+      Hint{"Coulomb coefficient without unit; [A23] uses 0.34; leave the key out for frictionless contact"});
+    v(&ContactConfig::motion, "motion", unit::none, "where the indenter goes, straight from point to point", required);
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> found;
+    if (motion.empty()) found.push_back({"motion", "found an empty list", "at least {t: 1, to: [x, y, z]}", ""});
+    for (std::size_t i = 1; i < motion.size(); ++i)
+      if (motion[i].t <= motion[i - 1].t)
+        found.push_back({"motion", "times that do not increase", "each t greater than the one before", ""});
+    return found;
+  }
+};
+
+struct SolveConfig {
+  std::optional<Material> material;
+  std::vector<double> fibre_angles;
+  Formulation formulation = Formulation::mean_dilatation;
+  std::vector<SupportConfig> supports;
+  std::vector<LoadConfig> loads;
+  std::map<std::string, ContactConfig> contacts;
+  LoadPathOptions path;
+  std::variant<NewtonOptions> solver;
+  int threads = 1;
+  static void fields(auto& v) {
+    v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
+    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
+    v(&SolveConfig::formulation, "formulation", unit::none, "how the dilatation enters an element");
+    v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
+    v(&SolveConfig::loads, "loads", unit::none, "imposed displacements");
+    v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
+    v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
+    v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
+    v(&SolveConfig::threads, "threads", unit::none, "threads of assembly and factorization", between(1, 256));
+  }
+  std::vector<Complaint> complaints() const {
+    if (!loads.empty() || !contacts.empty()) return {};
+    return {{"", "nothing moves", "loads or contacts", ""}};
+  }
+};
+
+}  // namespace langer

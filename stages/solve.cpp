@@ -1,0 +1,81 @@
+// langer-solve: equilibrium along a load path.
+//   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
+#include <fmt/format.h>
+
+#include "assembly/equilibrium.hpp"
+#include "scene/progress.hpp"
+#include "scene/scene.hpp"
+#include "scene/step_record.hpp"
+#include "solve/load_path.hpp"
+#include "solve/statics.hpp"
+#include "stage.hpp"
+#include "store/mesh_file.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer {
+namespace {
+
+Material material_of(const Job<SolveConfig>& job) {
+  if (!job.has("material")) {
+    if (job.config.material) return *job.config.material;
+    throw Failure(Exit::config, Error{job.where(""), "material", "missing", "the key material, or --material FILE", ""});
+  }
+  if (job.config.material)
+    throw Failure(Exit::config, Error{job.where("material"), "material", "given here and by --material", "one of the two", ""});
+  return material_from(job.input("material"));
+}
+
+std::vector<Summary> solve(const Job<SolveConfig>& job) {
+  const SolveConfig& config = job.config;
+  const Mesh mesh = read_mesh(job.input("mesh")).mesh;
+  const Scene scene = make_scene(config, mesh, material_of(job), job.where);
+  Equilibrium body(mesh, {scene.material}, config.formulation, scene.dofs, config.threads);
+  StaticsOptions options;
+  options.threads = config.threads;
+  Statics statics(body, scene.contacts, options);
+  SolutionWriter file(job.output, header_of(body, scene, job.identity));
+  Progress progress(job.quiet, body, scene);
+
+  std::optional<double> increment;
+  if (const auto last = file.resumed()) {
+    statics.restore(state_of(*last, scene));
+    increment = last->increment;
+    progress.resumed(file.n_steps(), last->t);
+  }
+  const auto nonlinear = std::get<NewtonOptions>(config.solver);
+  const PathReport path = load_path(
+      config.path, statics.accepted().t, increment, scene.stops,
+      [&](double t) {
+        statics.begin(t);
+        const SolveReport report = newton(statics.problem(), statics.trial(), nonlinear);
+        if (!report.converged()) progress.failed(t, report);
+        return report;
+      },
+      [&](double t, double taken, const SolveReport& report) {
+        statics.accept();
+        const StepRecord record = step_record(statics, body, taken, report);
+        file.append(record);
+        progress.accepted(record, report);
+        return true;
+      });
+  if (!path.complete)
+    throw Failure(
+        Exit::not_converged,
+        Error{
+            {},
+            "",
+            fmt::format("stopped at t = {:.6g} after {} steps: {}; smallest increment reached", path.t, file.n_steps(),
+                        path.why),
+            "",
+            fmt::format(
+                "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",
+                file.n_steps(), job.output)});
+  file.finish();
+  progress.finished(path, statics);
+  return summary_of(file.n_steps(), path, statics);
+}
+
+}  // namespace
+}  // namespace langer
+
+int main(int argc, char** argv) { return langer::run_stage<langer::SolveConfig>(argc, argv, "solve", langer::solve); }

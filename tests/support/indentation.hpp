@@ -1,0 +1,83 @@
+// The paper's indentation as a scene in memory: block 30 x 4 x 30 mm, bottom fixed, sphere of radius 2.5 mm.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "solve/load_path.hpp"
+#include "solve/statics.hpp"
+#include "support/block.hpp"
+
+namespace langer::test {
+
+struct Indentation {
+  int nx = 18, ny = 5, nz = 18;
+  double h = 0.35;   // spacing at the centre [mm]; 0: even
+  double depth = 1;  // [mm]
+  double mu = 0.34;
+  double radius = 2.5;
+  double reach = 2.6;  // candidates within this radius
+  double step = 0.1;   // [mm]
+  Formulation formulation = Formulation::mean_dilatation;
+  int threads = 1;
+  bool extrapolate = true;
+  NewtonOptions newton;
+
+  struct Step {
+    double depth, force;
+    int iterations;
+    ContactDefect defect;
+  };
+  struct Result {
+    Mesh mesh;
+    VecX u;
+    PathReport path;
+    std::vector<Step> steps;
+    int n_indefinite = 0;
+    Statics::Cost cost;
+    double J_min = 1;
+    double u_y(double x, double z) const {  // at the top node there
+      for (int i : mesh.node_sets.at("y_max"))
+        if (std::hypot(mesh.X[i][0] - x, mesh.X[i][2] - z) < 1e-9) return u[3 * i + 1];
+      return std::nan("");
+    }
+  };
+
+  Result run(const Material& material, const std::function<void(const Step&)>& seen = {}) const {
+    Result result;
+    const auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx), z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
+    result.mesh = block(x, even(0, 4, ny), z);
+    std::vector<Prescribed> held;
+    for (int i : result.mesh.node_sets["y_min"])
+      for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+    RigidContact contact{"sphere", Sphere{radius, {0, 4 + radius, 0}}, mu, {}, {{1, Vec3(0, -depth, 0)}}};
+    for (int i : result.mesh.node_sets["y_max"])
+      if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
+    Equilibrium body(result.mesh, {material}, formulation, number_dofs(result.mesh.n_nodes(), held).dofs, threads);
+    StaticsOptions options;
+    options.threads = threads, options.extrapolate = extrapolate;
+    Statics statics(body, {contact}, options);
+    LoadPathOptions path;
+    path.first = path.largest = step / depth;
+    result.path = load_path(
+        path, 0, {}, {},
+        [&](double t) {
+          statics.begin(t);
+          return langer::newton(statics.problem(), statics.trial(), newton);
+        },
+        [&](double t, double, const SolveReport& report) {
+          statics.accept();
+          const ContactDefect defect = statics.defects()[0];
+          result.steps.push_back({t * depth, -defect.force[1], report.iterations, defect});
+          if (seen) seen(result.steps.back());
+          return true;
+        });
+    result.u = statics.accepted().u;
+    result.n_indefinite = statics.n_indefinite();
+    result.cost = statics.cost();
+    result.J_min = body.J_min();
+    return result;
+  }
+};
+
+}  // namespace langer::test
