@@ -18,7 +18,7 @@ bool has_leading_zero(std::string_view digits) {
 }
 
 // from_chars does not know a leading plus
-std::string_view number_text(const Tree& tree) {
+std::string_view without_plus(const Tree& tree) {
   std::string_view s = tree.scalar;
   if (s.size() > 1 && s[0] == '+' && s[1] != '-') s.remove_prefix(1);
   return s;
@@ -65,7 +65,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
     f.say(tree.place, path, "found " + description(tree), number_words(m, false), hint);
   };
   if (tree.kind != Tree::Kind::scalar) return wrong(m.hint);
-  const std::string_view s = number_text(tree);
+  const std::string_view s = without_plus(tree);
   double x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large or too small for a double");
@@ -82,7 +82,7 @@ long long read_whole(const Tree& tree, const std::string& path, const Member& m,
     return 0LL;
   };
   if (tree.kind != Tree::Kind::scalar) return wrong(m.hint);
-  const std::string_view s = number_text(tree);
+  const std::string_view s = without_plus(tree);
   long long x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large for a whole number");
@@ -115,7 +115,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::
 
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f) {
   if (tree.kind == Tree::Kind::scalar && !tree.scalar.empty())
-    out.path = (std::filesystem::path(tree.place.file).parent_path() / tree.scalar).lexically_normal().string();
+    out.path = (std::filesystem::path(tree.base) / tree.scalar).lexically_normal().string();
   else
     f.say(tree.place, path, "found " + description(tree), "the path of a file, relative to this one", m.hint);
 }

@@ -18,7 +18,8 @@ struct Tree {
   struct Entry;
   std::vector<Entry> map;  // in file order
   std::vector<Tree> list;
-  Place place;  // of the value's key, or of the list item
+  Place place;       // of the value's key, or of the list item
+  std::string base;  // folder that paths written here are relative to; empty: the working directory
   const Tree* find(const std::string& key) const;
 };
 struct Tree::Entry {
@@ -27,7 +28,10 @@ struct Tree::Entry {
 };
 
 Tree load_yaml(const std::string& path);  // throws Failure(config), or Failure(input) if there is no such file
-Tree parse_yaml(const std::string& text, const std::string& shown_name);  // for tests, --set and sweeps
+// for tests, --set and sweeps; paths in the text are relative to `base`
+Tree parse_yaml(const std::string& text, const std::string& shown_name, const std::string& base = "");
+
+void set_base(Tree& tree, const std::string& base);  // of all parts
 
 // One step of a path like "contacts[0].friction": a key, or an index where the key is empty.
 struct PathStep {

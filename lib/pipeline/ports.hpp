@@ -8,7 +8,8 @@ namespace langer {
 
 struct Port {
   const char* name;
-  const char* says;  // what the file holds
+  const char* says;                  // what the file holds
+  std::vector<std::string> made_by;  // stages whose main output it takes
   bool required = true;
   bool several = false;     // --port may be repeated; the order counts
   bool takes_yaml = false;  // the file may be written by hand, as YAML

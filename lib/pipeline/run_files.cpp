@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "post/column.hpp"
+#include "store/curves_file.hpp"
 
 namespace langer {
 
@@ -71,7 +71,7 @@ std::string content_of(const std::string& path) {
 std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
   std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage, identity.config_hash);
   for (const Summary& r : results)
-    s += fmt::format(", \"{}\": {}", column_name(r.name, r.unit), std::isfinite(r.value) ? number_text(r.value) : "null");
+    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), std::isfinite(r.value) ? number_text(r.value) : "null");
   return s + "}\n";
 }
 

@@ -1,0 +1,69 @@
+// A pipeline file as written: nodes, the stage each runs, where its inputs come from, and what is varied.
+//
+//   pipeline: tensile_angles
+//   nodes:
+//     mesh:  {stage: mesh,  config: configs/mesh/cube_1_8.yaml}
+//     solve: {stage: solve, config: configs/solve/tensile.yaml, mesh: mesh, material: configs/material/abdomen_hgo_yeoh.yaml,
+//             set: {solver.newton.iterations: 30},
+//             sweep: {code:  {variants: {FER: {formulation: displacement}, ANSYS: {formulation: mean_dilatation}}},
+//                     alpha: {key: "fibre_angles[0]", values: [0, 30, 45, 60], unit: deg}}}
+//     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
+//     table: {stage: gather, curves: post, over: [code, alpha]}
+//
+// A port takes a node's name or a file. `config` is a file, or a map written in place, or absent (all defaults).
+// Paths are relative to the working directory. An axis that two nodes declare is one axis: its points must agree.
+// Refused: unknown keys, stages, ports and nodes; names that are not safe in file names and in make.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/tree.hpp"
+#include "pipeline/ports.hpp"
+
+namespace langer {
+
+using Settings = std::vector<std::pair<std::string, Tree>>;  // key path -> value
+
+struct AxisPoint {
+  std::string label;  // "30", "FER"
+  Settings settings;
+};
+
+struct Axis {
+  std::string name, unit;
+  bool numbers = false;  // all labels are numbers
+  std::vector<AxisPoint> points;
+  Place place;
+};
+
+struct Source {
+  std::string port;
+  std::string node, file;  // one of them
+  Place place;
+};
+
+struct Node {
+  std::string name;
+  const StageSpec* stage = nullptr;
+  Tree config;  // scalar: a file; map: the config itself; null: all defaults
+  Settings settings;
+  std::vector<Source> sources;
+  std::vector<Axis> sweep;
+  std::vector<std::string> over;
+  Place place, over_place;
+};
+
+struct Pipeline {
+  std::string name, file;
+  std::vector<Node> nodes;
+  const Node* node(const std::string& name) const;
+};
+
+Pipeline read_pipeline(const Tree& tree);  // throws Failure(config) with all that is wrong
+
+// letters, digits, _ . + - /; anything else means something to make or to a shell
+bool is_safe_path(const std::string& path);
+
+}  // namespace langer

@@ -1,0 +1,149 @@
+#include "pipeline/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "config/reader.hpp"
+#include "pipeline/effective.hpp"
+#include "pipeline/expand.hpp"
+#include "pipeline/makefile.hpp"
+#include "pipeline/run_files.hpp"
+#include "store/seal.hpp"
+
+namespace langer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct TextFile {
+  std::string path;  // relative to the run's folder
+  std::string text;
+};
+
+class Planning {
+ public:
+  Planning(const Pipeline& pipeline, fs::path folder) : pipeline_(pipeline), folder_(std::move(folder)) {}
+
+  std::vector<TextFile> files;
+  std::vector<Rule> rules;
+  std::vector<std::string> finals;
+
+  void add(const Step& step) {
+    const std::string here = (folder_ / step.folder).string();
+    const std::string config = step.folder + "/" + step.stage->name + ".yaml";
+    Rule rule{step.output(), {config}, std::string("langer-") + step.stage->name, config};
+    for (const StepInput& input : step.inputs) {
+      const std::string path = input.made ? input.path : given_file(step, input);
+      rule.prerequisites.push_back(path);
+      rule.arguments += fmt::format(" --{} {}", input.port, path);
+    }
+    collect([&] {
+      const Effective effective = effective_config(*step.stage, step.config, here);
+      for (const Effective::File& file : effective.files) {
+        need_file(file.path, file.place, file.key);
+        rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
+      }
+      // the command stands in the config, so that a changed input is a changed config
+      files.push_back({config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
+    });
+    if (step.final) finals.push_back(rule.target);
+    rules.push_back(std::move(rule));
+  }
+
+  void stop_if_wrong() {
+    if (errors_.empty()) return;
+    throw Failure(code_, errors_);
+  }
+
+ private:
+  const Pipeline& pipeline_;
+  fs::path folder_;
+  std::vector<Error> errors_;
+  Exit code_ = Exit::input;
+
+  // Members of a sweep share most of their config: each error is kept once.
+  void collect(auto&& work) {
+    try {
+      work();
+    } catch (const Failure& failure) {
+      if (failure.code() != Exit::input) code_ = failure.code();
+      for (const Error& e : failure.errors())
+        if (std::none_of(errors_.begin(), errors_.end(), [&](const Error& known) { return text(known) == text(e); }))
+          errors_.push_back(e);
+    }
+  }
+
+  std::string from_run(const std::string& path, const Place& place, const std::string& key) const {
+    const std::string seen = fs::relative(path, folder_).string();
+    if (!is_safe_path(seen))
+      throw Failure(Exit::config, Error{place, key, "found the path " + seen, "letters, digits, _ . + - and / only",
+                                        "make gives other characters a meaning"});
+    return seen;
+  }
+
+  // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the step's config.
+  std::string given_file(const Step& step, const StepInput& input) {
+    std::string path;
+    collect([&] {
+      need_file(input.path, input.place, fmt::format("nodes.{}.{}", step.node, input.port));
+      const std::string extension = fs::path(input.path).extension().string();
+      if (extension == ".h5") {
+        path = from_run(input.path, input.place, input.port);
+        return;
+      }
+      const Port& port = *step.stage->port(input.port);
+      if (!port.takes_yaml || (extension != ".yaml" && extension != ".yml"))
+        throw Failure(Exit::config, Error{input.place, fmt::format("nodes.{}.{}", step.node, input.port), "found " + input.path,
+                                          port.takes_yaml ? "a .h5 or a .yaml file" : "a .h5 file", ""});
+      path = fmt::format("{}/{}.yaml", step.folder, input.port);
+      files.push_back({path, effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string()).text});
+    });
+    return path;
+  }
+};
+
+bool holds(const fs::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream found;
+  found << file.rdbuf();
+  return file.good() && found.str() == text;
+}
+
+bool write_if_changed(const fs::path& path, const std::string& text) {
+  if (holds(path, text)) return false;
+  std::error_code ec;
+  fs::create_directories(path.parent_path(), ec);
+  if (!fs::is_directory(path.parent_path()))
+    throw Failure(Exit::input, Error{{path.parent_path().string(), 0, 0}, "", "this folder cannot be made", "", ""});
+  write_text_file(path.string(), text);
+  return true;
+}
+
+}  // namespace
+
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin) {
+  Tree tree = load_yaml(pipeline_file);
+  set_base(tree, "");
+  const Pipeline pipeline = read_pipeline(tree);
+  if (folder.empty()) folder = "runs/" + pipeline.name;
+  const std::vector<Step> steps = expand(pipeline, load_yaml);
+  Planning planning(pipeline, folder);
+  for (const Step& step : steps) planning.add(step);
+  planning.stop_if_wrong();
+
+  PlanReport report{folder, pipeline.nodes.size(), steps.size(), 0};
+  for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(folder) / file.path, file.text);
+  const std::string seen_bin = fs::relative(bin, folder).string();
+  write_if_changed(fs::path(folder) / "Makefile",
+                   makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
+  return report;
+}
+
+}  // namespace langer

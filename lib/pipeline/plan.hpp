@@ -1,0 +1,18 @@
+// Plans a run: reads the pipeline, checks every config that it names, then writes effective configs and a Makefile.
+// Nothing is written unless everything is right. A file is rewritten only if its text changes, so make reruns exactly
+// what depends on a changed value; comments and the order of keys change nothing.
+#pragma once
+
+#include <string>
+
+namespace langer {
+
+struct PlanReport {
+  std::string folder;
+  std::size_t nodes = 0, steps = 0, changed = 0;  // changed: files written because their text is new
+};
+
+// `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs.
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin);
+
+}  // namespace langer
