@@ -9,7 +9,7 @@
 #include "config/reader.hpp"
 #include "config/writer.hpp"
 
-namespace langer {
+namespace langer::pipeline {
 
 namespace {
 
@@ -244,4 +244,4 @@ std::string member_folder(const Axis& axis, std::size_t point) {
 
 std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read) { return Expansion(pipeline, read).steps(); }
 
-}  // namespace langer
+}  // namespace langer::pipeline

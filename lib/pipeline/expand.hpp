@@ -11,7 +11,7 @@
 
 #include "pipeline/pipeline.hpp"
 
-namespace langer {
+namespace langer::pipeline {
 
 struct StepInput {
   std::string port;
@@ -37,4 +37,4 @@ std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read);
 // "alpha_030": the integer part of numbers is padded so that folders sort
 std::string member_folder(const Axis& axis, std::size_t point);
 
-}  // namespace langer
+}  // namespace langer::pipeline

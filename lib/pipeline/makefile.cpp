@@ -4,7 +4,7 @@
 
 #include "base/version.hpp"
 
-namespace langer {
+namespace langer::pipeline {
 
 std::string makefile_text(const std::string& pipeline_file, const std::string& bin, const std::vector<Rule>& rules,
                           const std::vector<std::string>& finals) {
@@ -26,4 +26,4 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
   return text;
 }
 
-}  // namespace langer
+}  // namespace langer::pipeline

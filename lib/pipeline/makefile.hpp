@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace langer {
+namespace langer::pipeline {
 
 struct Rule {
   std::string target;
@@ -18,4 +18,4 @@ struct Rule {
 std::string makefile_text(const std::string& pipeline_file, const std::string& bin, const std::vector<Rule>& rules,
                           const std::vector<std::string>& finals);
 
-}  // namespace langer
+}  // namespace langer::pipeline

@@ -8,7 +8,7 @@
 #include "config/reader.hpp"
 #include "config/writer.hpp"
 
-namespace langer {
+namespace langer::pipeline {
 
 namespace {
 
@@ -233,4 +233,4 @@ Pipeline read_pipeline(const Tree& tree) {
   return p;
 }
 
-}  // namespace langer
+}  // namespace langer::pipeline

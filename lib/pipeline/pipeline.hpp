@@ -22,7 +22,7 @@
 #include "config/tree.hpp"
 #include "pipeline/ports.hpp"
 
-namespace langer {
+namespace langer::pipeline {
 
 using Settings = std::vector<std::pair<std::string, Tree>>;  // key path -> value
 
@@ -66,4 +66,4 @@ Pipeline read_pipeline(const Tree& tree);  // throws Failure(config) with all th
 // letters, digits, _ . + - /; anything else means something to make or to a shell
 bool is_safe_path(const std::string& path);
 
-}  // namespace langer
+}  // namespace langer::pipeline

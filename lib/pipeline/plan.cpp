@@ -19,6 +19,7 @@
 namespace langer {
 
 namespace fs = std::filesystem;
+using namespace pipeline;
 
 namespace {
 
@@ -29,7 +30,7 @@ struct TextFile {
 
 class Planning {
  public:
-  Planning(const Pipeline& pipeline, fs::path folder) : pipeline_(pipeline), folder_(std::move(folder)) {}
+  explicit Planning(fs::path folder) : folder_(std::move(folder)) {}
 
   std::vector<TextFile> files;
   std::vector<Rule> rules;
@@ -63,7 +64,6 @@ class Planning {
   }
 
  private:
-  const Pipeline& pipeline_;
   fs::path folder_;
   std::vector<Error> errors_;
   Exit code_ = Exit::input;
@@ -131,14 +131,14 @@ bool write_if_changed(const fs::path& path, const std::string& text) {
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin) {
   Tree tree = load_yaml(pipeline_file);
   set_base(tree, "");
-  const Pipeline pipeline = read_pipeline(tree);
-  if (folder.empty()) folder = "runs/" + pipeline.name;
-  const std::vector<Step> steps = expand(pipeline, load_yaml);
-  Planning planning(pipeline, folder);
+  const Pipeline written = read_pipeline(tree);
+  if (folder.empty()) folder = "runs/" + written.name;
+  const std::vector<Step> steps = expand(written, load_yaml);
+  Planning planning(folder);
   for (const Step& step : steps) planning.add(step);
   planning.stop_if_wrong();
 
-  PlanReport report{folder, pipeline.nodes.size(), steps.size(), 0};
+  PlanReport report{folder, written.nodes.size(), steps.size(), 0};
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(folder) / file.path, file.text);
   const std::string seen_bin = fs::relative(bin, folder).string();
   write_if_changed(fs::path(folder) / "Makefile",
