@@ -35,7 +35,7 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
   h5::File file = h5::File::create(path);
   write_identity(file.root(), curves_schema, identity);
   const h5::Group curves = file.root().make_group("curves"), columns = file.root().make_group("columns");
-  for (const Curve& c : all.curves) {
+  for (const NamedCurve& c : all.curves) {
     const h5::Group one = curves.make_group(c.name);
     one.write<double>("x", {c.x.size()}, c.x, c.x_unit);
     one.write<double>("y", {c.y.size()}, c.y, c.y_unit);
@@ -59,7 +59,7 @@ CurvesFile read_curves(const std::string& path) {
   const h5::Group curves = file.root().group("curves"), columns = file.root().group("columns");
   for (const std::string& name : curves.groups()) {
     const h5::Group one = curves.group(name);
-    Curve c{name, one.annotation("x", "label"), one.unit("x"), one.annotation("y", "label"), one.unit("y"), {}, {}};
+    NamedCurve c{name, one.annotation("x", "label"), one.unit("x"), one.annotation("y", "label"), one.unit("y"), {}, {}};
     c.x = one.read<double>("x", {h5::any}).values;
     c.y = one.read<double>("y", {c.x.size()}).values;
     result.curves.curves.push_back(std::move(c));

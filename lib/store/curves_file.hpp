@@ -10,7 +10,7 @@
 
 namespace langer {
 
-struct Curve {
+struct NamedCurve {
   std::string name;
   std::string x_label, x_unit;
   std::string y_label, y_unit;
@@ -23,7 +23,7 @@ struct Column {
 };
 
 struct Curves {
-  std::vector<Curve> curves;
+  std::vector<NamedCurve> curves;
   std::vector<Column> columns;  // of equal length
   std::vector<Summary> summary;
 };
