@@ -51,7 +51,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         if (!report.converged()) progress.failed(t, report);
         return report;
       },
-      [&](double t, double taken, const SolveReport& report) {
+      [&](double, double taken, const SolveReport& report) {
         statics.accept();
         const StepRecord record = step_record(statics, body, taken, report);
         file.append(record);

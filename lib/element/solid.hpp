@@ -26,12 +26,12 @@ using Vec24 = Eigen::Matrix<double, 24, 1>;  // dof 3 a + i: node a, direction i
 using Mat24 = Eigen::Matrix<double, 24, 24>;
 
 struct SolidElement {
-  Vec24 f;                                    // [N]
-  Mat24 K;                                    // [N/mm], filled only with a tangent
-  double W = 0;                               // stored energy [N mm]
-  double J_min = 0;                           // smallest det F over the Gauss points
-  std::array<double, 8> J_minus_1;            // of J_bar (first entry), or of J at each Gauss point
-  std::array<Vec24, 8> dJ_du;                 // gradients of those
+  Vec24 f;                          // [N]
+  Mat24 K;                          // [N/mm], filled only with a tangent
+  double W = 0;                     // stored energy [N mm]
+  double J_min = 0;                 // smallest det F over the Gauss points
+  std::array<double, 8> J_minus_1;  // of J_bar (first entry), or of J at each Gauss point
+  std::array<Vec24, 8> dJ_du;       // gradients of those
 };
 
 bool solid(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
@@ -40,9 +40,9 @@ bool solid(Formulation formulation, const Material& material, const ElementGeome
 // State at a Gauss point, for results.
 struct GaussState {
   Mat3 F;
-  Mat3 sigma;             // Cauchy stress [MPa]
+  Mat3 sigma;  // Cauchy stress [MPa]
   double J = 1;
-  double pressure = 0;    // kappa (J_bar - 1) or kappa (J - 1): the volumetric part of the mean stress [MPa]
+  double pressure = 0;  // kappa (J_bar - 1) or kappa (J - 1): the volumetric part of the mean stress [MPa]
 };
 std::array<GaussState, 8> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
                                        std::span<const Vec3> a, const ElementNodes& u);

@@ -32,9 +32,9 @@ struct LinearSolver::State {
   cholmod_common common;
   cholmod_sparse* A = nullptr;
   cholmod_factor* L = nullptr;
-  std::vector<int> last;       // rows to eliminate last
-  std::vector<int> place_of;   // row -> index in `last`, or -1
-  bool trailing = false;       // the last rows of L are those of `last`
+  std::vector<int> last;            // rows to eliminate last
+  std::vector<int> place_of;        // row -> index in `last`, or -1
+  bool trailing = false;            // the last rows of L are those of `last`
   std::vector<int> trailing_order;  // i-th trailing row of L -> index in `last`
   // fallback: the full matrix by columns
   std::vector<int> full_start, full_row, full_from;
@@ -144,10 +144,12 @@ bool LinearSolver::State::factorize_indefinite() {
   umfpack_di_defaults(control);
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-  if (!symbolic && umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr) < 0)
+  if (!symbolic &&
+      umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr) < 0)
     return false;
   if (numeric) umfpack_di_free_numeric(&numeric);
-  return umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr) == UMFPACK_OK;
+  return umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr) ==
+         UMFPACK_OK;
 }
 
 VecX LinearSolver::solve(const VecX& b) const {
@@ -157,8 +159,8 @@ VecX LinearSolver::solve(const VecX& b) const {
   if (s.indefinite) {
     double control[UMFPACK_CONTROL];
     umfpack_di_defaults(control);
-    umfpack_di_solve(UMFPACK_A, s.full_start.data(), s.full_row.data(), s.full_value.data(), x.data(), b.data(), s.numeric, control,
-                     nullptr);
+    umfpack_di_solve(UMFPACK_A, s.full_start.data(), s.full_row.data(), s.full_value.data(), x.data(), b.data(), s.numeric,
+                     control, nullptr);
     return x;
   }
   cholmod_dense rhs{};

@@ -5,8 +5,8 @@
 
 namespace langer {
 
-PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment, const std::vector<double>& stops,
-                     const std::function<SolveReport(double t)>& attempt,
+PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment,
+                     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
                      const std::function<bool(double t, double increment, const SolveReport&)>& accepted) {
   constexpr double tiny = 1e-10;
   PathReport report;
@@ -19,8 +19,10 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       if (s > t + tiny) stop = std::min(stop, s);
     double next = t + dt;
     // an increment that would leave a sliver before the stop is stretched or halved
-    if (next > stop - tiny) next = stop;
-    else if (next > stop - 0.5 * dt) next = dt <= 0.67 * largest ? stop : 0.5 * (t + stop);
+    if (next > stop - tiny)
+      next = stop;
+    else if (next > stop - 0.5 * dt)
+      next = dt <= 0.67 * largest ? stop : 0.5 * (t + stop);
     if (options.steps && std::abs(std::round(next * *options.steps) - next * *options.steps) < 1e-6)
       next = std::round(next * *options.steps) / *options.steps;
     const SolveReport solved = attempt(next);

@@ -22,10 +22,9 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     const bool balanced = now.residual <= report.tolerance;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     if (report.iterations == options.iterations)
-      return stop(Outcome::not_converged,
-                  balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
-                           : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations", now.residual, report.tolerance,
-                                         report.iterations));
+      return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
+                                                   : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
+                                                                 now.residual, report.tolerance, report.iterations));
     const std::optional<VecX> dx = problem.correction();
     if (!dx || !dx->allFinite()) return stop(Outcome::singular, "the tangent is singular");
     const double longest = dx->lpNorm<Eigen::Infinity>();

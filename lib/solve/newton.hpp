@@ -39,7 +39,8 @@ struct NewtonOptions {
   double largest_move = 1;
   static void fields(auto& v) {
     v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of iterations in one step", at_least(1));
-    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
+    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive,
+      between(0, 0.1));
     v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
     v(&NewtonOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
   }

@@ -83,6 +83,7 @@ VecX Statics::remaining_prescribed(const VecX& u) const {
 VecX Statics::free_residual() const {
   const Dofs& dofs = equilibrium_.dofs();
   VecX f = -equilibrium_.f_int();
+  if (F_ext_.size() > 0) f += t_ * F_ext_;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   VecX free(dofs.n_free());
@@ -102,14 +103,17 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   for (const Prescribed& p : equilibrium_.dofs().prescribed) reference += std::pow(equilibrium_.f_int()[p.dof], 2);
   for (const auto& r : r_)
     for (const Vec3& r_i : r) reference += r_i.squaredNorm();
+  if (F_ext_.size() > 0) reference += (t_ * F_ext_).squaredNorm();
   out.reference = std::sqrt(reference);
   out.floor = 3 * equilibrium_.rounding_floor();
   out.others = du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>());
   if (!out.others) out.missing = "prescribed displacements not reached";
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const ContactDefect d = contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
-                                           indenter_displacement(contacts_[k], now_.t), r_[k]);
-    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance) {
+    const ContactDefect d =
+        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
+                       indenter_displacement(contacts_[k], now_.t), r_[k]);
+    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance ||
+        d.cone > options_.law_tolerance) {
       out.others = false;
       out.missing = "the contact law does not hold";
     }

@@ -1,6 +1,7 @@
 // Equilibrium of one body with supports and rigid contacts at a value of the path parameter t.
 // Holds the last accepted state and the state on trial; gives the nonlinear solvers their Problem.
-//   K dx = -(F_int - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs 24-32
+//   K dx = -(F_int - F_ext - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs
+//   24-32
 // Prescribed displacements and the indenter's movement enter the linear system, never the state first: near
 // incompressibility the other order makes pressures of 1e4 MPa and an indefinite tangent.
 #pragma once
@@ -24,25 +25,27 @@ struct BodyState {
 
 struct StaticsOptions {
   int threads = 1;
-  double gap_tolerance = 1e-10;      // [mm]
-  double law_tolerance = 1e-9;       // complementarity, relative
-  bool extrapolate = true;           // start an increment from the movement of the last one
+  double gap_tolerance = 1e-10;  // [mm]
+  double law_tolerance = 1e-9;   // complementarity, relative
+  bool extrapolate = true;       // start an increment from the movement of the last one
 };
 
 class Statics {
  public:
   Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options);
 
-  void begin(double t);   // put the trial state at the start of an increment to t
-  Problem problem();      // of the increment begun; refers to this object
+  // dead loads: nodal forces (3 n) at t = 1 [N], growing in proportion to t
+  void set_dead_load(VecX F_ext) { F_ext_ = std::move(F_ext); }
+  void begin(double t);  // put the trial state at the start of an increment to t
+  Problem problem();     // of the increment begun; refers to this object
   VecX& trial() { return u_; }
-  void accept();          // the trial becomes the accepted state
+  void accept();  // the trial becomes the accepted state
   void restore(const BodyState& accepted, const BodyState* before = nullptr);
 
   const BodyState& accepted() const { return now_; }
   std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
-  VecX reactions() const;                      // (3 n) F_int at supports and contact nodes, 0 elsewhere
+  VecX reactions() const;                             // (3 n) F_int at supports and contact nodes, 0 elsewhere
   int n_indefinite() const { return n_indefinite_; }  // factorizations that needed the fallback so far
   struct Cost {
     double assembly = 0, factor = 0, solve = 0, contact = 0;  // CPU seconds
@@ -58,19 +61,20 @@ class Statics {
   bool admissible(const VecX& u) const;
   void moved(const VecX& du, double step);
   VecX remaining_prescribed(const VecX& u) const;
-  VecX free_residual() const;  // -(F_int - R) on the free rows
+  VecX free_residual() const;  // -(F_int - F_ext - R) on the free rows
 
   Equilibrium& equilibrium_;
   std::vector<RigidContact> contacts_;
   StaticsOptions options_;
   std::unique_ptr<LinearSolver> linear_;
-  std::vector<int> last_;       // free rows of the candidates
-  std::vector<int> last_of_;    // dof -> index in last_, or -1
-  BodyState now_, before_;      // accepted states
-  double t_ = 0;                // of the trial
+  std::vector<int> last_;     // free rows of the candidates
+  std::vector<int> last_of_;  // dof -> index in last_, or -1
+  VecX F_ext_;                // empty without dead loads
+  BodyState now_, before_;    // accepted states
+  double t_ = 0;              // of the trial
   VecX u_;
   std::vector<std::vector<Vec3>> r_, r_next_;  // on trial; r_next_: what the last linear solve found
-  VecX u_start_;                // state that the increment's slip is measured from
+  VecX u_start_;                               // state that the increment's slip is measured from
   Definiteness definiteness_ = Definiteness::positive;
   bool factor_current_ = false;
   int n_indefinite_ = 0;

@@ -59,8 +59,8 @@ TEST_CASE("every reference problem is solved to 1e-10 in the relative position a
     VecX r = VecX::Zero(p.q.size()), reference(p.q.size()), x_reference(p.q.size());
     for (int i = 0; i < r.size(); ++i) reference[i] = j["r"][i], x_reference[i] = j["u"][i];
     const LocalReport report = solve_local(p, r);
-    MESSAGE(file.path().filename().string() << ": " << report.sweeps << " sweeps, " << report.newton_steps << " Newton steps, residual "
-                                            << report.residual);
+    MESSAGE(file.path().filename().string()
+            << ": " << report.sweeps << " sweeps, " << report.newton_steps << " Newton steps, residual " << report.residual);
     CHECK(report.converged);
     CHECK((p.W * r + p.q - x_reference).lpNorm<Eigen::Infinity>() <= 1e-10);
     CHECK((p.W * (r - reference)).lpNorm<Eigen::Infinity>() <= 1e-10);
@@ -84,7 +84,7 @@ TEST_CASE("random problems, ill-conditioned and rank-deficient ones included, sa
     LocalProblem p{A * A.transpose(), VecX(3 * k), VecX(k)};
     for (auto& q : p.q) q = normal(random);
     for (auto& mu : p.mu) mu = seed % 4 == 0 ? 0 : uniform(random);
-    if (rank < 3 * k) p.q = A * VecX::NullaryExpr(rank, [&] { return normal(random); }) ;  // in the range: a solution exists
+    if (rank < 3 * k) p.q = A * VecX::NullaryExpr(rank, [&] { return normal(random); });  // in the range: a solution exists
     VecX r = VecX::Zero(3 * k);
     const LocalReport report = solve_local(p, r);
     const double scale = std::max(1.0, r.lpNorm<Eigen::Infinity>());

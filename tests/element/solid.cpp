@@ -147,7 +147,8 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
     const Mat3 F = Mat3::Identity() + H;
     const Mat3 sigma = cauchy(F, response(material, F.transpose() * F, fibre_directions(material)).S);
     for (int e = 0; e < mesh.n_cells(); ++e)
-      for (const GaussState& g : gauss_states(formulation, material, body.geometry(e), body.fibres(e), body.element_displacements(u, e)))
+      for (const GaussState& g :
+           gauss_states(formulation, material, body.geometry(e), body.fibres(e), body.element_displacements(u, e)))
         CHECK((g.sigma - sigma).norm() < 1e-11 * sigma.norm());
   }
 }
@@ -157,5 +158,6 @@ TEST_CASE("an element turned inside out is refused") {
   ElementNodes u = ElementNodes::Zero();
   u.row(0) = Eigen::RowVector3d(3, 3, 3);
   SolidElement out;
-  for (Formulation formulation : formulations) CHECK_FALSE(solid(formulation, one.material, one.geometry, one.a, u, nullptr, true, out));
+  for (Formulation formulation : formulations)
+    CHECK_FALSE(solid(formulation, one.material, one.geometry, one.a, u, nullptr, true, out));
 }

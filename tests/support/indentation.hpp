@@ -21,6 +21,7 @@ struct Indentation {
   Formulation formulation = Formulation::mean_dilatation;
   int threads = 1;
   bool extrapolate = true;
+  bool quarter = false;      // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   NewtonOptions newton;
 
   struct Step {
@@ -45,11 +46,15 @@ struct Indentation {
 
   Result run(const Material& material, const std::function<void(const Step&)>& seen = {}) const {
     Result result;
-    const auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx), z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
+    auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx), z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
+    if (quarter) x.erase(x.begin(), x.begin() + nx / 2), z.erase(z.begin(), z.begin() + nz / 2);
     result.mesh = block(x, even(0, 4, ny), z);
     std::vector<Prescribed> held;
     for (int i : result.mesh.node_sets["y_min"])
       for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+    if (quarter)
+      for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
+        for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
     RigidContact contact{"sphere", Sphere{radius, {0, 4 + radius, 0}}, mu, {}, {{1, Vec3(0, -depth, 0)}}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);

@@ -1,0 +1,82 @@
+// Indentation by a rigid sphere: force, exactness of the contact law, symmetry.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/indentation.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+const double r = 4;  // radius of the observation points A, B, C, D [mm]
+
+// grid lines through the points at 4 mm
+test::Indentation coarse() {
+  test::Indentation scene;
+  scene.nx = scene.nz = 20, scene.ny = 4, scene.h = 0;  // even, 1.5 mm; only symmetry is asked of it
+  return scene;
+}
+}  // namespace
+
+TEST_CASE("Table 1 material at 60 degrees with friction: 9.3 N within 2 %, law exact at every step") {
+  const auto result = test::Indentation{}.run(test::table1(60, 1e-6));
+  REQUIRE(result.path.complete);
+  CHECK(result.steps.back().force == doctest::Approx(9.3).epsilon(0.02));
+  CHECK(result.n_indefinite == 0);
+  for (const auto& step : result.steps) {
+    CHECK(step.defect.penetration <= 1e-9);
+    CHECK(step.defect.cone <= 1e-8);
+    CHECK(step.defect.complementarity <= 1e-8);
+    CHECK(step.iterations <= 6);
+  }
+  MESSAGE("force " << result.steps.back().force << " N, " << result.path.iterations << " iterations in " << result.path.steps
+                   << " steps");
+}
+
+TEST_CASE("isotropic and frictionless, the force converges with the mesh to 10.76 N") {
+  // quarter of the block: symmetry planes x = 0 and z = 0 held, four times the force
+  double last = 0;
+  for (const auto& [n, h, ny, tolerance] : {std::tuple{10, 0.3, 5, 0.04}, {20, 0.13, 9, 0.01}}) {
+    test::Indentation scene;
+    scene.quarter = true;
+    scene.nx = scene.nz = 2 * n, scene.h = h, scene.ny = ny, scene.mu = 0, scene.reach = 2.3, scene.step = 0.2;
+    const auto result = scene.run(test::table1(0, 1e-6, 0));
+    REQUIRE(result.path.complete);
+    last = 4 * result.steps.back().force;
+    MESSAGE("h " << h << " mm: " << last << " N");
+    CHECK(last == doctest::Approx(10.76).epsilon(tolerance));
+  }
+}
+
+TEST_CASE("opposite points move alike, and turning the fibres mirrors the field") {
+  const double depth = 0.3;
+  const auto run = [&](double alpha) {
+    auto scene = coarse();
+    scene.depth = depth, scene.reach = 3.3;
+    scene.nx = scene.nz = 30, scene.h = 0;  // 1 mm: nodes at 4 mm
+    auto result = scene.run(test::table1(alpha, 1e-5));
+    REQUIRE(result.path.complete);
+    return result;
+  };
+  const auto at_30 = run(30), at_150 = run(150), at_60 = run(60);
+  CHECK(std::abs(at_30.u_y(r, 0) - at_30.u_y(-r, 0)) < 1e-8);  // A = C
+  CHECK(std::abs(at_30.u_y(0, r) - at_30.u_y(0, -r)) < 1e-8);  // B = D
+  CHECK(std::abs(at_30.u_y(r, 0) - at_150.u_y(r, 0)) < 1e-8);  // u_y(A, alpha) = u_y(A, 180 - alpha)
+  CHECK(std::abs(at_30.u_y(r, 0) - at_60.u_y(0, r)) < 1e-8);   // u_y(A, alpha) = u_y(B, 90 - alpha)
+  CHECK(std::abs(at_30.u_y(r, 0) - at_30.u_y(0, r)) > 1e-5);   // and the body is anisotropic
+}
+
+TEST_CASE("friction raises the force by 5 to 12 %, and the sign of c1 turns the order of A and B round") {
+  test::Indentation scene;
+  scene.nx = scene.nz = 18, scene.mu = 0;
+  const double free = scene.run(test::table1(0, 1e-6, 0)).steps.back().force;
+  scene.mu = 0.34;
+  const double rough = scene.run(test::table1(0, 1e-6, 0)).steps.back().force;
+  MESSAGE("isotropic: " << free << " N without, " << rough << " N with friction");
+  CHECK(rough / free > 1.05);
+  CHECK(rough / free < 1.12);
+  scene.nx = scene.nz = 30, scene.h = 0, scene.ny = 4, scene.reach = 3.2;
+  const auto negative = scene.run(test::table1(0, 1e-5)), positive = scene.run(test::table1(0, 1e-5, 0.317));
+  CHECK((negative.u_y(r, 0) - negative.u_y(0, r)) * (positive.u_y(r, 0) - positive.u_y(0, r)) < 0);
+}

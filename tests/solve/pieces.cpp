@@ -1,0 +1,187 @@
+// Newton, load path and linear solver on problems that know no mechanics.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "solve/linear.hpp"
+#include "solve/load_path.hpp"
+#include "solve/newton.hpp"
+
+using namespace langer;
+
+namespace {
+
+// gradient of Rosenbrock's function as a Problem
+struct Rosenbrock {
+  VecX at;
+  std::vector<double> residuals;
+  static VecX f(const VecX& x) {
+    VecX g(2);
+    g << -2 * (1 - x[0]) - 400 * x[0] * (x[1] - x[0] * x[0]), 200 * (x[1] - x[0] * x[0]);
+    return g;
+  }
+  Problem problem() {
+    Problem p;
+    p.assess = [this](const VecX& x, bool) {
+      at = x;
+      Assessment a;
+      a.residual = f(x).norm(), a.reference = 1;
+      residuals.push_back(a.residual);
+      return a;
+    };
+    p.correction = [this]() -> std::optional<VecX> {
+      Eigen::Matrix2d H;
+      H << 2 - 400 * at[1] + 1200 * at[0] * at[0], -400 * at[0], -400 * at[0], 200;
+      return VecX(-H.inverse() * f(at));
+    };
+    p.admissible = [](const VecX&) { return true; };
+    p.moved = [](const VecX&, double) {};
+    return p;
+  }
+};
+
+Pattern chain(int n) {
+  Pattern p;
+  p.n = n;
+  p.column_start = {0};
+  for (int c = 0; c < n; ++c) {
+    p.row.push_back(c);
+    if (c + 1 < n) p.row.push_back(c + 1);
+    if (c + 7 < n) p.row.push_back(c + 7);
+    p.column_start.push_back(p.nnz());
+  }
+  return p;
+}
+
+MatX dense(const Pattern& p, const std::vector<double>& values) {
+  MatX A = MatX::Zero(p.n, p.n);
+  for (int c = 0; c < p.n; ++c)
+    for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k) A(p.row[k], c) = A(c, p.row[k]) = values[k];
+  return A;
+}
+
+}  // namespace
+
+TEST_CASE("Newton finds Rosenbrock's minimum with a quadratic tail") {
+  Rosenbrock r;
+  VecX x(2);
+  x << 0.8, 0.6;
+  const SolveReport report = newton(r.problem(), x, {});
+  CHECK(report.converged());
+  CHECK((x - VecX::Ones(2)).norm() < 1e-9);
+  const auto& f = r.residuals;
+  REQUIRE(f.size() >= 3);
+  CHECK(f.back() < 1e-9);
+  CHECK(report.iterations <= 8);
+}
+
+TEST_CASE("Newton says why it stops: too few iterations, a singular tangent, a force that is not finite") {
+  Rosenbrock r;
+  VecX x(2);
+  x << -1.2, 1;
+  NewtonOptions one;
+  one.iterations = 1;
+  const SolveReport few = newton(r.problem(), x, one);
+  CHECK(few.outcome == Outcome::not_converged);
+  CHECK(few.why.find("after 1 iterations") != std::string::npos);
+  Problem p = r.problem();
+  p.correction = []() -> std::optional<VecX> { return std::nullopt; };
+  CHECK(newton(p, x, {}).outcome == Outcome::singular);
+  p = r.problem();
+  p.assess = [](const VecX&, bool) { return Assessment{true, std::nan(""), 1, 0, true, ""}; };
+  CHECK(newton(p, x, {}).outcome == Outcome::inadmissible);
+  p = r.problem();
+  p.correction = []() -> std::optional<VecX> { return VecX::Constant(2, std::nan("")); };
+  CHECK(newton(p, x, {}).outcome == Outcome::singular);
+}
+
+TEST_CASE("the load path cuts back, grows again, hits its stops and ends at 1") {
+  LoadPathOptions options;
+  options.first = options.largest = 0.25, options.smallest = 1e-4;
+  std::vector<double> reached;
+  // steps over the hard place 0.4 ... 0.5 fail when longer than 0.03
+  double from = 0;
+  const auto attempt = [&](double t) {
+    SolveReport r;
+    r.outcome = t - from > 0.03 && t > 0.4 && from < 0.5 ? Outcome::not_converged : Outcome::converged;
+    r.iterations = 3;
+    return r;
+  };
+  const PathReport report = load_path(options, 0, {}, {0.3}, attempt, [&](double t, double, const SolveReport&) {
+    reached.push_back(from = t);
+    return true;
+  });
+  CHECK(report.complete);
+  CHECK(reached.back() == 1);
+  CHECK(std::find(reached.begin(), reached.end(), 0.3) != reached.end());
+  CHECK(report.cuts >= 2);
+  double widest = 0;
+  for (std::size_t i = 1; i < reached.size(); ++i) widest = std::max(widest, reached[i] - reached[i - 1]);
+  CHECK(widest > 0.1);  // grown again after the hard place
+}
+
+TEST_CASE("the load path gives up at the smallest increment and keeps what was reached") {
+  LoadPathOptions options;
+  options.smallest = 1e-3;
+  const PathReport report = load_path(
+      options, 0, {}, {},
+      [&](double t) {
+        SolveReport r;
+        r.outcome = t > 0.55 ? Outcome::not_converged : Outcome::converged;
+        r.why = "a wall";
+        return r;
+      },
+      [](double, double, const SolveReport&) { return true; });
+  CHECK_FALSE(report.complete);
+  CHECK(report.why == "a wall");
+  CHECK(report.t > 0.54);
+  CHECK(report.t <= 0.55);
+}
+
+TEST_CASE("a fixed number of steps lands on equal fractions") {
+  LoadPathOptions options;
+  options.steps = 100;
+  std::vector<double> reached;
+  load_path(
+      options, 0, {}, {},
+      [&](double) {
+        SolveReport r;
+        r.outcome = Outcome::converged;
+        return r;
+      },
+      [&](double t, double, const SolveReport&) {
+        reached.push_back(t);
+        return true;
+      });
+  REQUIRE(reached.size() == 100);
+  for (int i = 0; i < 100; ++i) CHECK(reached[i] == (i + 1) / 100.0);
+}
+
+TEST_CASE("the linear solver handles definite, indefinite and singular matrices and says which") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const Pattern p = chain(60);
+  std::vector<double> values(p.nnz());
+  for (double& v : values) v = u(random);
+  for (int c = 0; c < p.n; ++c) values[p.column_start[c]] = 5;
+  const std::vector<int> last{3, 50, 17, 4, 40};
+  LinearSolver linear(p, last);
+  VecX b(p.n);
+  for (double& v : b) v = u(random);
+  MatX B(5, 3);
+  for (auto& v : B.reshaped()) v = u(random);
+  for (double shift : {0.0, -5.5}) {
+    for (int c = 0; c < p.n; ++c) values[p.column_start[c]] = 5 + (c % 3 == 0 ? shift * 2 : 0);
+    const MatX A = dense(p, values);
+    CHECK(linear.factorize(values) == (shift == 0 ? Definiteness::positive : Definiteness::indefinite));
+    CHECK((A * linear.solve(b) - b).norm() < 1e-11 * b.norm());
+    MatX full = MatX::Zero(p.n, 3);
+    for (int i = 0; i < 5; ++i) full.row(last[i]) = B.row(i);
+    const MatX W = full.transpose() * A.inverse() * full;
+    CHECK((linear.compliance(B) - W).norm() < 1e-11 * W.norm());
+  }
+  std::fill(values.begin(), values.end(), 0.0);
+  CHECK(linear.factorize(values) == Definiteness::singular);
+}
