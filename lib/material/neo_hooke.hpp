@@ -10,11 +10,11 @@ struct NeoHooke {
   static constexpr const char* key = "neo_hooke";
   static constexpr Invariant of = Invariant::I1_bar;
   double a1 = 0;
-  static void fields(auto& v) {
-    v(&NeoHooke::a1, "a1", unit::MPa, "half the shear modulus", required);
-  }
+  static void fields(auto& v) { v(&NeoHooke::a1, "a1", unit::MPa, "half the shear modulus", required); }
   template <class T>
-  Energy<T> operator()(T I1_bar) const { return {a1 * (I1_bar - 3.0), T{} + a1, T{}}; }
+  Energy<T> operator()(T I1_bar) const {
+    return {a1 * (I1_bar - 3.0), T{} + a1, T{}};
+  }
 };
 
 }  // namespace langer

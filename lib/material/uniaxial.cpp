@@ -110,4 +110,16 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
 Uniaxial uniaxial(const Material& material, double lambda) { return state(material, lambda, false); }
 Uniaxial uniaxial_incompressible(const Material& material, double lambda) { return state(material, lambda, true); }
 
+std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain,
+                                                  StressMeasure measure, Dilatation dilatation) {
+  std::vector<double> stress;
+  stress.reserve(strain.size());
+  for (double e : strain) {
+    const Uniaxial u = state(material, 1 + e, dilatation == Dilatation::incompressible);
+    if (!u.converged) return std::nullopt;
+    stress.push_back(measure == StressMeasure::cauchy ? u.sigma : u.sigma * (1 + u.J_minus_1) / (1 + e));
+  }
+  return stress;
+}
+
 }  // namespace langer

@@ -7,6 +7,10 @@
 // Reports converged = false where no state is found: nothing is thrown.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "material/material.hpp"
 
 namespace langer {
@@ -23,5 +27,16 @@ Uniaxial uniaxial(const Material& material, double lambda);
 
 // d -> 0: the volume term is left out
 Uniaxial uniaxial_incompressible(const Material& material, double lambda);
+
+enum class Dilatation { incompressible, compressible };
+constexpr auto names(Dilatation) { return std::array{"incompressible", "compressible"}; }
+
+// force over the deformed area, or over the reference area:  nominal = cauchy J/lambda
+enum class StressMeasure { cauchy, nominal };
+constexpr auto names(StressMeasure) { return std::array{"cauchy", "nominal"}; }
+
+// Stresses [MPa] at engineering strains lambda - 1; nothing if one of the states does not exist.
+std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain,
+                                                  StressMeasure measure, Dilatation dilatation);
 
 }  // namespace langer

@@ -23,7 +23,9 @@ struct Yeoh {
     v(&Yeoh::a3, "a3", unit::MPa, "coefficient of (I1_bar - 3)^3");
   }
   template <class T>
-  Energy<T> operator()(T I1_bar) const { return cubic<T>(a1, a2, a3, I1_bar - 3.0); }
+  Energy<T> operator()(T I1_bar) const {
+    return cubic<T>(a1, a2, a3, I1_bar - 3.0);
+  }
 };
 
 struct YeohI2 {
@@ -36,7 +38,9 @@ struct YeohI2 {
     v(&YeohI2::b3, "b3", unit::MPa, "coefficient of (I2_bar - 3)^3");
   }
   template <class T>
-  Energy<T> operator()(T I2_bar) const { return cubic<T>(b1, b2, b3, I2_bar - 3.0); }
+  Energy<T> operator()(T I2_bar) const {
+    return cubic<T>(b1, b2, b3, I2_bar - 3.0);
+  }
 };
 
 }  // namespace langer

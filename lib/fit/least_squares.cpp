@@ -1,0 +1,184 @@
+#include "fit/least_squares.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+
+#include "fit/bounded_linear.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
+  const VecX g = J.transpose() * r;
+  double worst = 0;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    const double norm = J.col(i).norm();
+    if (norm == 0) continue;
+    const double moved = std::min(std::max(p[i] - g[i] / (norm * norm), q.lower[i]), q.upper[i]) - p[i];
+    worst = std::max(worst, norm * std::abs(moved) / q.size);
+  }
+  return worst;
+}
+
+// the damped linear problem in the box: min |J d + r|^2 + mu |D d|^2
+VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D, double mu) {
+  const Eigen::Index m = J.rows(), n = J.cols();
+  // in units of D, so that a stiff and a soft parameter count alike
+  MatX A(m + n, n);
+  A.topRows(m) = J * D.cwiseInverse().asDiagonal();
+  A.bottomRows(n) = std::sqrt(mu) * MatX::Identity(n, n);
+  VecX b = VecX::Zero(m + n);
+  b.head(m) = -r;
+  return bounded_linear(A, b, D.cwiseProduct(q.lower - p), D.cwiseProduct(q.upper - p)).cwiseQuotient(D);
+}
+
+}  // namespace
+
+bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
+  VecX p_moved = p, r;
+  const auto at = [&](Eigen::Index i, double x, VecX& out) {
+    p_moved[i] = x;
+    const bool good = q.residual(p_moved, out) && out.allFinite();
+    p_moved[i] = p[i];
+    return good;
+  };
+  const auto column = [&](Eigen::Index i, const VecX& dr_dp) {
+    if (i == 0) J.resize(dr_dp.size(), p.size());
+    J.col(i) = dr_dp;
+  };
+  VecX value;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    // h^4 against eps/h
+    double h = std::pow(eps, 0.2) * std::max(std::abs(p[i]), q.typical[i]);
+    const double below = p[i] - q.lower[i], above = q.upper[i] - p[i];
+    if (below + above == 0) {
+      if (!at(i, p[i], value)) return false;
+      column(i, VecX::Zero(value.size()));
+      continue;
+    }
+    h = std::min(h, (below + above) / 8);
+    // five points in a row inside the box, `first` steps from p
+    int first = -2;
+    while (first < 0 && p[i] + first * h < q.lower[i]) ++first;
+    while (p[i] + (first + 4) * h > q.upper[i]) --first;
+    static constexpr double weights[5][5] = {
+        {-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}, {-1, 6, -18, 10, 3}, {3, -16, 36, -48, 25}};
+    // of changes against the first point, so that a parameter without effect gives exactly zero
+    VecX first_value, slope;
+    for (int k = 0; k < 5; ++k) {
+      const double w = weights[-first][k];
+      if (w == 0) continue;
+      if (!at(i, p[i] + (first + k) * h, value)) return false;
+      if (first_value.size() == 0)
+        first_value = value, slope = VecX::Zero(value.size());
+      else
+        slope += w * (value - first_value);
+    }
+    column(i, slope / (12 * h));
+  }
+  return true;
+}
+
+LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOptions& options) {
+  constexpr double good_enough = 1e-8;
+  LeastSquaresResult s;
+  s.p = q.start.cwiseMax(q.lower).cwiseMin(q.upper);
+  s.cost = std::numeric_limits<double>::infinity();
+  s.kkt = s.cost;
+  s.at_bound.assign(static_cast<std::size_t>(s.p.size()), false);
+  if (!q.residual(s.p, s.r) || !s.r.allFinite() || !jacobian(q, s.p, s.J)) {
+    s.why = "the model does not exist at the start";
+    return s;
+  }
+  s.cost = 0.5 * s.r.squaredNorm();
+  VecX D = VecX::Zero(s.p.size());
+  double mu = 1e-3, growth = 2;
+  for (s.iterations = 0; s.iterations < options.iterations; ++s.iterations) {
+    s.kkt = kkt_residual(q, s.p, s.r, s.J);
+    if (s.kkt <= options.kkt) {
+      s.converged = true, s.why = "optimal";
+      break;
+    }
+    D = D.cwiseMax(s.J.colwise().norm().transpose());
+    for (Eigen::Index i = 0; i < D.size(); ++i)
+      if (D[i] == 0) D[i] = 1 / std::max(q.typical[i], eps);
+
+    bool accepted = false;
+    while (!accepted && mu < 1e12) {
+      const VecX d = damped_step(q, s.p, s.r, s.J, D, mu);
+      const VecX p = (s.p + d).cwiseMax(q.lower).cwiseMin(q.upper);
+      VecX r;
+      const bool exists = q.residual(p, r) && r.allFinite();
+      //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
+      const VecX Jd = s.J * d;
+      const double predicted = -s.r.dot(Jd) - 0.5 * Jd.squaredNorm();
+      //   |r_old|^2 - |r_new|^2 = (r_old - r_new).(r_old + r_new), which keeps its digits near the optimum
+      const double gained = exists ? 0.5 * (s.r - r).dot(s.r + r) : -1;
+      if (exists && predicted > 0 && gained > 0) {
+        const double ratio = gained / predicted;
+        MatX J = s.J;
+        if (jacobian(q, p, J)) {
+          accepted = true;
+          mu = std::max(1e-30, mu * std::max(0.1, 1 - std::pow(2 * std::min(ratio, 1.) - 1, 3)));
+          growth = 2;
+          s.p = p, s.r = r, s.J = J;
+          s.cost = 0.5 * r.squaredNorm();
+          continue;
+        }
+      }
+      mu = std::max(mu, 1e-15) * growth, growth *= 2;
+    }
+    if (!accepted) {
+      s.converged = s.kkt <= good_enough;
+      s.why = s.converged ? "optimal within rounding" : "no step lowers the cost";
+      break;
+    }
+  }
+  if (s.why.empty()) {
+    s.kkt = kkt_residual(q, s.p, s.r, s.J);
+    s.converged = s.kkt <= good_enough;
+    s.why = s.converged ? "optimal" : "out of iterations";
+  }
+  for (Eigen::Index i = 0; i < s.p.size(); ++i)
+    s.at_bound[static_cast<std::size_t>(i)] = s.p[i] == q.lower[i] || s.p[i] == q.upper[i];
+  return s;
+}
+
+MatX covariance(const LeastSquaresResult& s) {
+  const Eigen::Index n = s.p.size(), m = s.r.size();
+  MatX cov = MatX::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!s.at_bound[static_cast<std::size_t>(i)] && s.J.col(i).norm() > 0) free.push_back(i);
+  const auto n_free = static_cast<Eigen::Index>(free.size());
+  if (n_free == 0 || m <= n_free) return cov;
+  MatX J = s.J(Eigen::all, free);
+  const VecX norms = J.colwise().norm().transpose();
+  J = J * norms.cwiseInverse().asDiagonal();
+  const Eigen::JacobiSVD<MatX> svd(J, Eigen::ComputeThinV);
+  const VecX sv = svd.singularValues();
+  // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not distinguishable from 0
+  const double smallest = 1e-10 * sv[0];
+  MatX inverse = MatX::Zero(n_free, n_free);
+  VecX undetermined = VecX::Zero(n_free);
+  for (Eigen::Index k = 0; k < n_free; ++k) {
+    const VecX v = svd.matrixV().col(k);
+    if (sv[k] > smallest)
+      inverse += v * v.transpose() / (sv[k] * sv[k]);
+    else
+      undetermined += v.cwiseAbs2();
+  }
+  const double variance = 2 * s.cost / static_cast<double>(m - n_free);
+  for (Eigen::Index a = 0; a < n_free; ++a)
+    for (Eigen::Index b = 0; b < n_free; ++b)
+      if (undetermined[a] < 1e-6 && undetermined[b] < 1e-6)
+        cov(free[static_cast<std::size_t>(a)], free[static_cast<std::size_t>(b)]) =
+            variance * inverse(a, b) / (norms[a] * norms[b]);
+  return cov;
+}
+
+}  // namespace langer

@@ -1,0 +1,49 @@
+// Nonlinear least squares in a box:  min 1/2 |r(p)|^2,  lower <= p <= upper.  Levenberg-Marquardt; each step is the exact
+// answer of the damped linear problem in the box, so that an active bound never stops it early.
+//   residual   fills r (m); false where p has no model: such a step is shortened
+//   typical    sizes of the parameters, for the difference quotients of the Jacobian (taken inside the box)
+//   size       size of the residuals that counts as one: the norm of the data. kkt is relative to it.
+// kkt = max over parameters of |J_i| |P(p_i - g_i/|J_i|^2) - p_i| / size, with g = J^T r, J_i a column, P the projection on
+// the box: without bounds it is |g_i| / (|J_i| size), the cosine of the unexplained part with what p_i can explain.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct LeastSquares {
+  std::function<bool(const VecX& p, VecX& r)> residual;
+  VecX start, lower, upper, typical;
+  double size = 1;
+};
+
+struct LeastSquaresOptions {
+  int iterations = 500;
+  double kkt = 1e-12;
+};
+
+struct LeastSquaresResult {
+  VecX p, r;
+  MatX J;  // (m, n) dr/dp
+  double cost = 0;
+  double kkt = 0;
+  int iterations = 0;
+  bool converged = false;  // kkt reached, or no step within rounding lowers the cost while kkt <= 1e-8
+  std::string why;
+  std::vector<bool> at_bound;
+};
+
+LeastSquaresResult least_squares(const LeastSquares& problem, const LeastSquaresOptions& options = {});
+
+// derivative by differences of fourth order inside the box; false where the model fails
+bool jacobian(const LeastSquares& problem, const VecX& p, MatX& J);
+
+// 2 cost/(m - n_free) (J^T J)^-1 over the parameters that are free; NaN rows for those on a bound, and for those that
+// the data do not determine (a singular combination of columns has part in them), and throughout if m <= n_free
+MatX covariance(const LeastSquaresResult& result);
+
+}  // namespace langer

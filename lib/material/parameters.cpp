@@ -1,0 +1,65 @@
+#include "material/parameters.hpp"
+
+#include <map>
+
+#include "config/member.hpp"
+
+namespace langer {
+
+namespace {
+
+using List = std::vector<MaterialParameter>;
+
+template <Listed T>
+void collect(T& object, const std::string& path, List& list);
+
+template <class V>
+void collect_member(V& value, const Member& m, const std::string& path, List& list) {
+  if constexpr (std::is_same_v<V, double>) {
+    const auto dot = path.rfind('.');
+    list.push_back({path, dot == std::string::npos ? path : path.substr(dot + 1), m.unit, m.range, &value});
+  } else if constexpr (is_sum<V>) {
+    std::map<std::string, int> count;
+    const auto key = [](const auto& term) { return std::string(std::remove_cvref_t<decltype(term)>::key); };
+    for (const auto& term : value) ++count[std::visit(key, term)];
+    bool once = true;
+    for (const auto& [name, n] : count) once = once && n == 1;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      std::visit(
+          [&](auto& term) { collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term), list); },
+          value[i]);
+  } else if constexpr (is_choice<V>) {
+    std::visit([&](auto& term) { collect(term, path + "." + std::remove_cvref_t<decltype(term)>::key, list); }, value);
+  } else if constexpr (is_vector<V>) {
+    for (std::size_t i = 0; i < value.size(); ++i) collect_member(value[i], m, path + "[" + std::to_string(i) + "]", list);
+  } else if constexpr (Listed<V>) {
+    collect(value, path, list);
+  }
+}
+
+template <Listed T>
+void collect(T& object, const std::string& path, List& list) {
+  for_each_line(object, [&](const Member& m, auto& value) {
+    collect_member(value, m, path.empty() ? std::string(m.key) : path + "." + m.key, list);
+  });
+}
+
+}  // namespace
+
+std::vector<MaterialParameter> parameters(Material& material) {
+  List list;
+  collect(material, "", list);
+  return list;
+}
+
+std::vector<std::string> unique_names(const std::vector<MaterialParameter>& chosen) {
+  std::map<std::string, int> count;
+  std::vector<std::string> names;
+  for (const MaterialParameter& p : chosen) {
+    const int n = ++count[p.name];
+    names.push_back(n == 1 ? p.name : p.name + "_" + std::to_string(n));
+  }
+  return names;
+}
+
+}  // namespace langer

@@ -1,0 +1,27 @@
+// The numbers of a material by their YAML path: matrix.yeoh.a1, fibres[0].hgo.c1, fibres[0].alpha, volume.quadratic.d.
+// Where a matrix term stands twice the path has its index: matrix[1].yeoh.a1.
+// What fit varies and what sensitivity ranks is chosen from this list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+
+namespace langer {
+
+struct MaterialParameter {
+  std::string key;   // path
+  std::string name;  // last word of the path: a1, c1, alpha
+  std::string unit;
+  Range range;  // that the law allows
+  double* value = nullptr;
+};
+
+// pointers into `material`, in the order of its listing
+std::vector<MaterialParameter> parameters(Material& material);
+
+// short names for some of them, made unique by a number: c1, c1_2
+std::vector<std::string> unique_names(const std::vector<MaterialParameter>& chosen);
+
+}  // namespace langer

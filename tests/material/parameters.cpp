@@ -1,0 +1,38 @@
+// The numbers of a material by their paths.
+#include "material/parameters.hpp"
+
+#include <doctest/doctest.h>
+
+#include "material/catalogue.hpp"
+
+using namespace langer;
+
+namespace {
+std::vector<std::string> keys(Material m) {
+  std::vector<std::string> k;
+  for (const MaterialParameter& p : parameters(m)) k.push_back(p.key);
+  return k;
+}
+}  // namespace
+
+TEST_CASE("every number of a law has its YAML path, its name and its unit") {
+  Material m = table1_hgo_yeoh(30);
+  CHECK(keys(m) == std::vector<std::string>{"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3", "fibres[0].hgo.c1",
+                                            "fibres[0].hgo.c2", "fibres[0].alpha", "volume.quadratic.d"});
+  const auto all = parameters(m);
+  CHECK(all[3].name == "c1");
+  CHECK(all[3].unit == "MPa");
+  CHECK(all[4].range.low == 0);
+  *all[3].value = 7;
+  CHECK(m.fibres[0].hgo.c1 == 7);
+}
+
+TEST_CASE("terms that stand twice are told apart by index, and names by a number") {
+  Material m{{Yeoh{1, 2, 3}, Yeoh{4, 5, 6}}, {hgo_fibre(0.1, 1, 10), hgo_fibre(0.2, 1, 20)}, {QuadraticVolume{1}}};
+  const auto k = keys(m);
+  CHECK(k[0] == "matrix[0].yeoh.a1");
+  CHECK(k[3] == "matrix[1].yeoh.a1");
+  CHECK(k[9] == "fibres[1].hgo.c1");
+  const auto all = parameters(m);
+  CHECK(unique_names({all[0], all[3], all[6], all[9]}) == std::vector<std::string>{"a1", "a1_2", "c1", "c1_2"});
+}
