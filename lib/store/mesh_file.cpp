@@ -1,15 +1,15 @@
 #include "store/mesh_file.hpp"
 
 #include "store/grid.hpp"
-#include "store/provenance.hpp"
 
 namespace langer {
 
-void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity) {
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity, const std::vector<Summary>& summary) {
   h5::File file = h5::File::create(path);
   write_identity(file.root(), mesh_schema, identity);
   write_grid(file.root(), mesh, {1, 0});
   write_sets(file.root(), mesh);
+  if (!summary.empty()) write_summary(file.root(), summary);
   file.commit();
 }
 

@@ -5,10 +5,12 @@
 
 #include "mesh/mesh.hpp"
 #include "store/identity.hpp"
+#include "store/provenance.hpp"
 
 namespace langer {
 
-void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity);
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity, const std::vector<Summary>& summary = {});
+
 struct MeshFile {
   Mesh mesh;
   std::string content_id;

@@ -1,0 +1,106 @@
+#include "geometry/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/grading.hpp"
+#include "geometry/session.hpp"
+#include "mesh/order.hpp"
+#include "mesh/select.hpp"
+
+namespace langer {
+
+namespace {
+
+using GridLines = std::array<std::vector<double>, 3>;
+
+GridLines grid_lines(const Block& b, const Points& points, std::vector<std::string>& notes) {
+  GridLines lines;
+  for (int i = 0; i < 3; ++i) {
+    const double low = b.origin[i], high = b.origin[i] + b.size[i];
+    const int n = b.divisions[i];
+    if (i == 1 && b.top)
+      lines[i] = lines_to_top(low, high, n, b.top->edge, "geometry.block.top.edge");
+    else if (i != 1 && b.centre)
+      lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.block.centre.edge");
+    else
+      lines[i] = even_lines(low, high, n);
+    std::vector<Demand> demands;
+    for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
+    const std::string axis(1, "xyz"[i]);
+    const Moved moved = through(lines[i], demands, axis, fmt::format("geometry.block.divisions[{}]", i));
+    if (moved.furthest > 1e-9 * b.size[i])
+      notes.push_back(
+          fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through the points", axis, moved.furthest));
+    lines[i] = moved.lines;
+  }
+  return lines;
+}
+
+// a point extruded along x, z and y, cell by cell
+void extrude_along(const GridLines& lines) {
+  namespace geo = gmsh::model::geo;
+  gmsh::vectorpair shape{{0, geo::addPoint(lines[0][0], lines[1][0], lines[2][0])}};
+  for (int i : {0, 2, 1}) {
+    const std::vector<double>& x = lines[i];
+    const double length = x.back() - x.front();
+    std::vector<double> heights;
+    for (std::size_t k = 1; k < x.size(); ++k) heights.push_back((x[k] - x.front()) / length);
+    const std::vector<int> one_each(heights.size(), 1);
+    gmsh::vectorpair extruded, next;
+    geo::extrude(shape, i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0, extruded, one_each, heights, true);
+    for (const auto& [dim, tag] : extruded)
+      if (dim == shape[0].first + 1) next.push_back({dim, tag});
+    shape = {next.at(0)};
+  }
+  geo::synchronize();
+}
+
+// gmsh's positions carry rounding; the grid lines are exact
+void put_on_lines(Mesh& mesh, const GridLines& lines) {
+  for (Vec3& x : mesh.X)
+    for (int i = 0; i < 3; ++i) {
+      const auto above = std::lower_bound(lines[i].begin(), lines[i].end(), x[i]);
+      const auto below = above == lines[i].begin() ? above : above - 1;
+      x[i] = above != lines[i].end() && std::abs(*above - x[i]) < std::abs(*below - x[i]) ? *above : *below;
+    }
+}
+
+}  // namespace
+
+Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes) {
+  const GridLines lines = grid_lines(block, points, notes);
+  Mesh mesh = meshed_by_gmsh("geometry.block", [&] { extrude_along(lines); });
+  put_on_lines(mesh, lines);
+  turn_cells(mesh);
+  number_in_order(mesh);
+  return mesh;
+}
+
+std::vector<Complaint> contradictions(const Block& block, const Points& points) {
+  std::vector<std::string> notes;
+  return complaints_of([&] { grid_lines(block, points, notes); });
+}
+
+void name_points(Mesh& mesh, const Points& points) {
+  const std::vector<int> all = all_nodes(mesh);
+  const double tolerance = 1e-12 * size(mesh);
+  for (const auto& [name, x] : points) {
+    const int node = select(mesh, NearestNode{{x[0], x[1], x[2]}}, all).at(0);
+    const Vec3 there = mesh.X[node];
+    if (!((there - x).norm() <= tolerance))
+      throw Failure(Exit::config,
+                    Error{{},
+                          "points." + name,
+                          fmt::format("no node lies there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
+                                      (there - x).norm(), there[0], there[1], there[2]),
+                          "a point that the geometry has a node at",
+                          "move the point, or a radius or side of the geometry through it"});
+    mesh.X[node] = x;
+    mesh.node_sets[name] = {node};
+  }
+}
+
+}  // namespace langer

@@ -1,0 +1,102 @@
+// Geometries of the mesh stage, as values with their listings; both span [origin, origin + size].
+//   Block        hexahedra on three families of grid lines: even, or refined towards the centre in x and z and to the top in y
+//   GradedBlock  square core, rings and outer blocks in the x-z plane (an O-grid), extruded along y: edges turn with the rings
+// Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock must have nodes there.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "mesh/mesh.hpp"
+
+namespace langer {
+
+struct TowardsCentre {
+  double edge = 0, within = 0;
+  static void fields(auto& v) {
+    v(&TowardsCentre::edge, "edge", unit::mm, "length of the cells around the centre", required, positive);
+    v(&TowardsCentre::within, "within", unit::mm, "distance from the centre up to which cells keep that length", at_least(0));
+  }
+};
+
+struct TowardsTop {
+  double edge = 0;
+  static void fields(auto& v) { v(&TowardsTop::edge, "edge", unit::mm, "height of the uppermost cells", required, positive); }
+};
+
+struct Block {
+  static constexpr const char* key = "block";
+  std::array<double, 3> origin{}, size{};
+  std::array<int, 3> divisions{1, 1, 1};
+  std::optional<TowardsCentre> centre;
+  std::optional<TowardsTop> top;
+  static void fields(auto& v) {
+    v(&Block::origin, "origin", unit::mm, "corner with the least coordinates");
+    v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, positive);
+    v(&Block::divisions, "divisions", unit::none, "number of cells along x, y, z", required, between(1, 1000));
+    v(&Block::centre, "centre", unit::none, "refinement towards the centre in x and z; none: even cells");
+    v(&Block::top, "top", unit::none, "refinement towards the top in y; none: even cells");
+  }
+};
+
+struct Core {
+  double half_width = 0;
+  int cells = 2;
+  static void fields(auto& v) {
+    v(&Core::half_width, "half_width", unit::mm, "half the side of the square under the indenter", required, positive);
+    v(&Core::cells, "cells", unit::none, "cells along its side; even, so that the centre is a node", required,
+      between(2, 1000));
+  }
+};
+
+struct Ring {
+  double radius = 0;
+  int cells = 1;
+  static void fields(auto& v) {
+    v(&Ring::radius, "radius", unit::mm, "outer radius of the ring; nodes lie on it", required, positive);
+    v(&Ring::cells, "cells", unit::none, "cells along the radius", required, between(1, 1000));
+  }
+};
+
+struct GradedBlock {
+  static constexpr const char* key = "graded_block";
+  std::array<double, 3> origin{}, size{};
+  Core core;
+  std::vector<Ring> rings;
+  int outer_cells = 1;
+  int layers = 1;
+  std::optional<TowardsTop> top;
+  static void fields(auto& v) {
+    v(&GradedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
+    v(&GradedBlock::size, "size", unit::mm, "lengths along x, y, z", required, positive);
+    v(&GradedBlock::core, "core", unit::none, "square core around the centre", required);
+    v(&GradedBlock::rings, "rings", unit::none, "rings from the core outwards, at least one", required);
+    v(&GradedBlock::outer_cells, "outer_cells", unit::none, "cells from the last ring to the sides, growing outwards", required,
+      between(1, 1000));
+    v(&GradedBlock::layers, "layers", unit::none, "number of cells along y", required, between(1, 1000));
+    v(&GradedBlock::top, "top", unit::none, "refinement towards the top in y; none: even cells");
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+using Geometry = std::variant<Block, GradedBlock>;
+using Points = std::map<std::string, Vec3>;
+
+// Mesh with positions and cells, numbered in order, exactly symmetric where it is symmetric; no sets, bodies or frames yet.
+// `notes` gets what a user may want to know, such as moved grid lines. Failures name keys under `geometry` and `points`.
+Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes);
+Mesh mesh_of(const GradedBlock& block, const Points& points, std::vector<std::string>& notes);
+
+// What can be seen to be wrong before meshing: refinements that do not fit, points outside or too close to each other.
+std::vector<Complaint> contradictions(const Block& block, const Points& points);
+std::vector<Complaint> contradictions(const GradedBlock& block, const Points& points);
+
+// Sets each point's node set, the node exactly there; throws Failure(config) with the nearest node where there is none.
+void name_points(Mesh& mesh, const Points& points);
+
+}  // namespace langer

@@ -1,0 +1,50 @@
+// Grid lines along one axis of a block.
+//   even        n cells of equal length
+//   refined     cells near one end (or around the centre) have a given edge; the others grow geometrically so that n fit
+//   through     moves lines so that demanded coordinates are hit, the lines between two of them in proportion
+// Lengths in mm. Throws Failure(config) with the key where the numbers contradict each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/fields.hpp"
+
+namespace langer {
+
+// a demanded coordinate and who demands it, for messages
+struct Demand {
+  double at = 0;
+  std::string by;
+};
+
+// 0 ... length in n cells, the first ones `edge` long up to `within`
+std::vector<double> refined(double length, int n, double edge, double within, const std::string& key);
+
+std::vector<double> even_lines(double low, double high, int n);
+
+// mirrored about the middle, exactly where the middle is 0; `edge` is the length of the cells around it
+std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within, const std::string& key);
+
+// the uppermost cell is `edge` long
+std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key);
+
+struct Moved {
+  std::vector<double> lines;
+  double furthest = 0;  // largest way of a line
+};
+Moved through(const std::vector<double>& lines, std::vector<Demand> demands, const std::string& axis, const std::string& key);
+
+// what `act` refuses, as complaints
+std::vector<Complaint> complaints_of(auto act) {
+  std::vector<Complaint> found;
+  try {
+    act();
+  } catch (const Failure& failure) {
+    for (const Error& e : failure.errors()) found.push_back({e.key, e.found, e.expected, e.hint});
+  }
+  return found;
+}
+
+}  // namespace langer

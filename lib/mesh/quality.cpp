@@ -1,0 +1,73 @@
+#include "mesh/quality.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "element/reference.hpp"
+
+namespace langer {
+
+namespace {
+
+// the two ends of each of the twelve edges
+constexpr int edge[12][2] = {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
+  Vec3 x = Vec3::Zero();
+  const Hex8::Shape N = Hex8::shape(xi);
+  for (int a = 0; a < 8; ++a) x += N[a] * mesh.X[mesh.cell(cell)[a]];
+  return x;
+}
+
+}  // namespace
+
+Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
+  const Hex8::Gradient dN = Hex8::gradient(xi);
+  Mat3 J = Mat3::Zero();
+  for (int a = 0; a < 8; ++a) J += mesh.X[mesh.cell(cell)[a]] * dN.row(a);
+  return J;
+}
+
+Quality quality(const Mesh& mesh) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Quality q;
+  q.least_jacobian = q.least_scaled_jacobian = q.shortest_edge = infinity;
+  const auto notice = [&](double det, int e, const Vec3& xi) {
+    if (det < q.least_jacobian) q.least_jacobian = det, q.at_cell = e, q.at = position(mesh, e, xi);
+  };
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    for (int a = 0; a < 8; ++a) {
+      const Vec3 corner(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]);
+      const Mat3 J = jacobian(mesh, e, corner);
+      notice(J.determinant(), e, corner);
+      q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, J.colwise().normalized().determinant());
+      const double det = jacobian(mesh, e, Hex8::gauss(a)).determinant();
+      notice(det, e, Hex8::gauss(a));
+      q.volume += det;
+    }
+    double shortest = infinity, longest = 0;
+    for (const auto& [a, b] : edge) {
+      const double length = (mesh.X[mesh.cell(e)[b]] - mesh.X[mesh.cell(e)[a]]).norm();
+      shortest = std::min(shortest, length), longest = std::max(longest, length);
+    }
+    q.largest_aspect = std::max(q.largest_aspect, longest / shortest);
+    q.shortest_edge = std::min(q.shortest_edge, shortest), q.longest_edge = std::max(q.longest_edge, longest);
+  }
+  return q;
+}
+
+void refuse_folded(const Quality& q, const std::string& key) {
+  if (q.least_jacobian > 0) return;
+  throw Failure(Exit::config, Error{{},
+                                    key,
+                                    fmt::format("cell {} is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})",
+                                                q.at_cell, q.least_jacobian, q.at[0], q.at[1], q.at[2]),
+                                    "a positive Jacobian everywhere",
+                                    "check sizes and radii; more divisions may help"});
+}
+
+}  // namespace langer

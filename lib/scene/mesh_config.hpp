@@ -1,0 +1,67 @@
+// What the mesh stage's YAML may say: one geometry, the frames of its cells, observation points and further named sets.
+// The sides x_min x_max y_min y_max z_min z_max and top, bottom (= y_max, y_min) are always there, as nodes and facets.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/fields.hpp"
+#include "geometry/block.hpp"
+#include "mesh/frames.hpp"
+#include "mesh/select.hpp"
+
+namespace langer {
+
+struct SetConfig {
+  std::optional<std::string> of;
+  Selection within;
+  static void fields(auto& v) {
+    v(&SetConfig::of, "of", unit::none, "side that the nodes are taken from; none: the whole mesh");
+    v(&SetConfig::within, "within", unit::none, "which of those nodes", required);
+  }
+  std::vector<Complaint> complaints() const {
+    const auto sides = side_names();
+    if (!of || std::find(sides.begin(), sides.end(), *of) != sides.end()) return {};
+    std::string known;
+    for (const std::string& side : sides) known += (known.empty() ? "one of " : ", ") + side;
+    return {{"of", "found \"" + *of + "\"", known, ""}};
+  }
+};
+
+struct MeshConfig {
+  std::string body = "skin";
+  Geometry geometry;
+  Frames frames = Frames::global;
+  std::map<std::string, std::array<double, 3>> points;
+  std::map<std::string, SetConfig> sets;
+  static void fields(auto& v) {
+    v(&MeshConfig::body, "body", unit::none, "name of the body");
+    v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
+    v(&MeshConfig::frames, "frames", unit::none,
+      "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
+    v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
+    v(&MeshConfig::sets, "sets", unit::none, "further sets by name: nodes, and the facets of the surface between them");
+  }
+  Points positions() const {
+    Points positions;
+    for (const auto& [name, x] : points) positions[name] = {x[0], x[1], x[2]};
+    return positions;
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> found = std::visit([&](const auto& g) { return contradictions(g, positions()); }, geometry);
+    const auto sides = side_names();
+    const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
+    for (const auto& [name, x] : points)
+      if (is_side(name)) found.push_back({"points." + name, "found the name of a side", "another name", ""});
+    for (const auto& [name, set] : sets) {
+      if (is_side(name)) found.push_back({"sets." + name, "found the name of a side", "another name", ""});
+      if (points.count(name)) found.push_back({"sets." + name, "found the name of a point", "another name", ""});
+    }
+    return found;
+  }
+};
+
+}  // namespace langer
