@@ -75,9 +75,6 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double i
     for (const auto& [name, value] :
          {std::pair{"penetration", d.penetration}, {"cone", d.cone}, {"complementarity", d.complementarity}})
       record.scalars[name] = std::max(record.scalars[name], value);
-    record.scalars["contact_open"] += d.open;
-    record.scalars["contact_stick"] += d.stick;
-    record.scalars["contact_slip"] += d.slip;
     if (contacts.size() > 1)
       for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
