@@ -24,10 +24,13 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (contact_) fmt::print(stderr, "  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
   fmt::print(stderr, "  {} iterations  residual {:.1e}  J_min {:.4f}", report.iterations, record.residual,
              record.scalars.at("J_min"));
-  if (contact_)
-    fmt::print(stderr, "  stick {:.0f} slip {:.0f}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}",
-               record.scalars.at("contact_stick"), record.scalars.at("contact_slip"), record.scalars.at("penetration"),
-               record.scalars.at("cone"), record.scalars.at("complementarity"));
+  if (contact_) {
+    int stick = 0, slip = 0;
+    for (const auto& [name, contact] : record.contacts)
+      for (int status : contact.status) stick += status == 1, slip += status == 2;
+    fmt::print(stderr, "  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick, slip,
+               record.scalars.at("penetration"), record.scalars.at("cone"), record.scalars.at("complementarity"));
+  }
   fmt::print(stderr, "\n");
 }
 
