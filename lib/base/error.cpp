@@ -39,8 +39,8 @@ std::size_t distance(const std::string& a, const std::string& b) {
 std::string nearest(const std::string& name, const std::vector<std::string>& known) {
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const std::string& k : known)
-    if (std::size_t d = distance(name, k); d < least) least = d, best = k;
+  for (const std::string& k : known)  // something of the name must remain
+    if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size())) least = d, best = k;
   return best;
 }
 

@@ -26,7 +26,12 @@ struct Member {
   const char* hint = "";
 
   void add(Required) { required = true; }
-  void add(const Range& r) { range = r; }
+  // several ranges hold together
+  void add(const Range& r) {
+    if (r.low > range.low || (r.low == range.low && !r.low_included)) range.low = r.low, range.low_included = r.low_included;
+    if (r.high < range.high || (r.high == range.high && !r.high_included))
+      range.high = r.high, range.high_included = r.high_included;
+  }
   void add(const OneOf& one) { words = one.words; }
   void add(const Hint& h) { hint = h.text; }
 };

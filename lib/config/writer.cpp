@@ -11,11 +11,22 @@ namespace fs = std::filesystem;
 
 std::string as_held(const std::string& path) { return path; }
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
+std::string relative_path(const std::string& path, const std::string& folder) {
+  // of a folder that does not exist yet, only the absolute name can be made canonical
+  return fs::relative(fs::absolute(path), fs::absolute(folder.empty() ? "." : folder)).string();
+}
 PathText relative_to(const std::string& folder) {
-  return [folder](const std::string& path) { return fs::relative(path, folder.empty() ? "." : folder).string(); };
+  return [folder](const std::string& path) { return relative_path(path, folder); };
 }
 
 namespace {
+
+bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool plain_letters(const std::string& s) {
+  return std::all_of(s.begin(), s.end(), [](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-';
+  });
+}
 
 // Texts that any YAML reader takes for a text when they stand without quotes.
 bool is_safe_plain(const std::string& s) {
@@ -24,11 +35,7 @@ bool is_safe_plain(const std::string& s) {
   std::string lower = s;
   for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   if (std::find(taken.begin(), taken.end(), lower) != taken.end()) return false;
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  if (!letter(s[0]) && s[0] != '/' && s.rfind("../", 0) != 0) return false;
-  return std::all_of(s.begin(), s.end(), [&](char c) {
-    return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-';
-  });
+  return (letter(s[0]) || s[0] == '/' || s.rfind("../", 0) == 0) && plain_letters(s);
 }
 
 std::string quoted(const std::string& s) {
@@ -75,7 +82,7 @@ void write(const Tree& t, int indent, bool first_in_line, std::string& out) {
   };
   for (const auto& [key, value] : t.map) {
     begin();
-    out += (is_safe_plain(key) ? key : quoted(key)) + ":";
+    out += (!key.empty() && letter(key[0]) && plain_letters(key) ? key : quoted(key)) + ":";
     if (fits_a_line(value)) {
       out += " " + one_line(value) + "\n";
     } else {

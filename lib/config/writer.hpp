@@ -1,5 +1,6 @@
 // Config struct -> canonical YAML text (every key, defaults filled in; equal structs give equal text), and --describe.
-// Keys stand in the order of the listing, absent optional keys are left out, numbers are the shortest that read back the same.
+// Keys stand in the order of the listing, absent optional keys and files are left out, numbers are the shortest that read back
+// the same.
 //
 //   std::string effective = to_yaml(config);
 //   std::string reference = describe<SolveConfig>();     // key, type, unit, default, range, meaning
@@ -16,8 +17,9 @@ namespace langer {
 
 using PathText = std::function<std::string(const std::string& path)>;
 std::string as_held(const std::string& path);
-std::string file_name(const std::string& path);   // without folders: does not depend on where a file lies
-PathText relative_to(const std::string& folder);  // as seen from a file in that folder; symbolic links are followed
+std::string file_name(const std::string& path);  // without folders: does not depend on where a file lies
+std::string relative_path(const std::string& path, const std::string& folder);  // symbolic links are followed
+PathText relative_to(const std::string& folder);                                // as seen from a file in that folder
 
 std::string to_text(const Tree& tree);  // block YAML; lists of scalars in one line
 std::string number_text(double x);      // shortest text that reads back the same; never "-0"
@@ -66,7 +68,9 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
     t.kind = Tree::Kind::map;
     for_each_line(value, [&](const Member& m, const auto& part) {
       using Part = std::remove_cvref_t<decltype(part)>;
-      if constexpr (is_optional<Part>) {
+      if constexpr (std::is_same_v<Part, InputPath>) {
+        if (!part.path.empty()) t.map.push_back({m.key, to_tree(part, path_text)});
+      } else if constexpr (is_optional<Part>) {
         if (part) t.map.push_back({m.key, to_tree(*part, path_text)});
       } else
         t.map.push_back({m.key, to_tree(part, path_text)});
@@ -87,9 +91,9 @@ struct NamedFile {
 template <class T>
 void collect_files(const T& value, const std::string& path, std::vector<NamedFile>& files) {
   const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
-  if constexpr (std::is_same_v<T, InputPath>)
-    files.push_back({path, value.path});
-  else if constexpr (is_optional<T>) {
+  if constexpr (std::is_same_v<T, InputPath>) {
+    if (!value.path.empty()) files.push_back({path, value.path});
+  } else if constexpr (is_optional<T>) {
     if (value) collect_files(*value, path, files);
   } else if constexpr (is_choice<T>) {
     std::visit([&](const auto& a) { collect_files(a, below(std::remove_cvref_t<decltype(a)>::key), files); }, value);

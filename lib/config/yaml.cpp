@@ -174,6 +174,7 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
   try {
     YAML::Parser parser(stream);
     builder.root.place = {file, 1, 1};
+    builder.root.base = base;
     parser.HandleNextDocument(builder);
     const Tree first = builder.root;
     if (parser.HandleNextDocument(builder))

@@ -32,9 +32,9 @@ class Expansion {
 
   std::vector<Step> steps() {
     gather_axes();
-    for (const Node& n : pipeline_.nodes) check_kinds(n);
-    stop_if_wrong();
     for (const Node& n : pipeline_.nodes) visit(n);
+    stop_if_wrong();
+    for (const Node& n : pipeline_.nodes) check_kinds(n);
     stop_if_wrong();
     for (const Node* n : order_) add_steps(*n);
     stop_if_wrong();

@@ -81,7 +81,7 @@ class Planning {
   }
 
   std::string from_run(const std::string& path, const Place& place, const std::string& key) const {
-    const std::string seen = fs::relative(path, folder_).string();
+    const std::string seen = relative_path(path, folder_.string());
     if (!is_safe_path(seen))
       throw Failure(Exit::config, Error{place, key, "found the path " + seen, "letters, digits, _ . + - and / only",
                                         "make gives other characters a meaning"});
@@ -90,18 +90,20 @@ class Planning {
 
   // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the step's config.
   std::string given_file(const Step& step, const StepInput& input) {
+    const std::string key = fmt::format("nodes.{}.{}", step.node, input.port);
     std::string path;
     collect([&] {
-      need_file(input.path, input.place, fmt::format("nodes.{}.{}", step.node, input.port));
+      need_file(input.path, input.place, key);
       const std::string extension = fs::path(input.path).extension().string();
       if (extension == ".h5") {
-        path = from_run(input.path, input.place, input.port);
+        path = from_run(input.path, input.place, key);
         return;
       }
       const Port& port = *step.stage->port(input.port);
-      if (!port.takes_yaml || (extension != ".yaml" && extension != ".yml"))
-        throw Failure(Exit::config, Error{input.place, fmt::format("nodes.{}.{}", step.node, input.port), "found " + input.path,
-                                          port.takes_yaml ? "a .h5 or a .yaml file" : "a .h5 file", ""});
+      if (!port.takes_yaml || (extension != ".yaml" && extension != ".yml")) {
+        const char* expected = port.takes_yaml ? "a .h5 or a .yaml file" : "a .h5 file";
+        throw Failure(Exit::config, Error{input.place, key, "found " + input.path, expected, ""});
+      }
       path = fmt::format("{}/{}.yaml", step.folder, input.port);
       files.push_back({path, effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string()).text});
     });
@@ -140,7 +142,7 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
 
   PlanReport report{folder, written.nodes.size(), steps.size(), 0};
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(folder) / file.path, file.text);
-  const std::string seen_bin = fs::relative(bin, folder).string();
+  const std::string seen_bin = relative_path(bin, folder);
   write_if_changed(fs::path(folder) / "Makefile",
                    makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
   return report;
