@@ -90,8 +90,14 @@ std::unique_ptr<SolutionReader> unfinished(const std::string& part, const Soluti
   try {
     auto old = std::make_unique<SolutionReader>(part);
     const Identity &was = old->header().identity, &is = header.identity;
-    if (was.config_hash == is.config_hash && was.inputs == is.inputs && was.stage == is.stage) return old;
-    fmt::print(stderr, "{}: left by a run with another config or other inputs; starting anew\n", part);
+    const bool same_task = was.config_hash == is.config_hash && was.inputs == is.inputs && was.stage == is.stage;
+    // ids know configs, not code: another version of the mesher may have made another mesh of the same config
+    const Mesh &old_mesh = old->header().mesh, &mesh = header.mesh;
+    const bool same_arrays = old_mesh.X == mesh.X && old_mesh.connectivity == mesh.connectivity &&
+                             old->header().contact_nodes == header.contact_nodes;
+    if (same_task && same_arrays) return old;
+    fmt::print(stderr, "{}: left by a run with another {}; starting anew\n", part,
+               same_task ? "mesh" : "config or other inputs");
   } catch (const Failure& failure) {
     fmt::print(stderr, "{}\n  an earlier run ended here; starting anew\n", failure.what());
   }

@@ -105,7 +105,7 @@ TEST_CASE("an abandoned run continues after its last step, to the same bytes as 
   CHECK(bytes(path) == bytes(whole));
 }
 
-TEST_CASE("a run with another config or other inputs starts anew") {
+TEST_CASE("a run with another config, other inputs or another mesh starts anew") {
   const std::string path = example::folder("anew") + "/solution.h5";
   { SolutionWriter(path, header(false)).append(step(0, false)); }
   SolutionHeader other = header(false);
@@ -114,6 +114,11 @@ TEST_CASE("a run with another config or other inputs starts anew") {
   { SolutionWriter(path, header(false)).append(step(0, false)); }
   other = header(false), other.identity.inputs["mesh"] = fnv1a("another");
   CHECK(SolutionWriter(path, other).n_steps() == 0);
+  { SolutionWriter(path, header(false)).append(step(0, false)); }
+  other = header(false), other.mesh.X[3][0] += 0.125;  // the same ids, made by other code
+  CHECK(SolutionWriter(path, other).n_steps() == 0);
+  { SolutionWriter(path, header(false)).append(step(0, false)); }
+  CHECK(SolutionWriter(path, header(false)).n_steps() == 1);
 }
 
 TEST_CASE("a .part that cannot be read is replaced; one that is being written is not") {
