@@ -15,14 +15,11 @@ FitRecord record_of(const FitConfig& config, const Curve& curve, const UniaxialF
   FitRecord record;
   Material material = fit.material;
   const std::vector<MaterialParameter> all = parameters(material);
-  std::vector<MaterialParameter> chosen;
-  for (const FitParameter& p : config.parameters)
-    chosen.push_back(*std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.key == p.key; }));
-  const std::vector<std::string> names = unique_names(chosen);
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  for (std::size_t i = 0; i < config.parameters.size(); ++i) {
+    const FitParameter& p = config.parameters[i];
     const auto k = static_cast<Eigen::Index>(i);
-    record.parameters.push_back({names[i], chosen[i].unit, fit.best.p[k], config.parameters[i].lower,
-                                 config.parameters[i].upper, std::sqrt(fit.covariance(k, k))});
+    const auto known = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    record.parameters.push_back({known->name, known->unit, fit.best.p[k], p.lower, p.upper, std::sqrt(fit.covariance(k, k))});
   }
   record.covariance = fit.covariance;
   record.cost = fit.best.cost;

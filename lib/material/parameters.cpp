@@ -49,17 +49,10 @@ void collect(T& object, const std::string& path, List& list) {
 std::vector<MaterialParameter> parameters(Material& material) {
   List list;
   collect(material, "", list);
-  return list;
-}
-
-std::vector<std::string> unique_names(const std::vector<MaterialParameter>& chosen) {
   std::map<std::string, int> count;
-  std::vector<std::string> names;
-  for (const MaterialParameter& p : chosen) {
-    const int n = ++count[p.name];
-    names.push_back(n == 1 ? p.name : p.name + "_" + std::to_string(n));
-  }
-  return names;
+  for (MaterialParameter& p : list)
+    if (const int n = ++count[p.name]; n > 1) p.name += "_" + std::to_string(n);
+  return list;
 }
 
 }  // namespace langer

@@ -12,7 +12,7 @@ namespace langer {
 
 struct MaterialParameter {
   std::string key;   // path
-  std::string name;  // last word of the path: a1, c1, alpha
+  std::string name;  // last word of the path, with a number where it comes again: a1, c1, alpha, c1_2
   std::string unit;
   Range range;  // that the law allows
   double* value = nullptr;
@@ -20,8 +20,5 @@ struct MaterialParameter {
 
 // pointers into `material`, in the order of its listing
 std::vector<MaterialParameter> parameters(Material& material);
-
-// short names for some of them, made unique by a number: c1, c1_2
-std::vector<std::string> unique_names(const std::vector<MaterialParameter>& chosen);
 
 }  // namespace langer

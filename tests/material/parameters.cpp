@@ -34,5 +34,7 @@ TEST_CASE("terms that stand twice are told apart by index, and names by a number
   CHECK(k[3] == "matrix[1].yeoh.a1");
   CHECK(k[9] == "fibres[1].hgo.c1");
   const auto all = parameters(m);
-  CHECK(unique_names({all[0], all[3], all[6], all[9]}) == std::vector<std::string>{"a1", "a1_2", "c1", "c1_2"});
+  CHECK(all[0].name == "a1");
+  CHECK(all[3].name == "a1_2");
+  CHECK(all[9].name == "c1_2");
 }

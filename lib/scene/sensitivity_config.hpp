@@ -1,0 +1,79 @@
+// What the sensitivity stage's YAML may say.
+//   parameters: [{key: matrix.yeoh.a1, lower: 0.1, upper: 0.4}, {key: "fibres[0].hgo.c2", around: 0.5}]
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "material/uniaxial.hpp"
+
+namespace langer {
+
+struct RankedParameter {
+  std::string key;
+  std::optional<double> lower, upper, around;
+  static void fields(auto& v) {
+    v(&RankedParameter::key, "key", unit::none, "path of a number of the material, such as matrix.yeoh.a1", required);
+    v(&RankedParameter::lower, "lower", unit::none, "lower bound, in the unit of the number");
+    v(&RankedParameter::upper, "upper", unit::none, "upper bound");
+    v(&RankedParameter::around, "around", unit::none,
+      "in place of bounds: the value less and plus this part of its size; with neither, the bounds of the fit", positive);
+  }
+};
+
+struct StrainRange {
+  double from = 0, to = 0.6;
+  int points = 61;
+  static void fields(auto& v) {
+    constexpr Range above_minus_one{-1, std::numeric_limits<double>::infinity(), false, true};
+    v(&StrainRange::from, "from", unit::none, "first engineering strain", above_minus_one);
+    v(&StrainRange::to, "to", unit::none, "last engineering strain", above_minus_one);
+    v(&StrainRange::points, "points", unit::none, "number of strains, evenly spaced", between(2, 100000));
+  }
+};
+
+struct SensitivityConfig {
+  std::vector<RankedParameter> parameters;
+  StrainRange strain;
+  int steps = 1000;
+  std::vector<std::array<double, 2>> zones = {{0, 0.2}, {0.2, 0.4}, {0.4, 0.6}};
+  Dilatation dilatation = Dilatation::incompressible;
+  StressMeasure stress = StressMeasure::cauchy;
+  static void fields(auto& v) {
+    v(&SensitivityConfig::parameters, "parameters", unit::none,
+      "the numbers to rank; none means those of the fit, between the fit's bounds");
+    v(&SensitivityConfig::strain, "strain", unit::none, "where the uniaxial stress is looked at");
+    v(&SensitivityConfig::steps, "steps", unit::none, "steps from the lower to the upper bound, n of eq. 40",
+      between(2, 1000000));
+    v(&SensitivityConfig::zones, "zones", unit::none, "ranges of strain over which effects are averaged");
+    v(&SensitivityConfig::dilatation, "dilatation", unit::none,
+      "state of the specimen: the volume term left out (incompressible) or counted");
+    v(&SensitivityConfig::stress, "stress", unit::none, "stress that is looked at");
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> all;
+    if (!(strain.from < strain.to))
+      all.push_back({"strain.to", "found " + std::to_string(strain.to), "more than from, " + std::to_string(strain.from), ""});
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const RankedParameter& p = parameters[i];
+      const std::string at = "parameters[" + std::to_string(i) + "]";
+      if (p.lower.has_value() != p.upper.has_value())
+        all.push_back({at, p.lower ? "lower without upper" : "upper without lower", "both or neither", ""});
+      else if (p.lower && p.around)
+        all.push_back({at + ".around", "around beside lower and upper", "one of the two", ""});
+      else if (p.lower && !(*p.lower < *p.upper))
+        all.push_back({at + ".upper", "found " + std::to_string(*p.upper), "more than lower, " + std::to_string(*p.lower), ""});
+      for (std::size_t j = 0; j < i; ++j)
+        if (parameters[j].key == p.key) all.push_back({at + ".key", "\"" + p.key + "\" a second time", "each number once", ""});
+    }
+    for (std::size_t z = 0; z < zones.size(); ++z)
+      if (!(zones[z][0] < zones[z][1]))
+        all.push_back({"zones[" + std::to_string(z) + "]", "an empty zone", "[from, to] with from < to", ""});
+    return all;
+  }
+};
+
+}  // namespace langer
