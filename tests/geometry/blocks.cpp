@@ -106,7 +106,7 @@ TEST_CASE("the same config gives the same mesh") {
   CHECK(a.mesh.connectivity == b.mesh.connectivity);
 }
 
-TEST_CASE("in the O-grid the edges' frames turn with the rings; global frames do not") {
+TEST_CASE("in the O-grid the edges' frames turn with the rings, global frames do not") {
   const MadeMesh m = from_file("brick_graded");
   double furthest = 0;
   int straight = 0;

@@ -18,7 +18,7 @@ TEST_CASE("frames are orthonormal and right-handed, on distorted cells too") {
     }
 }
 
-TEST_CASE("the frame of the edges turns with the cell; the global frame does not") {
+TEST_CASE("the frame of the edges turns with the cell, the global frame does not") {
   const Mat3 R = turn(37, {0.3, 1, -0.2});
   const Mesh mesh = one_cell([&](const Vec3& x) { return Vec3(R * Vec3(2 * x[0], x[1], 3 * x[2])); });
   CHECK((frames(mesh, Frames::element_edges)[0] - R).norm() < 1e-14);

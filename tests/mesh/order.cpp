@@ -63,7 +63,7 @@ TEST_CASE("turned cells have their edges along the axes, whatever way round they
   }
 }
 
-TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the last digit; one that is not stays") {
+TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the last digit, one that is not stays") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> rounding(-1e-10, 1e-10);
   const auto noisy = [&](Mesh mesh) {

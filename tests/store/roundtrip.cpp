@@ -157,7 +157,7 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(found);
 }
 
-TEST_CASE("curves, columns and summary come back; the CSV names carry units") {
+TEST_CASE("curves, columns and summary come back, the CSV names carry units") {
   const std::string folder = example::folder("curves");
   Curves c;
   c.curves = {{"force", "U_ind", "mm", "force", "N", {0, 0.5, 1}, {0, 0.1, 9.3}}};

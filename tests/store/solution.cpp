@@ -121,7 +121,7 @@ TEST_CASE("a run with another config, other inputs or another mesh starts anew")
   CHECK(SolutionWriter(path, header(false)).n_steps() == 1);
 }
 
-TEST_CASE("a .part that cannot be read is replaced; one that is being written is not") {
+TEST_CASE("a .part that cannot be read is replaced, one that is being written is not") {
   const std::string path = example::folder("part") + "/solution.h5";
   example::write_bytes(path + ".part", "not HDF5");
   SolutionWriter writer(path, header(false));
