@@ -1,7 +1,7 @@
 // Balance of a meshed body: internal force, tangent and the pressures that the tangent uses.   [A23] eqs 31-33
 //   F_int(u) - F_ext - R = 0
 // Vectors have one entry per dof (3 n); the tangent has the free rows only, lower triangle in the pattern's order.
-// A cell's material is materials[body[e]]. The parallel loop over elements lives here; sums are made in element order,
+// A cell's material is materials[body[e]]. The parallel loop over elements lives here; sums are made in order,
 // so the number of threads does not change a bit of the result.
 #pragma once
 
@@ -9,24 +9,28 @@
 
 #include "assembly/dofs.hpp"
 #include "assembly/pattern.hpp"
-#include "element/solid.hpp"
+#include "element/packet_solid.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
 
+enum class Kernel { packets, one_by_one };  // one_by_one: the scalar element, the oracle of tests
+
 class Equilibrium {
  public:
-  Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1);
+  Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1,
+              Kernel kernel = Kernel::packets);
 
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
   bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);
 
-  const VecX& f_int() const { return f_; }                 // (3 n) [N]
-  const std::vector<double>& K() const { return K_; }      // (nnz) [N/mm]
-  const VecX& K_du() const { return K_du_; }               // (3 n) K times du_prescribed [N]
-  double W() const { return W_; }                          // stored energy [N mm]
+  const VecX& f_int() const { return f_; }             // (3 n) [N]
+  const std::vector<double>& K() const { return K_; }  // (nnz) [N/mm]
+  const VecX& K_du() const { return K_du_; }           // (3 n) K times du_prescribed [N]
+  double W() const { return W_; }                      // stored energy [N mm]
   double J_min() const { return J_min_; }
+  double smallest_J(const VecX& u) const;  // over all Gauss points, without assembling
   // what rounding leaves in the residual: kappa eps |grad u| through each element's dilatation gradient [N]
   double rounding_floor() const { return floor_; }
 
@@ -45,12 +49,26 @@ class Equilibrium {
   ElementNodes element_displacements(const VecX& u, int e) const;
 
  private:
+  // up to eight cells of one material; short blocks repeat their last cell
+  struct Block {
+    int cells[Packet::lanes];
+    int n;
+  };
+  void make_blocks();
+  void load(const Block& block, const VecX& u, Packet* q) const;
+  void compute(const Block& block, const VecX& u, bool with_tangent, PacketElement& out) const;
+  void add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed);
+
   const Mesh& mesh_;
   std::vector<Material> materials_;
   Formulation formulation_;
   Dofs dofs_;
   Pattern pattern_;
   int threads_;
+  Kernel kernel_;
+  std::vector<Block> blocks_;
+  std::vector<PacketGeometry> packet_geometry_;  // per block
+  std::vector<std::vector<PacketFibre>> packet_fibres_;
   std::vector<ElementGeometry> geometry_;
   std::vector<std::vector<Vec3>> fibres_;
   std::vector<double> p_;          // per element (mean dilatation) or per Gauss point

@@ -43,7 +43,8 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
         int r = dofs.equation[3 * nodes[i / 3] + i % 3], c = dofs.equation[3 * nodes[j / 3] + j % 3];
         if (r < 0 || c < 0) continue;
         if (r < c) std::swap(r, c);
-        const auto first = pattern.row.begin() + pattern.column_start[c], last = pattern.row.begin() + pattern.column_start[c + 1];
+        const auto first = pattern.row.begin() + pattern.column_start[c],
+                   last = pattern.row.begin() + pattern.column_start[c + 1];
         *slot = static_cast<int>(std::lower_bound(first, last, r) - pattern.row.begin());
       }
   }

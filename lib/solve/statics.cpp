@@ -5,8 +5,6 @@
 #include <cmath>
 #include <ctime>
 
-#include "tensor/kinematics.hpp"
-
 namespace langer {
 
 namespace {
@@ -121,19 +119,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   return out;
 }
 
-bool Statics::admissible(const VecX& u) const {
-  const Mesh& mesh = equilibrium_.mesh();
-  bool ok = true;
-#pragma omp parallel for schedule(static) num_threads(options_.threads) reduction(&& : ok) if (options_.threads > 1)
-  for (int e = 0; e < mesh.n_cells(); ++e) {
-    const ElementNodes q = equilibrium_.element_displacements(u, e);
-    for (int g = 0; g < Hex8::n_gauss; ++g) {
-      const Mat3 H = q.transpose() * equilibrium_.geometry(e).dN_dX[g];
-      ok = ok && 1 + volume_change(H) > 0.02;
-    }
-  }
-  return ok && u.allFinite();
-}
+bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
 std::optional<VecX> Statics::correction() {
   const Dofs& dofs = equilibrium_.dofs();

@@ -1,0 +1,48 @@
+// Eight doubles that are computed with at once: one lane per element.
+// The compiler maps it to the widest registers of the machine; laws and kernels are templates on the number type.
+#pragma once
+
+#include <cmath>
+
+namespace langer {
+
+struct Packet {
+  static constexpr int lanes = 8;
+  typedef double Lanes __attribute__((vector_size(64)));
+  Lanes v{};
+  Packet() = default;
+  Packet(double x) : v(Lanes{} + x) {}
+  explicit Packet(Lanes x) : v(x) {}
+  double operator[](int i) const { return v[i]; }
+  void set(int i, double x) { v[i] = x; }
+  Packet& operator+=(const Packet& b) { return v += b.v, *this; }
+  Packet& operator-=(const Packet& b) { return v -= b.v, *this; }
+  Packet& operator*=(const Packet& b) { return v *= b.v, *this; }
+  friend Packet operator+(const Packet& a, const Packet& b) { return Packet(a.v + b.v); }
+  friend Packet operator-(const Packet& a, const Packet& b) { return Packet(a.v - b.v); }
+  friend Packet operator*(const Packet& a, const Packet& b) { return Packet(a.v * b.v); }
+  friend Packet operator/(const Packet& a, const Packet& b) { return Packet(a.v / b.v); }
+  friend Packet operator-(const Packet& a) { return Packet(-a.v); }
+  friend Packet exp(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::exp(a.v[i]);
+    return r;
+  }
+  friend Packet cbrt(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::cbrt(a.v[i]);
+    return r;
+  }
+};
+
+// x where test >= 0, else 0
+inline Packet where_not_negative(const Packet& test, const Packet& x) { return Packet(test.v >= 0 ? x.v : Packet::Lanes{}); }
+inline double where_not_negative(double test, double x) { return test >= 0 ? x : 0; }
+
+inline double smallest(const Packet& a) {
+  double m = a.v[0];
+  for (int i = 1; i < Packet::lanes; ++i) m = a.v[i] < m || !(a.v[i] == a.v[i]) ? a.v[i] : m;
+  return m;
+}
+
+}  // namespace langer
