@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/input_path.hpp"
+#include "config/writer.hpp"
 #include "fit/uniaxial_fit.hpp"
 
 namespace langer {
@@ -75,8 +76,8 @@ inline std::vector<Complaint> FitConfig::complaints() const {
   std::vector<Complaint> all;
   if (parameters.empty()) all.push_back({"parameters", "an empty list", "one number to find at least", ""});
   if (data.strain_from && data.strain_to && *data.strain_from >= *data.strain_to)
-    all.push_back({"data.strain_to", "found " + std::to_string(*data.strain_to),
-                   "more than strain_from, " + std::to_string(*data.strain_from), ""});
+    all.push_back({"data.strain_to", "found " + number_text(*data.strain_to),
+                   "more than strain_from, " + number_text(*data.strain_from), ""});
   Material copy = law;
   const std::vector<MaterialParameter> known = langer::parameters(copy);
   std::vector<std::string> keys;
@@ -98,20 +99,19 @@ inline std::vector<Complaint> FitConfig::complaints() const {
     if (!seen.insert(p.key).second) all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
     const Range& range = known[static_cast<std::size_t>(found - keys.begin())].range;
     if (!(p.lower < p.upper)) {
-      all.push_back({at + "upper", "found " + std::to_string(p.upper), "more than lower, " + std::to_string(p.lower), ""});
+      all.push_back({at + "upper", "found " + number_text(p.upper), "more than lower, " + number_text(p.lower), ""});
       continue;
     }
     if (p.lower < range.low || (p.lower == range.low && !range.low_included))
       all.push_back(
-          {at + "lower", "found " + std::to_string(p.lower),
-           std::string("a number ") + (range.low_included ? ">= " : "> ") + std::to_string(range.low) + ", as the law asks",
-           ""});
+          {at + "lower", "found " + number_text(p.lower),
+           std::string("a number ") + (range.low_included ? ">= " : "> ") + number_text(range.low) + ", as the law asks", ""});
     if (p.upper > range.high)
-      all.push_back({at + "upper", "found " + std::to_string(p.upper),
-                     "a number <= " + std::to_string(range.high) + ", as the law asks", ""});
+      all.push_back(
+          {at + "upper", "found " + number_text(p.upper), "a number <= " + number_text(range.high) + ", as the law asks", ""});
     if (free[i].start < p.lower || free[i].start > p.upper)
-      all.push_back({at + (p.start ? "start" : "key"), "starts at " + std::to_string(free[i].start),
-                     "a value between " + std::to_string(p.lower) + " and " + std::to_string(p.upper),
+      all.push_back({at + (p.start ? "start" : "key"), "starts at " + number_text(free[i].start),
+                     "a value between " + number_text(p.lower) + " and " + number_text(p.upper),
                      p.start ? "" : "the start is the law's own value unless `start` is given"});
   }
   return all;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "config/writer.hpp"
 #include "material/uniaxial.hpp"
 
 namespace langer {
@@ -56,7 +57,7 @@ struct SensitivityConfig {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> all;
     if (!(strain.from < strain.to))
-      all.push_back({"strain.to", "found " + std::to_string(strain.to), "more than from, " + std::to_string(strain.from), ""});
+      all.push_back({"strain.to", "found " + number_text(strain.to), "more than from, " + number_text(strain.from), ""});
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const RankedParameter& p = parameters[i];
       const std::string at = "parameters[" + std::to_string(i) + "]";
@@ -65,7 +66,7 @@ struct SensitivityConfig {
       else if (p.lower && p.around)
         all.push_back({at + ".around", "around beside lower and upper", "one of the two", ""});
       else if (p.lower && !(*p.lower < *p.upper))
-        all.push_back({at + ".upper", "found " + std::to_string(*p.upper), "more than lower, " + std::to_string(*p.lower), ""});
+        all.push_back({at + ".upper", "found " + number_text(*p.upper), "more than lower, " + number_text(*p.lower), ""});
       for (std::size_t j = 0; j < i; ++j)
         if (parameters[j].key == p.key) all.push_back({at + ".key", "\"" + p.key + "\" a second time", "each number once", ""});
     }

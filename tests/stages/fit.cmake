@@ -1,0 +1,75 @@
+# langer-fit and langer-sensitivity as programs: what they write, what they refuse, and that a refusal leaves old results alone.
+#   cmake -DROOT=<project> -DBIN=<programs> -DWORK=<folder> -P fit.cmake
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+function(run expected_code expected_text)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE said)
+  if(NOT code EQUAL expected_code)
+    message(FATAL_ERROR "${ARGN}\nended with ${code}, expected ${expected_code}\n${out}${said}")
+  endif()
+  string(FIND "${out}${said}" "${expected_text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "${ARGN}\nsaid\n${out}${said}\nwithout \"${expected_text}\"")
+  endif()
+endfunction()
+
+# the three laws of Table 1
+run(0 "a1 and c1 are correlated" ${BIN}/langer-fit ${ROOT}/configs/fit/abdomen.yaml -o hgo_yeoh/material.h5)
+run(0 "starts with a negative slope" ${BIN}/langer-fit ${ROOT}/configs/fit/abdomen_yeoh.yaml -o yeoh/material.h5)
+run(0 "\"mean_error_percent\": 2.3" ${BIN}/langer-fit ${ROOT}/configs/fit/abdomen_hgo.yaml -o hgo/material.h5 --json)
+file(STRINGS ${WORK}/hgo_yeoh/fit.csv lines)
+list(LENGTH lines count)
+list(GET lines 0 header)
+if(NOT count EQUAL 32 OR NOT header STREQUAL "strain,cauchy_stress_MPa,model_MPa,error_percent")
+  message(FATAL_ERROR "fit.csv has ${count} lines and the columns ${header}")
+endif()
+
+# equal inputs give equal files
+set(ENV{SOURCE_DATE_EPOCH} 0)
+foreach(copy 1 2)
+  run(0 "" ${BIN}/langer-fit ${ROOT}/configs/fit/abdomen.yaml -o same/material.h5 --quiet)
+  file(SHA256 ${WORK}/same/material.h5 hash_${copy})
+endforeach()
+if(NOT hash_1 STREQUAL hash_2)
+  message(FATAL_ERROR "two fits of one config differ")
+endif()
+
+# sensitivity from a fit, from a file, with the fit's own bounds
+run(0 "" ${BIN}/langer-sensitivity ${ROOT}/configs/sensitivity/abdomen.yaml --material hgo_yeoh/material.h5 -o s/sensitivity.h5)
+run(0 "mu_star_a1_zone3" ${BIN}/langer-sensitivity ${ROOT}/configs/sensitivity/abdomen.yaml
+    --material ${ROOT}/configs/material/abdomen_hgo_yeoh.yaml -o s2/sensitivity.h5 --json)
+file(STRINGS ${WORK}/s/sensitivity_zones.csv lines)
+list(LENGTH lines count)
+if(NOT count EQUAL 16)
+  message(FATAL_ERROR "5 parameters in 3 zones made ${count} lines")
+endif()
+file(WRITE ${WORK}/own_bounds.yaml "{}\n")
+run(0 "3 parameters" ${BIN}/langer-sensitivity own_bounds.yaml --material yeoh/material.h5 -o s3/sensitivity.h5)
+run(2 "the material comes from no fit" ${BIN}/langer-sensitivity own_bounds.yaml
+    --material ${ROOT}/configs/material/abdomen_yeoh.yaml -o s4/sensitivity.h5)
+file(WRITE ${WORK}/unknown.yaml "parameters:\n  - {key: matrix.yeoh.a9, around: 0.5}\n")
+run(2 "unknown.yaml:2:6: parameters[0].key: the material has no number \"matrix.yeoh.a9\"" ${BIN}/langer-sensitivity unknown.yaml
+    --material yeoh/material.h5 -o s4/sensitivity.h5)
+
+# bad curves: exit code 3, the place, and what was there stays
+file(SHA256 ${WORK}/yeoh/material.h5 before)
+file(READ ${ROOT}/configs/fit/abdomen_yeoh.yaml config)
+foreach(case "nan|0.1,nan|curve.csv:3:5: found nan; expected a finite number"
+             "cells|0.1|curve.csv:3:1: found 1 cells"
+             "few|0.1,0.2|curve.csv: curve: 2 points in the fitted range; expected as many as there are parameters (3)")
+  string(REPLACE "|" ";" case "${case}")
+  list(GET case 0 name)
+  list(GET case 1 line)
+  list(GET case 2 message)
+  file(WRITE ${WORK}/${name}/curve.csv "strain,cauchy_stress_MPa\n0,0\n${line}\n")
+  string(REPLACE "../../data/abdomen_socci2007_reconstructed.csv" "curve.csv" changed "${config}")
+  file(WRITE ${WORK}/${name}/fit.yaml "${changed}")
+  run(3 "${message}" ${BIN}/langer-fit ${name}/fit.yaml -o yeoh/material.h5)
+endforeach()
+file(WRITE ${WORK}/absent.yaml "${changed}")
+run(3 "data.file" ${BIN}/langer-fit absent.yaml -o yeoh/material.h5)
+file(SHA256 ${WORK}/yeoh/material.h5 after)
+if(NOT before STREQUAL after)
+  message(FATAL_ERROR "a refused fit has touched the result that was there")
+endif()
