@@ -87,7 +87,12 @@ void write_text_file(const std::string& path, const std::string& text) {
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  if (!out) cannot_write(part);
+  if (!out) {
+    const int reason = errno;
+    std::remove(part.c_str());
+    errno = reason;
+    cannot_write(path);
+  }
   rename_durably(part, path);
 }
 

@@ -26,6 +26,7 @@ inline std::string unit_of(const std::string& name) {
     if (name.starts_with(word)) return "mm";
   for (const char* word : {"force", "reaction"})
     if (name.starts_with(word)) return "N";
+  if (name.starts_with("energy")) return "N mm";
   return "-";
 }
 
