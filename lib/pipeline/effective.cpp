@@ -4,27 +4,12 @@
 
 #include "config/reader.hpp"
 #include "material/material.hpp"
-#include "scene/gather_config.hpp"
-#if __has_include("scene/mesh_config.hpp")
-#include "scene/mesh_config.hpp"
-#define HAVE_MESH
-#endif
-#if __has_include("scene/fit_config.hpp")
 #include "scene/fit_config.hpp"
-#define HAVE_FIT
-#endif
-#if __has_include("scene/sensitivity_config.hpp")
-#include "scene/sensitivity_config.hpp"
-#define HAVE_SENSITIVITY
-#endif
-#if __has_include("scene/solve_config.hpp")
-#include "scene/solve_config.hpp"
-#define HAVE_SOLVE
-#endif
-#if __has_include("scene/post_config.hpp")
+#include "scene/gather_config.hpp"
+#include "scene/mesh_config.hpp"
 #include "scene/post_config.hpp"
-#define HAVE_POST
-#endif
+#include "scene/sensitivity_config.hpp"
+#include "scene/solve_config.hpp"
 
 namespace langer {
 
@@ -44,22 +29,8 @@ Effective check(Tree tree, const std::string& folder) {
 
 Effective effective_config(const StageSpec& stage, Tree config, const std::string& folder) {
   static const std::map<std::string, Check> checks{
-#ifdef HAVE_MESH
-      {"mesh", check<MeshConfig>},
-#endif
-#ifdef HAVE_FIT
-      {"fit", check<FitConfig>},
-#endif
-#ifdef HAVE_SENSITIVITY
-      {"sensitivity", check<SensitivityConfig>},
-#endif
-#ifdef HAVE_SOLVE
-      {"solve", check<SolveConfig>},
-#endif
-#ifdef HAVE_POST
-      {"post", check<PostConfig>},
-#endif
-      {"gather", check<GatherConfig>},
+      {"mesh", check<MeshConfig>},   {"fit", check<FitConfig>},   {"sensitivity", check<SensitivityConfig>},
+      {"solve", check<SolveConfig>}, {"post", check<PostConfig>}, {"gather", check<GatherConfig>},
   };
   return checks.at(stage.name)(std::move(config), folder);
 }

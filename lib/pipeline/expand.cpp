@@ -110,7 +110,9 @@ class Expansion {
     for (const Source& s : n.sources) {
       if (s.node.empty()) continue;
       visit(*pipeline_.node(s.node));
-      for (const Axis* axis : axes_of_[s.node]) below.push_back(axis->name);
+      for (const auto& [axis, label] : s.at) check_member(n, s, axis, label);
+      for (const Axis* axis : axes_of_[s.node])
+        if (!chosen(s, axis->name)) below.push_back(axis->name);
     }
     for (const std::string& name : n.over)
       if (!contains(below, name))
@@ -121,6 +123,33 @@ class Expansion {
     axes_of_[n.name] = ordered(found);
     open_.pop_back();
     order_.push_back(&n);
+  }
+
+  // label of the axis that the source is fixed to, or nullptr
+  static const std::string* chosen(const Source& s, const std::string& axis) {
+    for (const auto& [name, label] : s.at)
+      if (name == axis) return &label;
+    return nullptr;
+  }
+
+  void check_member(const Node& n, const Source& s, const std::string& axis, const std::string& label) {
+    std::vector<std::string> known;
+    for (const Axis* a : axes_of_[s.node]) known.push_back(a->name);
+    const std::string key = fmt::format("nodes.{}.{}.{}", n.name, s.port, axis);
+    if (!contains(known, axis))
+      return f_.say(s.place, key, fmt::format("the node {} has no such axis", s.node),
+                    known.empty() ? "none: it has one member" : "one of " + list_words(known));
+    std::vector<std::string> labels;
+    for (const Axis* a : axes_of_[s.node])
+      if (a->name == axis)
+        for (const AxisPoint& point : a->points) labels.push_back(point.label);
+    if (!contains(labels, label)) f_.say(s.place, key, "found " + label, "one of " + list_words(labels));
+  }
+
+  static std::size_t index_of(const Axis& axis, const std::string& label) {
+    std::size_t i = 0;
+    while (axis.points[i].label != label) ++i;
+    return i;
   }
 
   static bool contains_node(const std::vector<const Node*>& list, const Node& n) {
@@ -157,29 +186,42 @@ class Expansion {
     return folder;
   }
 
-  void add_steps(const Node& n) {
-    Tree written = n.config;
-    if (n.config.kind == Tree::Kind::scalar) {
+  // the config as written, from its file where one is named
+  Tree written(const Node& n, const Tree& config) {
+    Tree tree = config;
+    if (config.kind == Tree::Kind::scalar) {
       try {
-        written = read_(n.config.scalar);
+        tree = read_(config.scalar);
       } catch (const Failure& failure) {
-        if (failure.code() == Exit::input)
-          return f_.say(n.config.place, fmt::format("nodes.{}.config", n.name), failure.what(), "a YAML file",
-                        "paths are relative to the working directory");
-        f_.errors.insert(f_.errors.end(), failure.errors().begin(), failure.errors().end());
-        return;
+        if (failure.code() != Exit::input) throw;
+        throw Failure(Exit::config, Error{config.place, fmt::format("nodes.{}.config", n.name), failure.what(), "a YAML file",
+                                          "paths are relative to the working directory"});
       }
     }
-    if (written.place.file.empty()) written.place = n.place;
+    if (tree.place.file.empty()) tree.place = n.place;
+    return tree;
+  }
+
+  Tree config_at(const Node& n, const Point& at) {
+    const Tree* source = &n.config;
+    for (const Axis& axis : n.sweep)
+      if (const Tree& other = axis.points[at.at(axis.name)].config; other.kind == Tree::Kind::scalar) source = &other;
+    Tree config = written(n, *source);
+    for (const auto& [key, value] : n.settings) set_value(config, key, value);
+    for (const Axis& axis : n.sweep)
+      for (const auto& [key, value] : axis.points[at.at(axis.name)].settings) set_value(config, key, value);
+    return config;
+  }
+
+  void add_steps(const Node& n) {
     for (const Point& at : points(axes_of_[n.name])) {
-      Step step{n.name, n.stage, member(axes_of_[n.name], at) + n.name, written, {}, true};
+      Step step{n.name, n.stage, member(axes_of_[n.name], at) + n.name, {}, {}, true};
       try {
-        for (const auto& [key, value] : n.settings) set_value(step.config, key, value);
-        for (const Axis& axis : n.sweep)
-          for (const auto& [key, value] : axis.points[at.at(axis.name)].settings) set_value(step.config, key, value);
+        step.config = config_at(n, at);
       } catch (const Failure& failure) {
-        f_.errors.insert(f_.errors.end(), failure.errors().begin(), failure.errors().end());
-        return;
+        for (const Error& e : failure.errors())
+          if (std::none_of(f_.errors.begin(), f_.errors.end(), [&](const Error& known) { return text(known) == text(e); }))
+            f_.errors.push_back(e);
       }
       for (const Source& s : n.sources) add_inputs(n, s, at, step);
       steps_.push_back(std::move(step));
@@ -195,15 +237,17 @@ class Expansion {
     const std::vector<const Axis*>& axes = axes_of_[s.node];
     std::vector<const Axis*> gathered;
     for (const Axis* axis : axes)
-      if (contains(n.over, axis->name)) gathered.push_back(axis);
-    std::vector<Point> members = points(gathered);
-    for (Point& p : members) {
-      const Point along = p;
+      if (contains(n.over, axis->name) && !chosen(s, axis->name)) gathered.push_back(axis);
+    const std::vector<Point> members = points(gathered);
+    for (const Point& p : members) {
+      Point full = p;
       for (const Axis* axis : axes)
-        if (const auto it = at.find(axis->name); it != at.end()) p[axis->name] = it->second;
-      step.inputs.push_back({s.port, member(axes, p) + s.node + "/" + from.stage->output, true, s.place});
+        if (const std::string* label = chosen(s, axis->name))
+          full[axis->name] = index_of(*axis, *label);
+        else if (const auto it = at.find(axis->name); it != at.end())
+          full[axis->name] = it->second;
+      step.inputs.push_back({s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
       used_.insert(step.inputs.back().path);
-      p = along;
     }
     if (n.stage->port(s.port)->several) describe_members(gathered, members, step);
   }

@@ -119,6 +119,12 @@ class Reading {
     return n;
   }
 
+  std::string label_text(const Tree& tree, const std::string& path) {
+    bool is_number = false;
+    text(tree, path);
+    return label_of(tree, is_number);
+  }
+
   void source(const Tree& tree, const std::string& path, const Port& port, Node& n) {
     const Tree* given = tree.find(port.name);
     const std::string key = join(path, port.name);
@@ -126,12 +132,21 @@ class Reading {
       if (port.required) f.say(tree.place, key, "missing", fmt::format("a node or a file: {}", port.says));
       return;
     }
-    const std::string wanted = text(*given, key);
+    Source s{port.name, "", "", {}, given->place};
+    std::string wanted;
+    if (given->kind == Tree::Kind::map) {
+      if (const Tree* node = need(*given, key, "node", "a node")) wanted = text(*node, key + ".node");
+      for (const auto& [axis, label] : given->map)
+        if (axis != "node") s.at.push_back({axis, label_text(label, join(key, axis))});
+    } else
+      wanted = text(*given, key);
     if (wanted.empty()) return;
     if (std::find(names_.begin(), names_.end(), wanted) != names_.end()) {
-      n.sources.push_back({port.name, wanted, "", given->place});
-    } else if (wanted.find_first_of("./") != std::string::npos) {
-      n.sources.push_back({port.name, "", wanted, given->place});
+      s.node = wanted;
+      n.sources.push_back(s);
+    } else if (given->kind != Tree::Kind::map && wanted.find_first_of("./") != std::string::npos) {
+      s.file = wanted;
+      n.sources.push_back(s);
     } else {
       const std::string near = nearest(wanted, names_);
       f.say(given->place, key, fmt::format("there is no node \"{}\"", wanted), "one of " + list_words(names_) + ", or a file",
@@ -162,8 +177,12 @@ class Reading {
         for (const auto& [label, value] : variants->map) {
           const std::string here = path + ".variants." + label;
           if (!is_label(label)) bad_name(value.place, path + ".variants", label);
-          // an empty variant leaves the config as it is
-          a.points.push_back({label, value.kind == Tree::Kind::null ? Settings{} : settings(value, here)});
+          AxisPoint point{label, {}, {}};
+          if (value.kind == Tree::Kind::scalar)
+            point.config = value;
+          else if (value.kind != Tree::Kind::null)  // an empty variant leaves the config as it is
+            point.settings = settings(value, here);
+          a.points.push_back(std::move(point));
         }
     } else {
       known_keys(tree, path, {"key", "keys", "values", "unit", "variants"});
@@ -196,7 +215,7 @@ class Reading {
         continue;
       }
       bool is_number = false;
-      AxisPoint point{label_of(value, is_number), {}};
+      AxisPoint point{label_of(value, is_number), {}, {}};
       a.numbers = a.numbers && is_number;
       if (!is_label(point.label)) bad_name(value.place, here, point.label);
       for (const std::string& key : keys) point.settings.push_back({key, value});

@@ -10,9 +10,11 @@
 //     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
 //     table: {stage: gather, curves: post, over: [code, alpha]}
 //
-// A port takes a node's name or a file. `config` is a file, or a map written in place, or absent (all defaults).
-// Paths are relative to the working directory. An axis that two nodes declare is one axis: its points must agree.
-// Refused: unknown keys, stages, ports and nodes; names that are not safe in file names and in make.
+// A variant is a map of settings, or the path of a config in place of the node's. A port takes a node's name, one member of it
+// ({node: fit, law: HGO-Yeoh}) or a file.
+// `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to the working directory. An axis
+// that two nodes declare is one axis: its points must agree. Refused: unknown keys, stages, ports and nodes; names that are not
+// safe in file names and in make.
 #pragma once
 
 #include <string>
@@ -28,6 +30,7 @@ using Settings = std::vector<std::pair<std::string, Tree>>;  // key path -> valu
 
 struct AxisPoint {
   std::string label;  // "30", "FER"
+  Tree config;        // scalar: a file in place of the node's config
   Settings settings;
 };
 
@@ -40,7 +43,8 @@ struct Axis {
 
 struct Source {
   std::string port;
-  std::string node, file;  // one of them
+  std::string node, file;                               // one of them
+  std::vector<std::pair<std::string, std::string>> at;  // axis -> label: the member of the node that is meant
   Place place;
 };
 
