@@ -79,6 +79,12 @@ Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>&
   return mesh;
 }
 
+std::vector<Complaint> Block::complaints() const {
+  const long long cells = 1LL * divisions[0] * divisions[1] * divisions[2];
+  if (cells <= most_cells) return {};
+  return {{"divisions", fmt::format("found {} cells", cells), fmt::format("at most {}", most_cells), ""}};
+}
+
 std::vector<Complaint> contradictions(const Block& block, const Points& points) {
   std::vector<std::string> notes;
   return complaints_of([&] { grid_lines(block, points, notes); });

@@ -16,6 +16,8 @@
 
 namespace langer {
 
+inline constexpr long long most_cells = 4'000'000;  // beyond, a number is more likely a slip than a wish
+
 struct TowardsCentre {
   double edge = 0, within = 0;
   static void fields(auto& v) {
@@ -37,11 +39,12 @@ struct Block {
   std::optional<TowardsTop> top;
   static void fields(auto& v) {
     v(&Block::origin, "origin", unit::mm, "corner with the least coordinates");
-    v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, positive);
+    v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
     v(&Block::divisions, "divisions", unit::none, "number of cells along x, y, z", required, between(1, 1000));
     v(&Block::centre, "centre", unit::none, "refinement towards the centre in x and z; none: even cells");
     v(&Block::top, "top", unit::none, "refinement towards the top in y; none: even cells");
   }
+  std::vector<Complaint> complaints() const;
 };
 
 struct Core {
@@ -73,7 +76,7 @@ struct GradedBlock {
   std::optional<TowardsTop> top;
   static void fields(auto& v) {
     v(&GradedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
-    v(&GradedBlock::size, "size", unit::mm, "lengths along x, y, z", required, positive);
+    v(&GradedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
     v(&GradedBlock::core, "core", unit::none, "square core around the centre", required);
     v(&GradedBlock::rings, "rings", unit::none, "rings from the core outwards, at least one", required);
     v(&GradedBlock::outer_cells, "outer_cells", unit::none, "cells from the last ring to the sides, growing outwards", required,

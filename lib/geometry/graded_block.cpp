@@ -14,6 +14,10 @@ namespace langer {
 
 std::vector<Complaint> GradedBlock::complaints() const {
   std::vector<Complaint> found;
+  long long across = outer_cells;
+  for (const Ring& ring : rings) across += ring.cells;
+  if (const long long cells = layers * (1LL * core.cells * core.cells + 4LL * core.cells * across); cells > most_cells)
+    found.push_back({"layers", fmt::format("found {} cells in all", cells), fmt::format("at most {}", most_cells), ""});
   if (core.cells % 2 != 0) found.push_back({"core.cells", fmt::format("found {}", core.cells), "an even number", ""});
   if (rings.empty()) found.push_back({"rings", "found an empty list", "at least one ring", ""});
   double inside = core.half_width * std::numbers::sqrt2;

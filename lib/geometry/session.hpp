@@ -43,7 +43,8 @@ Mesh meshed_by_gmsh(const std::string& key, Build build) {
   } catch (...) {  // gmsh 4.8 throws texts, later ones exceptions
     std::string words;
     gmsh::logger::getLastError(words);
-    throw Failure(Exit::config, Error{{}, key, "gmsh cannot mesh this: " + words, "", ""});
+    throw Failure(Exit::config,
+                  Error{{}, key, "gmsh cannot mesh this: " + (words.empty() ? "no reason given" : words), "", ""});
   }
 }
 

@@ -151,6 +151,7 @@ TEST_CASE("what a mesh config gets wrong is said at its line") {
               "sets.s.of: found \"roof\"; expected one of x_min"));
   CHECK(holds(refusal("geometry:\n  block:\n    size: [4, 4, 4]\n    divisions: [2, 2, 2]\n    centre: {edge: 3}\n"),
               "mesh.yaml:5:14: geometry.block.centre.edge: 1 cells of 3 mm are longer than 2 mm"));
+  CHECK(holds(refusal("geometry: {block: {size: [4, 4, 4], divisions: [1000, 1000, 1000]}}\n"), "found 1000000000 cells"));
   CHECK(holds(refusal("geometry: {block: {size: [4, 0, 4], divisions: [2, 2, 2]}}\n"), "geometry.block.size[1]"));
 }
 
