@@ -1,4 +1,4 @@
-// Linear least squares in a box:  min |A x - b|^2,  lower <= x <= upper.
+// Linear least squares in a box [SP95]:  min |A x - b|^2,  lower <= x <= upper.
 // An active set method: the answer is exact, and says which variables rest on their bounds.
 //   A  (m, n) of full column rank;  lower <= upper, infinite bounds allowed
 #pragma once

@@ -177,14 +177,14 @@ TEST_CASE("with every modulus positive the best fit of the curve has no fibre") 
   CHECK(f.best.cost == doctest::Approx(cost).epsilon(1e-12));
 }
 
-TEST_CASE("one percent of noise leaves the fibre of a single test undetermined by tens of percent") {
-  // the standard errors of the linearised problem for noise of 1 percent of the largest stress
+TEST_CASE("one percent of noise leaves errors of 44, 45, 8, 46 and 24 percent: one test along the fibre does not identify it") {
+  // standard errors of the linearised problem for noise of 1 percent of the largest stress
   const Curve curve = abdomen();
   const UniaxialFit f = fit_uniaxial(curve, hgo_yeoh, hgo_yeoh_parameters());
   const MatX J = f.best.J;
   const MatX cov = std::pow(0.01 * curve.stress.back(), 2) * (J.transpose() * J).inverse();
-  for (int i : {0, 1, 3}) CHECK(std::sqrt(cov(i, i)) > 0.3 * std::abs(f.best.p[i]));
-  CHECK(std::sqrt(cov(2, 2)) < 0.15 * f.best.p[2]);
+  const double percent[] = {44, 45, 8, 46, 24};
+  for (int i = 0; i < 5; ++i) CHECK(std::abs(100 * std::sqrt(cov(i, i)) / std::abs(f.best.p[i]) - percent[i]) <= 0.5);
 }
 
 TEST_CASE("too few points and a curve without stress are refused") {
