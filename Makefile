@@ -1,0 +1,70 @@
+# Langer: from a bare Debian 12 to results.
+#   make                      set up, build, run pipelines/indentation.yaml
+#   make test                 set up, build, run every test
+#   make help                 the other targets
+PIPELINE ?= pipelines/indentation.yaml
+JOBS     ?= $(shell nproc)
+LAUNCH   ?=
+
+build   := build
+run      = runs/$(basename $(notdir $(PIPELINE)))
+programs := $(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp))
+packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \
+  libsuitesparse-dev libsundials-dev libopenblas-pthread-dev doctest-dev nlohmann-json3-dev gnuplot-nox
+
+.NOTPARALLEL:
+.PHONY: all deps configure build plan run test bench clean help
+all: run
+
+# As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
+# Without dpkg the packages go by other names: then CMake says what it misses.
+deps:
+	@command -v dpkg-query >/dev/null || exit 0; \
+	installed=$$(dpkg-query -W -f '$${Package}=$${Status}\n' $(packages) 2>/dev/null); \
+	missing=; \
+	for p in $(packages); do \
+	  echo "$$installed" | grep -qx "$$p=install ok installed" || missing="$$missing $$p"; \
+	done; \
+	[ -z "$$missing" ] && exit 0; \
+	install="apt-get install -y --no-install-recommends$$missing"; \
+	if [ "$$(id -u)" = 0 ]; then sudo=; \
+	elif sudo -n true 2>/dev/null; then sudo="sudo -n"; \
+	else echo "missing packages; please run:"; echo "  sudo $$install"; exit 1; fi; \
+	echo "installing:$$missing"; \
+	$$sudo apt-get update -qq && $$sudo env DEBIAN_FRONTEND=noninteractive $$install
+
+configure: deps
+	@[ -f $(build)/CMakeCache.txt ] || cmake -S . -B $(build) -G Ninja -DCMAKE_BUILD_TYPE=Release
+
+build: configure
+	@cmake --build $(build) --parallel $(JOBS) --target $(programs)
+
+plan: build
+	@$(build)/bin/langer-plan $(PIPELINE) -o $(run)
+
+run: plan
+	@$(MAKE) --no-print-directory -C $(run) $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
+	@echo "results: $(run)"
+
+test: configure
+	@cmake --build $(build) --parallel $(JOBS)
+	@ctest --test-dir $(build) --output-on-failure -j2
+
+bench: configure
+	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
+	@$(build)/bin/langer-bench
+
+clean:
+	rm -rf $(build)
+
+help:
+	@echo "make                          set up, build, run $(PIPELINE)"
+	@echo "make build                    set up and build the programs in $(build)/bin"
+	@echo "make plan PIPELINE=file       check a pipeline; write its configs and Makefile to $(run)"
+	@echo "make run  PIPELINE=file       ... and run what is new or changed"
+	@echo "         JOBS=4               steps at the same time"
+	@echo "         LAUNCH=\"srun -n1\"    put before every command"
+	@echo "         STRICT=1             rebuilt programs make their results again"
+	@echo "make test                     set up, build, run every test"
+	@echo "make bench                    time the solver"
+	@echo "make clean                    remove $(build); results in runs/ stay"
