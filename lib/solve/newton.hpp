@@ -34,7 +34,7 @@ struct Problem {
 struct NewtonOptions {
   static constexpr const char* key = "newton";
   int iterations = 25;
-  double relative = 1e-9;
+  double relative = 1e-7;
   double absolute = 1e-12;
   double largest_move = 1;
   static void fields(auto& v) {
