@@ -26,7 +26,8 @@ Mat3 contact_frame(const Vec3& n) {
   return frame;
 }
 
-LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0, const Vec3& r) {
+LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0,
+                            const Vec3& r) {
   LinearisedContact out;
   const Vec3 n = normal(contact.shape, x - c);
   const double bend = curvature(contact.shape, x - c);
@@ -52,8 +53,8 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
   return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
 }
 
-ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
-                             const Vec3& c0, const std::vector<Vec3>& r) {
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
+                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r) {
   ContactDefect defect;
   double largest = 0, motion = (c - c0).norm();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {

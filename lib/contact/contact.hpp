@@ -23,8 +23,8 @@ struct RigidContact {
   std::string name;
   Indenter shape;
   double mu = 0;
-  std::vector<int> nodes;       // candidates
-  std::vector<Waypoint> motion; // ascending t; before the first (0 at t = 0) and between them linear
+  std::vector<int> nodes;        // candidates
+  std::vector<Waypoint> motion;  // ascending t; before the first (0 at t = 0) and between them linear
 };
 
 Vec3 indenter_displacement(const RigidContact& contact, double t);
@@ -39,7 +39,8 @@ struct LinearisedContact {
   Vec3 q;
   Mat3 D;
 };
-LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0, const Vec3& r);
+LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0,
+                            const Vec3& r);
 
 // r turned by the smallest rotation that takes n_old to n_new
 Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new);
@@ -50,12 +51,12 @@ struct ContactDefect {
   double cone = 0;             // largest of |r_t| - mu r_n and -r_n, relative to the largest reaction
   double complementarity = 0;  // largest |r.(x_t + (x_n + mu |x_t|) n)|, relative to largest reaction times largest motion
   int open = 0, stick = 0, slip = 0;
-  Vec3 force = Vec3::Zero();   // sum of the reactions on the body [N]
+  Vec3 force = Vec3::Zero();  // sum of the reactions on the body [N]
   std::vector<ContactStatus> status;
-  std::vector<double> gap;     // [mm]
+  std::vector<double> gap;  // [mm]
 };
 // u, u0: (3 n) displacements now and at the start of the increment; r: one per candidate
-ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
-                             const Vec3& c0, const std::vector<Vec3>& r);
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
+                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r);
 
 }  // namespace langer

@@ -30,8 +30,8 @@ struct LocalReport {
 
 struct LocalOptions {
   double tolerance = 1e-13;
-  int sweeps = 2000;        // in all
-  int newton_steps = 200;   // in all
+  int sweeps = 2000;       // in all
+  int newton_steps = 200;  // in all
 };
 
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options = {});
