@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -173,7 +174,7 @@ TEST_CASE("a path of an input file is relative to the file it is written in") {
 
 TEST_CASE("included files are merged below the keys beside them") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "langer_include_test";
+  const fs::path folder = fs::temp_directory_path() / ("langer_include_" + std::to_string(getpid()));
   fs::create_directories(folder / "deep");
   std::ofstream(folder / "deep/base.yaml") << "a: {x: 1, y: 2}\nb: [1, 2]\nfile: {include: leaf.yaml}\n";
   std::ofstream(folder / "deep/leaf.yaml") << "curve: c.csv\n";
