@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "post/curves.hpp"
+#include "post/gnuplot.hpp"
+
+namespace langer {
+
+namespace {
+
+double extent(const Mesh& mesh, int axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& X : mesh.X) low = std::min(low, X[axis]), high = std::max(high, X[axis]);
+  return high - low;
+}
+
+// may stand in the head of a CSV file, in HDF5 paths and in scripts
+bool fits_a_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-';
+}
+
+std::string known(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none at all" : list;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = nearest(name, names);
+  return near.empty() ? "" : fmt::format("did you mean \"{}\"?", near);
+}
+
+}  // namespace
+
+std::vector<Complaint> ColumnChoice::complaints() const {
+  if (quantity.has_value() == history.has_value())
+    return {{"", quantity ? "both a quantity and a history" : "neither a quantity nor a history", "one of the two", ""}};
+  std::vector<Complaint> found;
+  const std::string column = column_name(*this);
+  if (column.empty() || !std::all_of(column.begin(), column.end(), fits_a_name))
+    found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", "letters, digits, _, + and - only", ""});
+  if (quantity && needs_place(*quantity) && !at)
+    found.push_back({"at", "missing", "the name of an observation point or node set",
+                     fmt::format("{} is measured at a place", line_of(*quantity).word)});
+  if (at && !(quantity && needs_place(*quantity)))
+    found.push_back(
+        {"at", *at, "no place", fmt::format("{} belongs to the whole body", quantity ? line_of(*quantity).word : "a history")});
+  return found;
+}
+
+std::string column_name(const ColumnChoice& choice) {
+  if (choice.name) return *choice.name;
+  if (choice.history) return *choice.history;
+  std::string name = line_of(*choice.quantity).word;
+  if (choice.at) name += "_" + *choice.at;
+  if (choice.family > 1) name += fmt::format("_{}", choice.family);
+  return name;
+}
+
+std::string unit_of(const ColumnChoice& choice) {
+  if (choice.quantity) return line_of(*choice.quantity).unit;
+  return choice.history->starts_with("penetration") ? "mm" : choice.history->starts_with("force") ? "N" : "-";
+}
+
+std::string label_of(const ColumnChoice& choice) {
+  return choice.quantity ? line_of(*choice.quantity).label : literal(*choice.history);
+}
+
+Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body,
+                 const Available& available) {
+  Measures out;
+  std::vector<std::string> sets;
+  for (const auto& [name, nodes] : body.mesh().node_sets)
+    if (!nodes.empty()) sets.push_back(name);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const ColumnChoice& c = choices[i];
+    const auto complain = [&](const char* part, std::string found, std::string expected, std::string hint) {
+      out.complaints.push_back(
+          {fmt::format("{}[{}].{}", key, i, part), std::move(found), std::move(expected), std::move(hint)});
+    };
+    const auto has_history = [&](const std::string& name) {
+      return std::find(available.histories.begin(), available.histories.end(), name) != available.histories.end();
+    };
+    Measure m;
+    m.name = column_name(c);
+    m.unit = unit_of(c), m.label = label_of(c);
+    m.quantity = c.quantity;
+    if (c.history) {
+      m.history = *c.history;
+      if (!has_history(m.history))
+        complain("history", fmt::format("the solution has no history \"{}\"", m.history),
+                 "one of " + known(available.histories), did_you_mean(m.history, available.histories));
+    } else {
+      const QuantityLine& line = line_of(*c.quantity);
+      if (line.of == Of::indenter && !available.contact)
+        complain("quantity", fmt::format("{} of a solution without contact", line.word), "a quantity that needs no indenter",
+                 "");
+      const bool of_contact_law = *c.quantity >= Quantity::penetration && *c.quantity <= Quantity::complementarity;
+      if (of_contact_law && available.contact && !has_history(line.word))
+        complain("quantity", fmt::format("the solution has no history \"{}\"", line.word),
+                 "one of " + known(available.histories), "");
+      if (c.at && needs_place(*c.quantity)) {
+        const auto set = body.mesh().node_sets.find(*c.at);
+        if (set == body.mesh().node_sets.end() || set->second.empty())
+          complain("at", fmt::format("the mesh has no nodes called \"{}\"", *c.at), "one of " + known(sets),
+                   did_you_mean(*c.at, sets));
+        else
+          m.nodes = set->second;
+      }
+      m.family = c.family - 1;
+      if (*c.quantity == Quantity::fibre_stretch && c.family > body.n_families())
+        complain("family", fmt::format("family {} of a material with {}", c.family, body.n_families()),
+                 "a family that is there", "");
+      if (*c.quantity == Quantity::fibre_stretch_max && body.n_families() == 0)
+        complain("quantity", "fibre_stretch_max of a material without fibres", "another quantity", "");
+      if (line.of == Of::set && *c.quantity < Quantity::reaction_x)
+        m.length = c.length ? *c.length : extent(body.mesh(), component_of(*c.quantity, Quantity::eps_xx));
+    }
+    out.measures.push_back(std::move(m));
+  }
+  return out;
+}
+
+}  // namespace langer

@@ -1,0 +1,105 @@
+#include "post/fields.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tensor/invariants.hpp"
+
+namespace langer {
+
+Body::Body(const Mesh& mesh, std::vector<Material> materials, Formulation formulation)
+    : mesh_(mesh), materials_(std::move(materials)), formulation_(formulation) {
+  const int n = mesh.n_cells();
+  std::vector<int> shown(mesh.X.size(), std::numeric_limits<int>::max());  // region of each node
+  for (int e = 0; e < n; ++e) {
+    geometry_.push_back(element_geometry(element_nodes(mesh, e)));
+    fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3(Mat3::Identity()) : mesh.frames[e]));
+    n_families_ = std::max(n_families_, static_cast<int>(fibres_.back().size()));
+    for (int node : mesh.cell(e)) shown[node] = std::min(shown[node], region(e));
+  }
+  first_.assign(mesh.X.size() + 1, 0);
+  for (int e = 0; e < n; ++e)
+    for (int node : mesh.cell(e)) first_[node + 1] += region(e) == shown[node];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  corners_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (int e = 0; e < n; ++e)
+    for (int a = 0; a < 8; ++a) {
+      const int node = mesh.cell(e)[a];
+      if (region(e) == shown[node]) corners_[next[node]++] = {e, a};
+    }
+}
+
+ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u, int e) {
+  ElementNodes q;
+  const auto nodes = mesh.cell(e);
+  for (int a = 0; a < 8; ++a) q.row(a) = u[nodes[a]].transpose();
+  return q;
+}
+
+ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) {
+  const auto a = body.fibres(e);
+  const auto states =
+      gauss_states(body.formulation(), body.material(e), body.geometry(e), a, element_displacements(body.mesh(), u, e));
+  ElementValues values = ElementValues::Ones(8, body.n_values());
+  for (int g = 0; g < 8; ++g) {
+    values.row(g).head<6>() = voigt(states[g].sigma).transpose();
+    values(g, 6) = states[g].J;
+    // sqrt(I4_bar) = J^(-1/3) |F a|
+    for (std::size_t k = 0; k < a.size(); ++k) values(g, 7 + k) = (states[g].F * a[k]).norm() / std::cbrt(states[g].J);
+  }
+  return values;
+}
+
+ElementValues at_corners(const ElementValues& gauss) {
+  // The Gauss points are the corners of a cube 1/sqrt(3) as large: seen from it, corner a lies at sqrt(3) xi_a.
+  static const Eigen::Matrix<double, 8, 8> E = [] {
+    Eigen::Matrix<double, 8, 8> E;
+    for (int a = 0; a < 8; ++a)
+      E.row(a) = Hex8::shape(std::sqrt(3.0) * Vec3(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2])).transpose();
+    return E;
+  }();
+  return E * gauss;
+}
+
+VecX element_mean(const Body& body, int e, const ElementValues& gauss) {
+  const ElementGeometry& geometry = body.geometry(e);
+  VecX mean = VecX::Zero(gauss.cols());
+  for (int g = 0; g < 8; ++g) mean += geometry.w[g] / geometry.V * gauss.row(g).transpose();
+  return mean;
+}
+
+Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e) {
+  const ElementGeometry& geometry = body.geometry(e);
+  Hex8::Gradient dN = Hex8::Gradient::Zero();
+  for (int g = 0; g < 8; ++g) dN += geometry.w[g] / geometry.V * geometry.dN_dX[g];
+  return Mat3::Identity() + element_displacements(body.mesh(), u, e).transpose() * dN;
+}
+
+Vec3 gauss_position(const Mesh& mesh, int e, int g) { return element_nodes(mesh, e).transpose() * Hex8::shape(Hex8::gauss(g)); }
+
+void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss) {
+  gauss.resize(static_cast<std::size_t>(body.mesh().n_cells()));
+  if (gauss[e].size() == 0) gauss[e] = gauss_values(body, u, e);
+}
+
+GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u) {
+  GaussValues gauss;
+  for (int e = 0; e < body.mesh().n_cells(); ++e) add_gauss_values(body, u, e, gauss);
+  return gauss;
+}
+
+VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at) {
+  VecX sum = VecX::Zero(body.n_values());
+  double V = 0;
+  for (const auto [e, a] : body.corners(node)) {
+    const double w = body.geometry(e).V;
+    // Gauss point a lies in the corner of node a
+    const ElementValues& values = gauss[e];
+    sum += w * (at == StressAt::nodal_average ? VecX(at_corners(values).row(a).transpose()) : VecX(values.row(a).transpose()));
+    V += w;
+  }
+  return V > 0 ? VecX(sum / V) : sum;  // a node of no cell carries nothing
+}
+
+}  // namespace langer

@@ -1,0 +1,35 @@
+// Figures by gnuplot: plain x-y plots of CSV columns, as SVG and PNG. Only these functions know that gnuplot exists.
+// The script stands beside the pictures and can be run again by hand, in its folder. Colours are Okabe and Ito's set for
+// colour-blind readers; markers and dashes differ too, so that figures survive black and white print.
+// Texts are gnuplot's enhanced text (u_y has a subscript); quotes and line breaks in them do no harm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace langer {
+
+struct PlotLine {
+  std::string csv;   // file, relative to the script
+  std::string x, y;  // heads of its columns
+  std::string legend;
+};
+
+struct Plot {
+  std::string title;             // may be empty
+  std::string x_label, y_label;  // with units
+  std::vector<PlotLine> lines;
+  int rows = 0;  // of the CSV files, where known: long curves get a marker on some of their points only
+};
+
+// writes <name>.svg and <name>.png when run
+std::string gnuplot_script(const Plot& plot, const std::string& name);
+
+std::string gnuplot_string(const std::string& text);  // as a gnuplot string
+std::string literal(const std::string& name);         // enhanced text that prints as it stands
+std::string plain(const std::string& text);           // enhanced text without its marks: σ_xx for σ_{xx}
+
+// Runs <folder>/<script> there. Returns what went wrong, "" if nothing: no gnuplot on the PATH, its complaint, too slow.
+std::string run_gnuplot(const std::string& folder, const std::string& script);
+
+}  // namespace langer

@@ -1,0 +1,257 @@
+#include "post/render.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace langer {
+
+namespace {
+
+constexpr double page_width = 960, margin = 24, bar_room = 150;
+constexpr int most_patches = 6000;
+const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85};
+
+// One thing to paint; those further from the eye come first.
+struct Item {
+  double depth = 0;
+  std::vector<std::variant<Patch, Stroke, Label>> marks;
+};
+
+// The eye's axes as rows: right, up, towards the eye.
+Mat3 eye(const std::array<double, 2>& view) {
+  const double a = view[0] * std::numbers::pi / 180, e = view[1] * std::numbers::pi / 180;
+  Mat3 R;
+  R << std::cos(a), 0, -std::sin(a),                                        //
+      -std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a),  //
+      std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a);
+  return R;
+}
+
+// light from above, left and in front of the eye; the shadow side keeps enough of its colour to be read
+double light(const Vec3& n) { return std::max(0.0, n.dot(Vec3(-0.35, 0.80, 0.49).normalized())); }
+double shade(const Vec3& n) { return 0.74 + 0.26 * light(n); }
+Colour shaded(const Colour& c, double s) { return {c.r * s, c.g * s, c.b * s}; }
+
+// Seen positions to the page.
+struct Page {
+  double scale = 1, left = 0, top = 0;  // [pt/mm], page position of (0, 0)
+  PagePoint operator()(const Vec3& seen) const { return {left + scale * seen[0], top - scale * seen[1]}; }
+};
+
+// The sphere in patches between circles about `pole`, up to where a plane cuts it off, and last the disc in that plane.
+std::vector<std::vector<Vec3>> ball_patches(const Ball& ball, const std::vector<Cut>& cuts) {
+  constexpr int rings = 48, sectors = 96;
+  const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& c) {
+    return std::abs(c.at - ball.centre[static_cast<int>(c.axis)]) < ball.radius;
+  });
+  const bool is_cut = cut != cuts.end();
+  const int axis = is_cut ? static_cast<int>(cut->axis) : 1;
+  const double side = is_cut && cut->keep == Side::above ? 1 : -1;
+  Vec3 pole = Vec3::Zero();
+  pole[axis] = side;
+  const Vec3 s = Vec3::Unit((axis + 1) % 3), t = pole.cross(s);
+  // angle from the pole at which the kept part ends
+  const double end = is_cut ? std::acos(side * (cut->at - ball.centre[axis]) / ball.radius) : std::numbers::pi;
+  const auto point = [&](int ring, int sector) {
+    const double theta = end * ring / rings, phi = 2 * std::numbers::pi * sector / sectors;
+    return Vec3(ball.centre +
+                ball.radius * (std::cos(theta) * pole + std::sin(theta) * (std::cos(phi) * s + std::sin(phi) * t)));
+  };
+  std::vector<std::vector<Vec3>> patches;
+  for (int ring = 0; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector)
+      patches.push_back({point(ring, sector), point(ring + 1, sector), point(ring + 1, sector + 1), point(ring, sector + 1)});
+  if (is_cut) {
+    std::vector<Vec3> disc;
+    for (int sector = sectors; sector > 0; --sector) disc.push_back(point(rings, sector));
+    patches.push_back(disc);
+  }
+  return patches;
+}
+
+Vec3 normal_of(const std::vector<Vec3>& corners) {  // Newell's sum: also of polygons that are not plane
+  Vec3 n = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) n += corners[i].cross(corners[(i + 1) % corners.size()]);
+  return n.normalized();
+}
+
+double mean_depth(const std::vector<Vec3>& corners) {
+  double sum = 0;
+  for (const Vec3& c : corners) sum += c[2];
+  return sum / static_cast<double>(corners.size());
+}
+
+std::vector<double> ticks(double low, double high) {
+  const double wide = (high - low) / 5;
+  const double decade = std::pow(10, std::floor(std::log10(wide)));
+  const double step = decade * (wide / decade > 5 ? 10 : wide / decade > 2 ? 5 : wide / decade > 1 ? 2 : 1);
+  std::vector<double> values;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push_back(k * step);
+  return values;
+}
+
+void add_colour_bar(Drawing& drawing, double title_room, double low, double high, const std::string& label) {
+  constexpr int bands = 128;
+  // label above, the axes below
+  const double x = page_width - bar_room + 30, width = 22, height = std::min(300.0, drawing.height - title_room - 190);
+  const double top = title_room + (drawing.height - title_room - height - 100) / 2;
+  for (int i = 0; i < bands; ++i) {
+    // from the top, each down to the end: no seams
+    const double y0 = top + height * i / bands, y1 = top + height;
+    drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale_colour(1 - (i + 0.5) / bands)});
+  }
+  drawing.marks.push_back(
+      Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
+  const std::vector<double> at = ticks(low, high);
+  const double step = at.size() > 1 ? at[1] - at[0] : 1;
+  const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  for (double value : at) {
+    const double y = top + height * (high - value) / (high - low);
+    drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
+    const std::string text = digits > 5 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value + 0.0, digits);
+    drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, text, 13});
+  }
+  drawing.marks.push_back(Label{{page_width - margin, top - 16}, label, 14, Label::Anchor::end});
+}
+
+void add_axes(Drawing& drawing, const Mat3& R) {
+  const PagePoint origin{page_width - bar_room + 60, drawing.height - margin - 36};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 seen = R.col(i);
+    drawing.marks.push_back(Stroke{{origin, {origin[0] + 36 * seen[0], origin[1] - 36 * seen[1]}}, ink, 1.4});
+    drawing.marks.push_back(
+        Label{{origin[0] + 48 * seen[0], origin[1] - 48 * seen[1] + 5}, names(CutNormal{})[i], 14, Label::Anchor::middle});
+  }
+}
+
+}  // namespace
+
+std::vector<Complaint> RenderChoice::complaints() const {
+  std::vector<Complaint> found;
+  const Of of = line_of(field).of;
+  if (of != Of::nodes && of != Of::point)
+    found.push_back({"field", line_of(field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
+  if (range && !((*range)[0] < (*range)[1])) found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
+  return found;
+}
+
+std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept) {
+  std::map<std::array<int, 4>, std::pair<int, std::array<int, 4>>> seen;  // sorted nodes -> how often, in order
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    if (!kept[e]) continue;
+    for (const auto& local : Hex8::facet) {
+      std::array<int, 4> nodes{};
+      for (int k = 0; k < 4; ++k) nodes[k] = mesh.cell(e)[local[k]];
+      std::array<int, 4> key = nodes;
+      std::sort(key.begin(), key.end());
+      auto& entry = seen[key];
+      ++entry.first, entry.second = nodes;
+    }
+  }
+  std::vector<std::array<int, 4>> surface;
+  for (const auto& [key, entry] : seen)
+    if (entry.first == 1) surface.push_back(entry.second);
+  return surface;
+}
+
+Drawing render(const RenderScene& scene, const RenderChoice& choice) {
+  const Mesh& mesh = scene.mesh;
+  const Mat3 R = eye(choice.view);
+  std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
+  for (const Cut& cut : choice.cuts)
+    for (int e = 0; e < mesh.n_cells(); ++e) {
+      const double centre = element_nodes(mesh, e).col(static_cast<int>(cut.axis)).mean();
+      if ((centre > cut.at) != (cut.keep == Side::above)) kept[e] = false;
+    }
+
+  std::vector<Vec3> seen;
+  for (const Vec3& x : scene.x) seen.push_back(R * x);
+  struct Quad {
+    std::array<int, 4> nodes;
+    std::vector<Vec3> corners;
+  };
+  std::vector<Quad> quads;
+  Eigen::AlignedBox3d box;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& nodes : outer_surface(mesh, kept)) {
+    const std::vector<Vec3> corners{seen[nodes[0]], seen[nodes[1]], seen[nodes[2]], seen[nodes[3]]};
+    for (const Vec3& c : corners) box.extend(c);
+    if (normal_of(corners)[2] <= 0) continue;
+    for (int node : nodes) low = std::min(low, scene.values[node]), high = std::max(high, scene.values[node]);
+    quads.push_back({nodes, corners});
+  }
+  std::vector<std::vector<Vec3>> ball;
+  if (scene.ball) ball = ball_patches(*scene.ball, choice.cuts);
+  for (auto& patch : ball)
+    for (Vec3& corner : patch) corner = R * corner, box.extend(corner);
+  if (choice.range) low = (*choice.range)[0], high = (*choice.range)[1];
+  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) low -= 0.5, high += 0.5;  // one value everywhere
+
+  const double title_room = choice.title.empty() ? 0 : 40;
+  const double room = page_width - bar_room - 2 * margin, tallest = 640;
+  const Vec3 size = box.isEmpty() ? Vec3(1, 1, 1) : Vec3(box.sizes());
+  Page page;
+  page.scale = std::min(room / size[0], tallest / size[1]);
+  Drawing drawing;
+  drawing.width = page_width;
+  drawing.height = std::round(std::max(400.0, page.scale * size[1] + 2 * margin + title_room));
+  const Vec3 middle = box.isEmpty() ? Vec3(0, 0, 0) : Vec3(box.center());
+  page.left = margin + room / 2 - page.scale * middle[0];
+  page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
+
+  std::vector<Item> items;
+  const int m = std::clamp(static_cast<int>(std::sqrt(most_patches / std::max<double>(1, quads.size()))), 1, 6);
+  for (const Quad& quad : quads) {
+    Item item{mean_depth(quad.corners), {}};
+    const double s = shade(normal_of(quad.corners));
+    const auto weights = [](double p, double q) { return std::array{(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q}; };
+    const auto at = [&](double p, double q) {
+      const auto N = weights(p, q);
+      Vec3 x = Vec3::Zero();
+      for (int k = 0; k < 4; ++k) x += N[k] * quad.corners[k];
+      return page(x);
+    };
+    const auto colour_at = [&](double p, double q) {
+      const auto N = weights(p, q);
+      double value = 0;
+      for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
+      return shaded(scale_colour((value - low) / (high - low)), s);
+    };
+    // below the parts of a quad the quad itself, so that the page does not shine through between them
+    item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
+    for (int i = 0; i < m && m > 1; ++i)
+      for (int j = 0; j < m; ++j) {
+        const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m, q1 = double(j + 1) / m;
+        item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)}, colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
+      }
+    item.marks.push_back(Stroke{{at(0, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0)}, ink, 0.7, 0.8});
+    items.push_back(std::move(item));
+  }
+  for (const auto& patch : ball) {
+    const Vec3 n = normal_of(patch);
+    if (n[2] <= 0) continue;
+    std::vector<PagePoint> corners;
+    for (const Vec3& corner : patch) corners.push_back(page(corner));
+    Item item{mean_depth(patch), {Patch{corners, shaded(steel, 0.35 + 0.65 * light(n)), 0.5}}};
+    if (corners.size() > 4) {  // the disc where the sphere is cut
+      corners.push_back(corners.front());
+      item.marks = {Patch{corners, Colour{0.88, 0.89, 0.91}}, Stroke{corners, ink, 0.8}};
+    }
+    items.push_back(std::move(item));
+  }
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
+  for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
+  add_colour_bar(drawing, title_room, low, high, scene.label);
+  add_axes(drawing, R);
+  if (!choice.title.empty())
+    drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});
+  return drawing;
+}
+
+}  // namespace langer

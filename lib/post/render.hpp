@@ -1,0 +1,73 @@
+// A picture of the deformed body: its outer surface in orthographic projection, coloured by a field, with colour bar,
+// axes and the rigid sphere. Painted from back to front; made without a display.
+//   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
+//   cuts  only the cells on one side of each plane are shown; the first plane that meets the sphere cuts it too
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "post/curves.hpp"
+#include "post/drawing.hpp"
+
+namespace langer {
+
+enum class CutNormal { x, y, z };
+constexpr auto names(CutNormal) { return std::array{"x", "y", "z"}; }
+enum class Side { below, above };
+constexpr auto names(Side) { return std::array{"below", "above"}; }
+
+struct Cut {
+  CutNormal axis = CutNormal::z;
+  double at = 0;
+  Side keep = Side::below;
+  static void fields(auto& v) {
+    v(&Cut::axis, "axis", unit::none, "normal of the plane", required);
+    v(&Cut::at, "at", unit::mm, "reference coordinate of the plane", required);
+    v(&Cut::keep, "keep", unit::none, "which side is shown: of smaller or larger coordinates");
+  }
+};
+
+struct RenderChoice {
+  Quantity field = Quantity::u_y;
+  int family = 1;
+  std::string step = "last";
+  std::array<double, 2> view{35, 28};
+  std::vector<Cut> cuts;
+  std::optional<std::array<double, 2>> range;
+  std::string title;
+  static void fields(auto& v) {
+    v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface", required);
+    v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
+    v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), or t=0.5");
+    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye", between(-360, 360));
+    v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
+    v(&RenderChoice::range, "range", unit::none,
+      "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&RenderChoice::title, "title", unit::none, "above the picture");
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+struct Ball {
+  Vec3 centre = Vec3::Zero();  // where it is now [mm]
+  double radius = 0;
+};
+
+struct RenderScene {
+  const Mesh& mesh;
+  std::vector<Vec3> x;         // deformed positions (n) [mm]
+  std::vector<double> values;  // of the field (n)
+  std::string label;           // of the colour bar, with unit
+  std::optional<Ball> ball;
+};
+
+Drawing render(const RenderScene& scene, const RenderChoice& choice);
+
+// Facets that belong to one of the kept cells only, corners counter-clockwise from outside.
+std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept);
+
+}  // namespace langer

@@ -1,0 +1,223 @@
+// What columns are called, what they hold, and what is said of names that do not exist.
+#include "post/curves.hpp"
+
+#include <doctest/doctest.h>
+
+#include "config/reader.hpp"
+#include "post/steps.hpp"
+#include "scene/post_config.hpp"
+#include "support/block.hpp"
+#include "support/laws.hpp"
+#include "tensor/stress.hpp"
+
+using namespace langer;
+
+namespace {
+
+std::vector<ColumnChoice> choices(const std::string& list) {
+  return read_config<PostConfig>(parse_yaml("columns: [" + list + "]", "post.yaml")).config.columns;
+}
+
+struct Sample {
+  Mesh mesh = [] {
+    Mesh m = test::block({0, 1, 2, 3}, {0, 1, 2}, {0, 2});
+    m.node_sets["A"] = {5};
+    m.node_sets["B"] = {m.n_nodes() - 1};
+    return m;
+  }();
+  Body body{mesh, {test::table1(30, 1e-2)}, Formulation::mean_dilatation};
+  StepState state = [this] {
+    StepState s = unloaded(mesh);
+    // bending, so that every point differs
+    for (int i = 0; i < mesh.n_nodes(); ++i) {
+      const Vec3& X = mesh.X[i];
+      s.u[i] = Vec3(0.02 * X[0] * X[1], -0.01 * X[0] * X[0], 0.005 * X[2] * X[1]);
+      s.reaction[i] = Vec3(i, -2 * i, 0.5);
+    }
+    s.t = 0.25, s.increment = 0.05, s.iterations = 4, s.residual = 1e-10;
+    s.stick = 3, s.slip = 2;
+    s.histories = {{"penetration", 1e-11}, {"cone", 2e-9}, {"complementarity", 3e-9}, {"energy", 0.5}};
+    return s;
+  }();
+  Available available{true, {"complementarity", "cone", "energy", "penetration"}};
+
+  Measures look(const std::string& list) const { return look_up(choices(list), "columns", body, available); }
+  std::vector<double> values(const std::string& list, StressAt at = StressAt::nodal_average) const {
+    const Measures measures = look(list);
+    REQUIRE(measures.complaints.empty());
+    GaussValues gauss;
+    return measured(body, measures.measures, at, state, gauss);
+  }
+  double value(const std::string& choice) const { return values(choice)[0]; }
+};
+
+}  // namespace
+
+TEST_CASE("a column is called after its quantity, its place and its fibre family; name: replaces that") {
+  const auto name = [](const std::string& choice) { return column_name(choices(choice)[0]); };
+  CHECK(name("{quantity: u_ind}") == "u_ind");
+  CHECK(name("{quantity: u_y, at: A}") == "u_y_A");
+  CHECK(name("{quantity: von_mises, at: M}") == "von_mises_M");
+  CHECK(name("{quantity: fibre_stretch, at: M, family: 2}") == "fibre_stretch_M_2");
+  CHECK(name("{quantity: u_y, at: B, name: u_y}") == "u_y");
+  CHECK(name("{history: energy}") == "energy");
+}
+
+TEST_CASE("every quantity can be measured, is finite, and is found by its own word") {
+  Sample s;
+  for (const QuantityLine& line : quantity_lines) {
+    CAPTURE(line.word);
+    const std::string place = needs_place(line.quantity) ? ", at: x_max" : "";
+    const std::string choice = std::string("{quantity: ") + line.word + place + "}";
+    CHECK(std::isfinite(s.value(choice)));
+    CHECK(s.look(choice).measures[0].unit == line.unit);
+  }
+}
+
+TEST_CASE("the unloaded state gives zeros, and ones for ratios of volume and length") {
+  Sample s;
+  s.state = unloaded(s.mesh);
+  for (const QuantityLine& line : quantity_lines) {
+    CAPTURE(line.word);
+    const bool place = line.quantity >= Quantity::von_mises_max_x && line.quantity <= Quantity::von_mises_max_z;
+    if (place) continue;
+    const bool ratio = std::string(line.word).starts_with("J") || std::string(line.word).starts_with("fibre_stretch");
+    const double value = s.value(std::string("{quantity: ") + line.word + (needs_place(line.quantity) ? ", at: A" : "") + "}");
+    CHECK(value == doctest::Approx(ratio ? 1 : 0).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("the indenter's travel is a length, its force positive where the body resists") {
+  Sample s;
+  s.state.u_ind = Vec3(0.3, -0.4, 0);      // presses down and moves along x
+  s.state.force_ind = Vec3(-0.6, 5, 0.1);  // pushed up and back
+  CHECK(s.value("{quantity: u_ind}") == doctest::Approx(0.5));
+  CHECK(s.value("{quantity: force}") == doctest::Approx(0.6 * 0.6 + 0.8 * 5));
+  CHECK(s.values("{quantity: force_x}, {quantity: force_y}, {quantity: force_z}") == std::vector<double>{-0.6, 5, 0.1});
+  CHECK(s.values("{quantity: contact_nodes}, {quantity: stick_nodes}, {quantity: slip_nodes}") == std::vector<double>{5, 3, 2});
+  s.state.u_ind.setZero();
+  CHECK(s.value("{quantity: force}") == doctest::Approx(s.state.force_ind.norm()));
+}
+
+TEST_CASE("displacements, strains and reactions of points and sets") {
+  Sample s;
+  CHECK(s.value("{quantity: u_y, at: A}") == s.state.u[5][1]);
+  double mean = 0, sum = 0;
+  const auto& face = s.mesh.node_sets.at("x_max");
+  for (int node : face) mean += s.state.u[node][0] / face.size(), sum += s.state.reaction[node][1];
+  CHECK(s.value("{quantity: u_x, at: x_max}") == doctest::Approx(mean));
+  CHECK(s.value("{quantity: eps_xx, at: x_max}") == doctest::Approx(mean / 3));
+  CHECK(s.value("{quantity: eps_xx, at: x_max, length: 6}") == doctest::Approx(mean / 6));
+  CHECK(s.value("{quantity: reaction_y, at: x_max}") == doctest::Approx(sum));
+  CHECK(s.value("{history: energy}") == 0.5);
+}
+
+TEST_CASE("stress at a point is the nodal average or that of the nearest Gauss points, as chosen") {
+  Sample s;
+  const GaussValues gauss = gauss_values(s.body, s.state.u);
+  for (StressAt at : {StressAt::nodal_average, StressAt::nearest_gauss}) {
+    const VecX row = node_values(s.body, 5, gauss, at);
+    const auto v = s.values(
+        "{quantity: sigma_xz, at: A}, {quantity: von_mises, at: A}, {quantity: sigma_1, at: A}, "
+        "{quantity: pressure, at: A}, {quantity: J, at: A}, {quantity: fibre_stretch, at: A}",
+        at);
+    CHECK(v[0] == row[5]);
+    CHECK(v[1] == von_mises(sigma_of(row)));
+    CHECK(v[2] == principal_stresses(sigma_of(row))[0]);
+    CHECK(v[3] == mean_stress(sigma_of(row)));
+    CHECK(v[4] == row[6]);
+    CHECK(v[5] == row[7]);
+  }
+  CHECK(s.values("{quantity: von_mises, at: A}")[0] != s.values("{quantity: von_mises, at: A}", StressAt::nearest_gauss)[0]);
+}
+
+TEST_CASE("extremes are over all Gauss points, and the place of the greatest von Mises stress is where it is") {
+  Sample s;
+  double most = 0, J = 10, stretch = 0;
+  Vec3 place;
+  for (int e = 0; e < s.mesh.n_cells(); ++e)
+    for (int g = 0; g < 8; ++g) {
+      const VecX row = gauss_values(s.body, s.state.u, e).row(g).transpose();
+      if (von_mises(sigma_of(row)) > most) most = von_mises(sigma_of(row)), place = gauss_position(s.mesh, e, g);
+      J = std::min(J, row[6]), stretch = std::max(stretch, row[7]);
+    }
+  const auto v = s.values(
+      "{quantity: von_mises_max}, {quantity: von_mises_max_x}, {quantity: von_mises_max_y}, "
+      "{quantity: von_mises_max_z}, {quantity: J_min}, {quantity: fibre_stretch_max}");
+  CHECK(v[0] == most);
+  CHECK((Vec3(v[1], v[2], v[3]) - place).norm() == 0);
+  CHECK(v[4] == J);
+  CHECK(v[5] == stretch);
+}
+
+TEST_CASE("names that the mesh or the solution lacks are complaints with their key and what there is") {
+  Sample s;
+  const auto bad = [&](const std::string& list) { return s.look(list).complaints; };
+  auto found = bad("{quantity: force}, {quantity: u_y, at: Q}");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].key == "columns[1].at");
+  CHECK(found[0].found == "the mesh has no nodes called \"Q\"");
+  CHECK(found[0].expected.starts_with("one of A, B, x_max"));
+  found = bad("{quantity: u_y, at: x_mas}");
+  CHECK(found.at(0).hint == "did you mean \"x_max\"?");
+  found = bad("{history: enrgy}");
+  CHECK(found.at(0).key == "columns[0].history");
+  CHECK(found.at(0).hint == "did you mean \"energy\"?");
+  CHECK(bad("{quantity: fibre_stretch, at: A, family: 2}").at(0).key == "columns[0].family");
+  s.available.contact = false;
+  CHECK(bad("{quantity: u_ind}").at(0).key == "columns[0].quantity");
+  const Body isotropic(s.mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  CHECK(look_up(choices("{quantity: fibre_stretch_max}"), "further", isotropic, {}).complaints.at(0).key ==
+        "further[0].quantity");
+}
+
+TEST_CASE("what is wrong with a config is known before there is a solution") {
+  const auto complaint = [](const std::string& yaml) -> std::string {
+    try {
+      read_config<PostConfig>(parse_yaml(yaml, "post.yaml"));
+    } catch (const Failure& failure) {
+      CHECK(failure.code() == Exit::config);
+      return failure.what();
+    }
+    return "nothing";
+  };
+  const std::string good = "columns:\n- {quantity: u_ind}\n- {quantity: u_y, at: A}\n- {quantity: force}\n";
+  CHECK(complaint(good) == "nothing");
+  const auto says = [&](const std::string& yaml, const std::string& part) {
+    const std::string message = complaint(yaml);
+    INFO(message);
+    CHECK(message.find(part) != std::string::npos);
+  };
+  says("columns: []", "post.yaml:1:1: columns: an empty list");
+  says("columns:\n- {quantity: von_misess, at: M}", "did you mean \"von_mises\"?");
+  says("columns:\n- {quantity: von_mises}", "post.yaml:2:3: columns[0].at: missing");
+  says("columns:\n- {quantity: force, at: M}", "post.yaml:2:21: columns[0].at: M; expected no place");
+  says("columns:\n- {at: M}", "neither a quantity nor a history");
+  says("columns:\n- {quantity: t, history: energy}", "both a quantity and a history");
+  says("columns:\n- {quantity: t, name: 'a,b'}", "post.yaml:2:17: columns[0].name: the column name \"a,b\"");
+  says(good + "further:\n- {quantity: force}", "post.yaml:6:3: further[0]: a second column called force");
+  says(good + "snapshots: [last, t=0.5, 3, -1]", "snapshots[3]: \"-1\"");
+  says(good + "figures:\n  f: {x: u_ind, y: [force, u_y]}", "did you mean \"u_y_A\"?");
+  says(good + "figures:\n  f: {x: u_ind, y: [force, u_y]}", "post.yaml:6:28: figures.f.y[1]");
+  says(good + "figures:\n  f: {x: u_ind, y: [force, u_y_A]}", "u_y_A in mm; expected columns in N, as the first");
+  says(good + "figures:\n  f: {x: u_ind, y: [force], legends: [a, b]}", "2 legends for 1 columns");
+  says(good + "figures:\n  render: {x: u_ind, y: [force]}", "figures.render");
+  says(good + "render: {field: force}", "render.field: force; expected a quantity of nodes or points");
+  says(good + "render: {field: u_y, range: [1, 0]}", "render.range");
+  says(good + "render: {field: u_y, step: first}", "render.step");
+}
+
+TEST_CASE("states are chosen as the last, by row, or as the first at or beyond t") {
+  const std::vector<double> t{0, 0.25, 0.1 + 0.2 + 0.2, 1};
+  const auto row = [&](const std::string& text) { return row_of(*parse_step(text), t); };
+  CHECK(row("last") == 3);
+  CHECK(row("0") == 0);
+  CHECK(row("2") == 2);
+  CHECK(row("4") == -1);
+  CHECK(row("t=0") == 0);
+  CHECK(row("t=0.26") == 2);
+  CHECK(row("t=0.5") == 2);
+  CHECK(row("t=1") == 3);
+  CHECK(row("t=1.1") == -1);
+  for (const char* bad : {"", "first", "-1", "1.5", "t=", "t=x", "t=nan", "t=inf", "2x"}) CHECK_FALSE(parse_step(bad));
+}

@@ -1,0 +1,219 @@
+// Figures and the picture of the body: what is drawn, not how it looks.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "post/drawing.hpp"
+#include "post/figure.hpp"
+#include "post/gnuplot.hpp"
+#include "post/render.hpp"
+#include "support/block.hpp"
+
+using namespace langer;
+
+namespace {
+
+std::string folder(const std::string& name) {
+  const auto path = std::filesystem::path(BINARY_DIR) / "test_files" / ("post_" + name);
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path);
+  return path.string();
+}
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+std::string text_of(const std::string& path) {
+  std::ostringstream s;
+  s << std::ifstream(path).rdbuf();
+  return s.str();
+}
+
+int count(const std::string& text, const std::string& part) {
+  int n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+bool has_gnuplot() { return std::system("command -v gnuplot > /dev/null 2>&1") == 0; }
+
+RenderScene scene_of(const Mesh& mesh) {
+  RenderScene scene{mesh, mesh.X, {}, "height (mm)", {}};
+  for (const Vec3& x : mesh.X) scene.values.push_back(x[1]);
+  return scene;
+}
+
+template <class Mark>
+std::vector<Mark> marks_of(const Drawing& drawing) {
+  std::vector<Mark> marks;
+  for (const auto& mark : drawing.marks)
+    if (const Mark* m = std::get_if<Mark>(&mark)) marks.push_back(*m);
+  return marks;
+}
+
+}  // namespace
+
+TEST_CASE("the colour scale grows evenly in lightness and stays within what a screen shows") {
+  constexpr int n = 200;
+  const double first = lightness(scale_colour(0)), last = lightness(scale_colour(1));
+  for (int i = 0; i <= n; ++i) {
+    const Colour c = scale_colour(double(i) / n);
+    for (double part : {c.r, c.g, c.b}) CHECK((part >= 0 && part <= 1));
+    // 0.05 of 100: the digits that the published sRGB matrix has
+    CHECK(lightness(c) == doctest::Approx(first + (last - first) * i / n).epsilon(5e-4));
+  }
+  CHECK(lightness(Colour{1, 1, 1}) == doctest::Approx(100).epsilon(1e-6));
+  CHECK(lightness(Colour{0, 0, 0}) == 0);
+  CHECK(hex(scale_colour(-1)) == hex(scale_colour(0)));
+  CHECK(hex(Colour{1, 0, 0.5}) == "#ff0080");
+}
+
+TEST_CASE("the outer surface is every facet of one cell only, seen from outside") {
+  const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 1, 1));
+  const auto surface = outer_surface(mesh, std::vector<bool>(6, true));
+  CHECK(surface.size() == 2 * (3 * 2 + 3 * 1 + 2 * 1));
+  const Vec3 middle(1.5, 1, 0.5);
+  for (const auto& q : surface) {
+    const Vec3 n = (mesh.X[q[2]] - mesh.X[q[0]]).cross(mesh.X[q[3]] - mesh.X[q[1]]);
+    CHECK(n.dot(mesh.X[q[0]] - middle) > 0);
+  }
+  std::vector<bool> one(6, false);
+  one[3] = true;
+  CHECK(outer_surface(mesh, one).size() == 6);
+}
+
+TEST_CASE("a block seen from a corner shows three of its sides, what is near over what is far") {
+  const Mesh mesh = test::cube(2);
+  RenderChoice choice;
+  choice.view = {45, 35};
+  const Drawing drawing = render(scene_of(mesh), choice);
+  // the outlines of quads are closed lines of five points, as is the frame of the colour bar
+  int outlines = 0;
+  for (const Stroke& s : marks_of<Stroke>(drawing)) outlines += s.points.size() == 5;
+  CHECK(outlines == 3 * 4 + 1);
+  for (const Patch& p : marks_of<Patch>(drawing))
+    for (const PagePoint& c : p.corners) {
+      CHECK((c[0] >= 0 && c[0] <= drawing.width));
+      CHECK((c[1] >= 0 && c[1] <= drawing.height));
+    }
+}
+
+TEST_CASE("along z the picture is the x-y plane to scale, coloured by the nodes' values") {
+  const Mesh mesh = test::block({0, 2}, {0, 1}, {0, 1});
+  RenderChoice choice;
+  choice.view = {0, 0};
+  choice.range = {0, 1};
+  const Drawing drawing = render(scene_of(mesh), choice);
+  const auto patches = marks_of<Patch>(drawing);
+  const Patch& whole = patches[0];
+  REQUIRE(whole.corners.size() == 4);
+  double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+  for (const PagePoint& c : whole.corners)
+    x0 = std::min(x0, c[0]), x1 = std::max(x1, c[0]), y0 = std::min(y0, c[1]), y1 = std::max(y1, c[1]);
+  CHECK((x1 - x0) / (y1 - y0) == doctest::Approx(2));
+  // upper parts are lighter: their value is larger, the shade is the same
+  double above = 0, below = 100;
+  for (std::size_t i = 1; i < patches.size(); ++i) {
+    const Patch& p = patches[i];
+    if (p.corners.size() != 4 || p.corners[0][0] > x1) continue;
+    const double middle = (p.corners[0][1] + p.corners[2][1]) / 2;
+    if (middle < y0 + 0.2 * (y1 - y0)) above = std::max(above, lightness(p.fill));
+    if (middle > y0 + 0.8 * (y1 - y0)) below = std::min(below, lightness(p.fill));
+  }
+  CHECK(above > below + 20);
+}
+
+TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the eye") {
+  const Mesh mesh = test::cube(4);
+  RenderScene scene = scene_of(mesh);
+  scene.ball = Ball{Vec3(0.5, 1.4, 0.5), 0.4};
+  RenderChoice choice;
+  choice.view = {20, 20};
+  const auto discs = [](const Drawing& d) {
+    int n = 0;
+    for (const Patch& p : marks_of<Patch>(d)) n += p.corners.size() > 4;
+    return n;
+  };
+  CHECK(discs(render(scene, choice)) == 0);
+  choice.cuts = {{CutNormal::z, 0.5, Side::below}};
+  CHECK(discs(render(scene, choice)) == 1);
+  choice.cuts[0].keep = Side::above;  // the disc looks away
+  CHECK(discs(render(scene, choice)) == 0);
+  choice.cuts[0].at = 2;  // nothing is left: still a drawing
+  CHECK_NOTHROW(render(scene, choice));
+}
+
+TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break out of either") {
+  Drawing drawing{100, 50, {}};
+  drawing.marks = {Patch{{{0, 0}, {10, 0}, {10, 10}}, Colour{1, 0, 0}}, Stroke{{{0, 0}, {10, 0}}, Colour{}},
+                   Label{{5, 5}, "a <b> & 'c'\n`touch broken` \"d\"", 12}};
+  const std::string s = svg(drawing);
+  CHECK(count(s, "<polygon") == 1);
+  CHECK(count(s, "<polyline") == 1);
+  CHECK(s.find("a &lt;b&gt; &amp; 'c' `touch broken`") != std::string::npos);
+  const std::string script = gnuplot_script(drawing, "p");
+  CHECK(count(script, "set object") == 2);
+  CHECK(script.find("set label 'a <b> & ''c'' `touch broken` \"d\"'") != std::string::npos);
+  if (!has_gnuplot()) return;
+  const std::string where = folder("drawing");
+  write(where + "/p.gp", script);
+  CHECK(run_gnuplot(where, "p.gp") == "");
+  CHECK(text_of(where + "/p.png").starts_with("\x89PNG"));
+  CHECK_FALSE(std::filesystem::exists(where + "/broken"));
+}
+
+TEST_CASE("a figure takes its columns by name; labels carry units, legends are the columns or what the user says") {
+  const auto column = [](Quantity quantity, const char* at = nullptr) {
+    ColumnChoice c;
+    c.quantity = quantity;
+    if (at) c.at = at;
+    return c;
+  };
+  const std::vector<ColumnChoice> columns{column(Quantity::u_ind), column(Quantity::u_y, "A"), column(Quantity::u_y, "B"),
+                                          column(Quantity::u_x, "A")};
+  FigureChoice figure;
+  figure.x = "u_ind", figure.y = {"u_y_A", "u_y_B"}, figure.title = "it's a title";
+  const auto head = [](const std::string& name, const std::string& unit) { return name + "_" + unit; };
+  Plot plot = plot_of(figure, columns, "curves.csv", head);
+  CHECK(plot.x_label == "indenter travel (mm)");
+  CHECK(plot.y_label == "displacement u_y (mm)");
+  CHECK(plot.lines[1].y == "u_y_B_mm");
+  CHECK(plot.lines[1].legend == "u\\_y\\_B");
+  figure.legends = {"A", "B"};
+  figure.y_label = "swelling";
+  plot = plot_of(figure, columns, "curves.csv", head);
+  CHECK(plot.y_label == "swelling (mm)");
+  CHECK(plot.lines[0].legend == "A");
+  CHECK(complaints(figure, columns).empty());
+  figure.y = {"u_y_A", "u_x_A"};
+  figure.y_label.reset();
+  CHECK(plot_of(figure, columns, "curves.csv", head).y_label == "mm");
+  CHECK(plain("stress σ_{xx}") == "stress σ_xx");
+}
+
+TEST_CASE("gnuplot draws a figure from a CSV file; its complaint is reported, and so is its absence") {
+  const std::string where = folder("figure");
+  write(where + "/curves.csv", "t,u_mm,force_N\n0,0,0\n1,0.5,2\n2,1,8\n");
+  Plot plot{
+      "Force `touch broken`", "u (mm)", "F (N)", {{"curves.csv", "u_mm", "force_N", "it's"}, {"curves.csv", "u_mm", "t", "t"}}};
+  write(where + "/f.gp", gnuplot_script(plot, "f"));
+  if (has_gnuplot()) {
+    CHECK(run_gnuplot(where, "f.gp") == "");
+    CHECK(text_of(where + "/f.svg").find("</svg>") != std::string::npos);
+    CHECK(text_of(where + "/f.png").starts_with("\x89PNG"));
+    CHECK_FALSE(std::filesystem::exists(where + "/broken"));
+    for (PlotLine& line : plot.lines) line.csv = "missing.csv";
+    write(where + "/g.gp", gnuplot_script(plot, "g"));
+    const std::string complaint = run_gnuplot(where, "g.gp");
+    INFO(complaint);
+    CHECK(complaint.starts_with("gnuplot: "));
+    CHECK(complaint.size() > 20);
+  }
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", where.c_str(), 1);
+  const std::string said = run_gnuplot(where, "f.gp");
+  setenv("PATH", path.c_str(), 1);
+  CHECK(said == "there is no gnuplot on the PATH");
+}
