@@ -1,0 +1,29 @@
+// From a solution file to what post works on, and back to files: states, snapshot fields, the indenter's sphere.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "post/curves.hpp"
+#include "post/render.hpp"
+#include "store/snapshot.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer {
+
+Formulation formulation_of(const SolutionHeader& header, const std::string& path);  // throws Failure(input)
+StepState state_of(const StepRecord& record);
+
+// Point data: u, nodal stress and what follows from it, reaction, contact state. Cell data: means, fibres before and after.
+struct SnapshotFields {
+  std::vector<Field> points, cells;
+};
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, StressAt at);
+
+// Field of a picture at each node.
+std::vector<double> picture_values(const Body& body, const StepState& state, const RenderChoice& choice, StressAt at);
+
+// The first sphere among the rigid indenters, as the solution's own config tells, moved by u_ind.
+std::optional<Ball> sphere_of(const SolutionHeader& header, const Vec3& u_ind);
+
+}  // namespace langer
