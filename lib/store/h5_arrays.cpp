@@ -152,7 +152,7 @@ Array<T> Group::read_rows(const std::string& name, std::size_t first, std::size_
   if (!all) array.shape[0] = count;
   const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
-  if (H5Tget_class(type) != Kind<T>::kind) refuse(name, "values of another type", Kind<T>::name);
+  if (H5Tget_class(type) != Kind<T>::kind || H5Tget_size(type) == 0) refuse(name, "values of another type", Kind<T>::name);
   const std::size_t n = product(array.shape);
   if (n > file_->size / H5Tget_size(type)) refuse(name, fmt::format("{} is more than the file holds", words(whole)));
   array.values.resize(n);
