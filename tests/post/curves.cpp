@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "config/reader.hpp"
+#include "config/writer.hpp"
 #include "post/steps.hpp"
 #include "scene/post_config.hpp"
+#include "store/curves_file.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
@@ -220,4 +222,22 @@ TEST_CASE("states are chosen as the last, by row, or as the first at or beyond t
   CHECK(row("t=1") == 3);
   CHECK(row("t=1.1") == -1);
   for (const char* bad : {"", "first", "-1", "1.5", "t=", "t=x", "t=nan", "t=inf", "2x"}) CHECK_FALSE(parse_step(bad));
+}
+
+TEST_CASE("the configs of the project are read, and their canonical text reads back the same") {
+  for (const char* name : {"indentation", "tensile", "compression", "smoke"}) {
+    CAPTURE(name);
+    const auto loaded = read_config<PostConfig>(load_yaml(std::string(SOURCE_DIR) + "/configs/post/" + name + ".yaml"));
+    const std::string text = to_yaml(loaded.config);
+    CHECK(to_yaml(read_config<PostConfig>(parse_yaml(text, "again.yaml")).config) == text);
+  }
+}
+
+TEST_CASE("the table of an indentation has the columns that others rely on") {
+  const auto config = read_config<PostConfig>(load_yaml(std::string(SOURCE_DIR) + "/configs/post/indentation.yaml")).config;
+  std::string head;
+  for (const ColumnChoice& c : config.columns) head += (head.empty() ? "" : ",") + csv_name(column_name(c), unit_of(c));
+  CHECK(
+      head ==
+      "u_ind_mm,force_N,von_mises_M_MPa,von_mises_max_MPa,u_y_A_mm,u_y_B_mm,u_y_C_mm,u_y_D_mm,newton_iterations,contact_nodes");
 }
