@@ -1,5 +1,5 @@
 // Linear least squares in a box [SP95]:  min |A x - b|^2,  lower <= x <= upper.
-// An active set method: the answer is exact, and says which variables rest on their bounds.
+// An active set method: the answer is exact, and what rests on a bound is exactly there.
 //   A  (m, n) of full column rank;  lower <= upper, infinite bounds allowed
 #pragma once
 

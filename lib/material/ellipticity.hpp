@@ -1,0 +1,22 @@
+// Strong ellipticity of an incompressible material in a deformed state: whether every shear wave has a real speed.
+//   A(n, m) = (m n):c:(m n) + n.sigma n  over unit vectors m normal to n, in the deformed state
+//   c  push-forward of D, sigma Cauchy stress, both of the isochoric part: the pressure cancels for m normal to n
+// The smallest value [MPa] is the shear modulus at rest; where it is negative, bands of intense shear may form and
+// solutions of a mesh depend on the mesh.
+#pragma once
+
+#include <span>
+
+#include "material/material.hpp"
+
+namespace langer {
+
+struct ShearStiffness {
+  double value = 0;  // smallest A [MPa]; NaN where F has no response
+  Vec3 n, m;         // wave normal and polarisation in the deformed state
+};
+
+// F with det F > 0; a volume change counts as 1/J in c and sigma
+ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a);
+
+}  // namespace langer

@@ -1,0 +1,92 @@
+// Strong ellipticity: the modulus at rest, the definition by differences of the energy, and where Table 1's law loses it.
+#include "material/ellipticity.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "material/catalogue.hpp"
+#include "material/uniaxial.hpp"
+#include "tensor/kinematics.hpp"
+
+using namespace langer;
+
+namespace {
+
+double stiffness(const Material& m, const Mat3& F) { return smallest_shear_stiffness(m, F, fibre_directions(m)).value; }
+
+Mat3 uniaxial_state(const Material& m, double lambda) { return uniaxial_incompressible(m, lambda).stretch.asDiagonal(); }
+
+}  // namespace
+
+TEST_CASE("at rest the smallest shear stiffness of the matrix is its shear modulus, in every direction") {
+  const Material m{{Yeoh{0.3, 0.7, 0.1}}, {}, {QuadraticVolume{1}}};
+  CHECK(stiffness(m, Mat3::Identity()) == doctest::Approx(0.6).epsilon(1e-14));
+  const Mat3 R = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  CHECK(stiffness(m, R) == doctest::Approx(0.6).epsilon(1e-14));
+}
+
+TEST_CASE("the stiffness is the second derivative of the energy along a shear of the deformed state, and none is smaller") {
+  std::mt19937 rng(41);
+  std::uniform_real_distribution<double> x(-0.3, 0.3);
+  const Material m = table1_hgo_yeoh(30);
+  const auto a = fibre_directions(m);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Mat3 H = Mat3::NullaryExpr([&] { return x(rng); });
+    const Mat3 F = deformation_gradient(H) / std::cbrt(deformation_gradient(H).determinant());
+    if (std::abs((F * a[0]).squaredNorm() - 1) < 0.02) continue;  // the fibre's switch
+    const ShearStiffness s = smallest_shear_stiffness(m, F, a);
+    CHECK(std::abs(s.n.dot(s.m)) <= 1e-12);
+    const auto second_derivative = [&](const Vec3& n, const Vec3& across) {
+      const double h = 1e-3;
+      const auto W = [&](double k) {
+        const Mat3 G = (Mat3::Identity() + k * across * n.transpose()) * F;
+        return isochoric(m, right_cauchy_green(G), a, false).W;
+      };
+      return (-W(2 * h) + 16 * W(h) - 30 * W(0) + 16 * W(-h) - W(-2 * h)) / (12 * h * h);
+    };
+    // h^4 times a sixth derivative, and eps/h^2
+    CHECK(second_derivative(s.n, s.m) == doctest::Approx(s.value).epsilon(1e-7).scale(1));
+    for (int sample = 0; sample < 200; ++sample) {
+      const Vec3 n = Vec3::NullaryExpr([&] { return x(rng); }).normalized();
+      const Vec3 across = n.cross(Vec3::NullaryExpr([&] { return x(rng); })).normalized();
+      CHECK(second_derivative(n, across) >= s.value - 1e-7);
+    }
+  }
+}
+
+TEST_CASE("Table 1's HGO-Yeoh law loses strong ellipticity where c1 < 0 takes over") {
+  const auto lost_between = [](double before, double after, const Material& m, const auto& F) {
+    CHECK(stiffness(m, F(before)) > 0);
+    CHECK(stiffness(m, F(after)) < 0);
+  };
+  // uniaxial tension; the fit ends at a stretch of 1.60
+  const double angle[] = {0, 15, 30, 45}, lambda[] = {1.64, 1.64, 1.81, 2.43};
+  for (int i = 0; i < 4; ++i) {
+    CAPTURE(angle[i]);
+    const Material m = table1_hgo_yeoh(angle[i]);
+    lost_between(lambda[i] - 0.01, lambda[i], m, [&](double l) { return uniaxial_state(m, l); });
+  }
+  lost_between(1.84, 1.85, table1_hgo_yeoh(), [](double l) { return Mat3(Vec3(l, 1 / (l * l), l).asDiagonal()); });
+  lost_between(1.09, 1.10, table1_hgo_yeoh(45), [](double gamma) {
+    Mat3 F = Mat3::Identity();
+    F(0, 2) = gamma;
+    return F;
+  });
+}
+
+TEST_CASE("with a positive fibre modulus it is kept up to stretch 3") {
+  for (double alpha : {0., 30., 60., 90.}) {
+    Material m = table1_hgo_yeoh(alpha);
+    m.fibres[0].hgo.c1 = 0.317;
+    for (double l = 1; l <= 3; l += 0.05) CHECK(stiffness(m, uniaxial_state(m, l)) > 0);
+  }
+}
+
+TEST_CASE("Yeoh's column of Table 1 is unstable at rest") {
+  const Material m{{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}};
+  CHECK(stiffness(m, Mat3::Identity()) == doctest::Approx(-0.118).epsilon(1e-13));
+}
