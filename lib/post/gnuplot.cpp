@@ -73,7 +73,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
   std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name);
   s += "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
   s += "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
-  s += "set key outside center bottom horizontal reverse Left samplen 3\n";
+  s += "set key outside center top horizontal reverse Left samplen 3\n";
   if (plot.lines.size() == 1) s += "unset key\n";
   if (!plot.title.empty()) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
