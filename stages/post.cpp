@@ -43,11 +43,20 @@ int chosen_row(const Job<PostConfig>& job, const std::string& key, const std::st
   return row;
 }
 
-void draw(const Job<PostConfig>& job, const std::string& name, const std::string& script) {
-  write_text_file(job.beside(name + ".gp"), script);
-  const std::string problem = run_gnuplot(std::filesystem::path(job.output).parent_path().string(), name + ".gp");
-  if (!problem.empty()) job.say("{}: not drawn: {}", name, problem);
-}
+// Writes the scripts of figures and runs them; what goes wrong is said at the end, each reason once.
+struct Figures {
+  const Job<PostConfig>& job;
+  std::map<std::string, std::string> failed;  // reason -> figures
+
+  void draw(const std::string& name, const std::string& script) {
+    write_text_file(job.beside(name + ".gp"), script);
+    const std::string reason = run_gnuplot(std::filesystem::path(job.output).parent_path().string(), name + ".gp");
+    if (!reason.empty()) failed[reason] += (failed[reason].empty() ? "" : ", ") + name;
+  }
+  void report() const {
+    for (const auto& [reason, names] : failed) job.say("not drawn: {} ({})", names, reason);
+  }
+};
 
 std::vector<Summary> post(const Job<PostConfig>& job) {
   const PostConfig& config = job.config;
@@ -96,10 +105,11 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
     write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity);
   }
+  Figures figures{job, {}};
   for (const auto& [name, figure] : config.figures) {
     Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);
     plot.rows = n_steps + 1;
-    draw(job, name, gnuplot_script(plot, name));
+    figures.draw(name, gnuplot_script(plot, name));
   }
   if (config.render) {
     const StepState state = state_of(solution.record(pictured));
@@ -110,8 +120,9 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     scene.label = plain(with_unit(field.label, field.unit));
     const Drawing drawing = render(scene, *config.render);
     write_text_file(job.beside("render.svg"), svg(drawing));
-    draw(job, "render", gnuplot_script(drawing, "render"));
+    figures.draw("render", gnuplot_script(drawing, "render"));
   }
+  figures.report();
   write_curves(job.output, curves, job.identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", t.size(), curves.columns.size(), csv_file.filename().string(),
           snapshots.size(), config.figures.size() + config.render.has_value());
