@@ -22,7 +22,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
                                        "/summary",
                                        "nothing to gather",
                                        "a file with a summary",
-                                       "curves.h5, material.h5 and sensitivity.h5 have one"});
+                                       "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
     if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
     members.push_back(std::move(member));
   }

@@ -27,7 +27,7 @@ const std::vector<StageSpec>& stages() {
        "Collects one quantity or several over a sweep.",
        {{.name = "curves",
          .says = "a member of the sweep: any file with a /summary",
-         .made_by = {"post", "fit", "sensitivity", "solve"},
+         .made_by = {"post", "fit", "sensitivity", "mesh"},
          .several = true}},
        "sweep.h5"},
   };

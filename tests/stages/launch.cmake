@@ -1,0 +1,20 @@
+# LAUNCH moves every step whole: each recipe is one plain command, so the launcher sees all of its words.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+file(WRITE ${WORK}/launcher "#!/bin/sh\necho \"$*\" >> ${WORK}/log\nexec \"$@\"\n")
+file(CHMOD ${WORK}/launcher PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+run(0 ${BIN}/langer-plan pipelines/smoke.yaml)
+run(0 make -j2 -C runs/smoke LAUNCH=${WORK}/launcher)
+file(STRINGS ${WORK}/log lines)
+list(LENGTH lines n)
+expect_equal(${n} 8 "commands that went through the launcher")
+foreach(line ${lines})
+  if(NOT line MATCHES "bin/langer-[a-z]+ [^ ]+\\.yaml .*-o [^ ]+\\.h5$")
+    message(FATAL_ERROR "not a whole command: ${line}")
+  endif()
+endforeach()
+
+# a launcher of several words
+file(REMOVE_RECURSE ${WORK}/project/runs/smoke/mesh/mesh.h5)
+run(0 make -C runs/smoke "LAUNCH=env LANGER_TEST=1" mesh/mesh.h5)
+expect_said("env LANGER_TEST=1 ")

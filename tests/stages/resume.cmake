@@ -1,0 +1,32 @@
+# A run killed again and again continues where it was, and ends with the same curves as a run left alone.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(folder ${WORK}/project)
+run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --quiet)
+set(solve ${BIN}/langer-solve configs/solve/smoke.yaml --mesh mesh.h5 --material configs/material/abdomen_hgo_yeoh.yaml --quiet
+  --set path.first=0.005 --set path.largest=0.005 -o)
+run(0 ${solve} whole/solution.h5)
+set(kept 0)
+foreach(attempt RANGE 26)  # 0.20 s, 0.23 s, ... 0.98 s
+  math(EXPR hundredths "20 + 3 * ${attempt}")
+  execute_process(COMMAND timeout -s KILL 0.${hundredths} ${solve} killed/solution.h5 WORKING_DIRECTORY ${folder} OUTPUT_QUIET ERROR_QUIET)
+  if(EXISTS ${folder}/killed/solution.h5)
+    break()
+  endif()
+  if(EXISTS ${folder}/killed/solution.h5.part)
+    math(EXPR kept "${kept} + 1")
+  endif()
+endforeach()
+if(NOT EXISTS ${folder}/killed/solution.h5)
+  message(FATAL_ERROR "not finished after 27 attempts")
+endif()
+message("killed ${kept} times with steps kept")
+if(kept EQUAL 0)
+  message(FATAL_ERROR "no attempt was killed on its way: the scene is too small for this test")
+endif()
+foreach(run whole killed)
+  run(0 ${BIN}/langer-post configs/post/smoke.yaml --solution ${run}/solution.h5 -o ${run}/curves.h5 --quiet)
+endforeach()
+# Newton's first guess comes from the step before, which a continued run does not know: the two agree within what the
+# residual of 1e-7 of the reactions leaves, not in the number of iterations.
+run(0 awk -F, -v but=newton_iterations -f ${ROOT}/tests/support/same_columns.awk whole/curves.csv killed/curves.csv)
