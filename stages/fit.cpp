@@ -1,7 +1,7 @@
 // langer-fit: parameters of a law from a measured curve.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv: strain, measured stress, model, error
 #include "fit/uniaxial_fit.hpp"
-
+#include "material/ellipticity.hpp"
 #include "scene/fit_config.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
@@ -57,6 +57,17 @@ void warn(const Job<FitConfig>& job, const FitRecord& record, const UniaxialFit&
     }
 }
 
+// where the fitted law becomes unstable along the test, looked for up to half as far again as the curve goes
+void say_stability(const Job<FitConfig>& job, const FitRecord& record, const Material& material) {
+  const std::vector<Vec3> a = fibre_directions(material);
+  const double far = 1.5 * record.strain_max, step = far / 200;
+  for (double strain = 0; strain <= far && far > 0; strain += step) {
+    const Uniaxial u = uniaxial_incompressible(material, 1 + strain);
+    if (u.converged && smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value > 0) continue;
+    return job.say("warning: strong ellipticity is lost at strain {:.2g}; the curve ends at {:.2g}", strain, record.strain_max);
+  }
+}
+
 std::vector<Summary> fit(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   const std::string& file = config.data.file.path;
@@ -82,12 +93,17 @@ std::vector<Summary> fit(const Job<FitConfig>& job) {
                                         "", "more starts, other start values or narrower bounds"});
   const FitRecord record = record_of(config, curve, found);
 
-  for (const FittedParameter& p : record.parameters)
-    job.say("{:>10} = {:12.6g} {:<5}  standard error {:.2g}{}", p.name, p.value, p.unit == "-" ? "" : p.unit, p.standard_error,
-            p.value == p.lower || p.value == p.upper ? ", on its bound" : "");
+  for (const FittedParameter& p : record.parameters) {
+    const bool on_bound = p.value == p.lower || p.value == p.upper;
+    job.say("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit,
+            on_bound                       ? "on its bound"
+            : std::isnan(p.standard_error) ? "not determined by this curve"
+                                           : fmt::format("standard error {:.2g}", p.standard_error));
+  }
   job.say("mean error {:.3g} %, largest {:.3g} % of the largest stress; KKT residual {:.1e}; {} points, {} starts",
           record.mean_error_percent, record.max_error_percent, record.kkt_residual, curve.size(), config.starts);
   warn(job, record, found);
+  if (!job.quiet) say_stability(job, record, found.material);
 
   std::vector<double> error;  // percent of the largest stress, as in fig. 5 of [A23]
   double largest = 0;

@@ -46,6 +46,26 @@ Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
   return T * D * T.transpose() / J;
 }
 
+bool lower(const ShearStiffness& x, const ShearStiffness& y) { return x.value < y.value; }
+
+// The best of eight normals at distance `reach` and of the bottom of the paraboloid through them.
+ShearStiffness best_nearby(const Acoustic& acoustic, const ShearStiffness& place, double reach) {
+  const Vec3 s = place.n.unitOrthogonal(), t = place.n.cross(s);
+  const auto at = [&](double x, double y) { return acoustic.at((place.n + reach * (x * s + y * t)).normalized()); };
+  const ShearStiffness e = at(1, 0), w = at(-1, 0), n = at(0, 1), o = at(0, -1);
+  const ShearStiffness ne = at(1, 1), sw = at(-1, -1), se = at(1, -1), nw = at(-1, 1);
+  const double gx = (e.value - w.value) / 2, gy = (n.value - o.value) / 2;
+  const double hxx = e.value - 2 * place.value + w.value, hyy = n.value - 2 * place.value + o.value;
+  const double hxy = (ne.value + sw.value - se.value - nw.value) / 4, det = hxx * hyy - hxy * hxy;
+  ShearStiffness best = std::min({e, w, n, o, ne, sw, se, nw}, lower);
+  if (hxx > 0 && det > 0) {
+    const double x = (-hyy * gx + hxy * gy) / det, y = (hxy * gx - hxx * gy) / det, far = std::hypot(x, y);
+    const double shorter = std::min(1., 10 / std::max(far, 1e-300));
+    best = std::min(best, at(shorter * x, shorter * y), lower);
+  }
+  return best;
+}
+
 }  // namespace
 
 ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a) {
@@ -62,16 +82,14 @@ ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F,
     const double z = (i + 0.5) / grid, angle = i * std::numbers::pi * (3 - std::sqrt(5.)), s = std::sqrt(1 - z * z);
     found.push_back(acoustic.at(Vec3(s * std::cos(angle), s * std::sin(angle), z)));
   }
-  const auto lower = [](const ShearStiffness& x, const ShearStiffness& y) { return x.value < y.value; };
+  const auto [least, greatest] = std::minmax_element(found.begin(), found.end(), lower);
+  const double enough = 1e-2 * (greatest->value - least->value);  // of decrease per reach^2: rounding must not be followed
   std::partial_sort(found.begin(), found.begin() + best, found.end(), lower);
   for (int k = 0; k < best; ++k) {
     ShearStiffness& place = found[static_cast<std::size_t>(k)];
-    for (double reach = 0.1; reach > 1e-9;) {
-      const Vec3 s = place.n.unitOrthogonal(), t = place.n.cross(s);
-      ShearStiffness next = place;
-      for (const Vec3& d : {s, t, Vec3(-s), Vec3(-t)})
-        next = std::min(next, acoustic.at((place.n + reach * d).normalized()), lower);
-      if (next.value < place.value)
+    for (double reach = 0.1; reach > 1e-6;) {
+      const ShearStiffness next = best_nearby(acoustic, place, reach);
+      if (next.value < place.value - enough * reach * reach)
         place = next;
       else
         reach /= 2;
