@@ -38,7 +38,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
 
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
-    statics.restore(state_of(*last, scene));
+    const auto before = file.before_resumed();
+    const BodyState earlier = before ? state_of(*before, scene) : statics.accepted();  // at rest
+    statics.restore(state_of(*last, scene), &earlier);
     increment = last->increment;
     progress.resumed(file.n_steps(), last->t);
   }

@@ -53,6 +53,7 @@ class SolutionWriter {
   ~SolutionWriter();
   // last record of a continued file, with everything a step needs to start from
   std::optional<StepRecord> resumed() const;
+  std::optional<StepRecord> before_resumed() const;  // the record before that, from which extrapolation starts
   int n_steps() const;
   void append(const StepRecord& record);
   void finish();

@@ -21,7 +21,7 @@ struct SolutionWriter::State {
   h5::File file;
   SolutionHeader header;
   int n_steps = 0;
-  std::optional<StepRecord> last;
+  std::optional<StepRecord> before, last;
 
   void begin();
   void check(const StepRecord& record) const;
@@ -130,6 +130,7 @@ SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& he
 SolutionWriter::~SolutionWriter() = default;
 
 std::optional<StepRecord> SolutionWriter::resumed() const { return state_->last; }
+std::optional<StepRecord> SolutionWriter::before_resumed() const { return state_->before; }
 int SolutionWriter::n_steps() const { return state_->n_steps; }
 
 void SolutionWriter::State::begin() {
@@ -220,6 +221,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   file.flush();
   steps.attribute("NSteps", std::int64_t{++n_steps});
   file.flush();
+  before = std::move(last);
   last = record;
 }
 

@@ -98,6 +98,8 @@ TEST_CASE("an abandoned run continues after its last step, to the same bytes as 
     CHECK(writer.n_steps() == 3);
     REQUIRE(writer.resumed());
     CHECK(example::same(*writer.resumed(), step(2, true)));
+    REQUIRE(writer.before_resumed());
+    CHECK(example::same(*writer.before_resumed(), step(1, true)));
     CHECK_FALSE(std::filesystem::exists(path + ".part.new"));
   }
   write_solution(path, 5, true);
