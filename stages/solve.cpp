@@ -15,20 +15,11 @@
 namespace langer {
 namespace {
 
-Material material_of(const Job<SolveConfig>& job) {
-  if (!job.has("material")) {
-    if (job.config.material) return *job.config.material;
-    throw Failure(Exit::config, Error{job.where(""), "material", "missing", "the key material, or --material FILE", ""});
-  }
-  if (job.config.material)
-    throw Failure(Exit::config, Error{job.where("material"), "material", "given here and by --material", "one of the two", ""});
-  return material_from(job.input("material"));
-}
-
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const SolveConfig& config = job.config;
   const Mesh mesh = read_mesh(job.input("mesh")).mesh;
-  const Scene scene = make_scene(config, mesh, material_of(job), job.where);
+  const Material material = job.has("material") ? material_from(job.input("material")) : *config.material;
+  const Scene scene = make_scene(config, mesh, material, job.where);
   Equilibrium body(mesh, {scene.material}, config.formulation, scene.dofs, config.threads);
   StaticsOptions options;
   options.threads = config.threads;

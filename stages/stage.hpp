@@ -126,6 +126,9 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
       for (const std::string& file : files) need_file(file);
     Tree tree = load_yaml(config_file);
     for (const std::string& setting : settings) apply_setting(tree, setting);
+    std::vector<std::string> ports;
+    for (const auto& [port, files] : job.inputs) ports.push_back(port);
+    need_one_source(spec, tree, ports);
     auto loaded = read_config<Config>(std::move(tree));
     job.config = std::move(loaded.config);
     job.where = std::move(loaded.where);

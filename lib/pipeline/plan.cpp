@@ -46,6 +46,9 @@ class Planning {
       rule.arguments += fmt::format(" --{} {}", input.port, path);
     }
     collect([&] {
+      std::vector<std::string> ports;
+      for (const StepInput& input : step.inputs) ports.push_back(input.port);
+      need_one_source(*step.stage, step.config, ports);
       const Effective effective = effective_config(*step.stage, step.config, here);
       for (const Effective::File& file : effective.files) {
         need_file(file.path, file.place, file.key);

@@ -17,6 +17,7 @@ const std::vector<StageSpec>& stages() {
          .says = "energy terms and their parameters, unless the config has them",
          .made_by = {"fit"},
          .required = false,
+         .or_key = true,
          .takes_yaml = true}},
        "solution.h5"},
       {"post",

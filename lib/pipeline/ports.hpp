@@ -11,6 +11,7 @@ struct Port {
   const char* says;                  // what the file holds
   std::vector<std::string> made_by;  // stages whose main output it takes
   bool required = true;
+  bool or_key = false;      // a key of this name in the config may stand in for the file; one of the two must be there
   bool several = false;     // --port may be repeated; the order counts
   bool takes_yaml = false;  // the file may be written by hand, as YAML
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +43,19 @@ void need_file(const std::string& path, const Place& named_at, const std::string
     return;
   if (key.empty()) refuse(path, trouble);
   throw Failure(Exit::input, Error{named_at, key, path + ": " + trouble, "", ""});
+}
+
+void need_one_source(const StageSpec& stage, const Tree& config, const std::vector<std::string>& ports_given) {
+  for (const Port& port : stage.inputs) {
+    if (!port.or_key) continue;
+    const Tree* key = config.find(port.name);
+    const bool given = std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
+    if (key && given)
+      throw Failure(Exit::config, Error{key->place, port.name, "given here and as a file", "one of the two", ""});
+    if (!key && !given)
+      throw Failure(Exit::config,
+                    Error{config.place, port.name, "missing", fmt::format("the key {0}, or a file (--{0})", port.name), ""});
+  }
 }
 
 void need_output(const std::string& output, const std::string& config, const InputFiles& inputs) {

@@ -7,6 +7,7 @@
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
+#include "pipeline/ports.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
 
@@ -15,6 +16,9 @@ namespace langer {
 using InputFiles = std::map<std::string, std::vector<std::string>>;  // port -> files in the order given
 
 void need_file(const std::string& path, const Place& named_at = {}, const std::string& key = "");  // throws Failure(input)
+
+// What a config may hold in place of a file at a port: refuses both and neither.
+void need_one_source(const StageSpec& stage, const Tree& config, const std::vector<std::string>& ports_given);
 
 // Makes the folder of an output file; throws Failure(input) where it cannot be written or would replace an input.
 void need_output(const std::string& output, const std::string& config, const InputFiles& inputs);

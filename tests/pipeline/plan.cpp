@@ -149,6 +149,23 @@ TEST_CASE("an error in a value of the pipeline is reported at its line of the pi
   CHECK(failure(code).find("p.yaml:6:69: loads[0].displacement.x: found wide; expected a number in mm") != std::string::npos);
 }
 
+TEST_CASE("a material given twice or not at all is found by plan") {
+  Project project;
+  const std::string text = read("p.yaml"), given = ", material: law.yaml";
+  std::string without = text;
+  without.erase(without.find(given), given.size());
+  write("p.yaml", without);
+  Exit code = Exit::ok;
+  CHECK(failure(code).find("configs/solve.yaml:1:1: material: missing; expected the key material, or a file (--material)") !=
+        std::string::npos);
+  CHECK(code == Exit::config);
+  std::ofstream("configs/solve.yaml", std::ios::app) << "material: {include: ../law.yaml}\n";
+  CHECK(failure(code).empty());
+  write("p.yaml", text);
+  CHECK(failure(code).find("configs/solve.yaml:4:1: material: given here and as a file; expected one of the two") !=
+        std::string::npos);
+}
+
 TEST_CASE("a missing data file is found by plan, with the code of an input file") {
   Project project;
   fs::remove("curve.csv");
