@@ -32,7 +32,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     const auto before = file.before_resumed();
     const BodyState earlier = before ? state_of(*before, scene) : statics.accepted();  // at rest
     statics.restore(state_of(*last, scene), &earlier);
-    increment = last->increment;
+    increment = last->scalars.at("next_increment");
     progress.resumed(file.n_steps(), last->t);
   }
   const auto nonlinear = std::get<NewtonOptions>(config.solver);
@@ -44,9 +44,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         if (!report.converged()) progress.failed(t, report);
         return report;
       },
-      [&](double, double taken, const SolveReport& report) {
+      [&](double, double taken, double next, const SolveReport& report) {
         statics.accept();
-        const StepRecord record = step_record(statics, body, taken, report);
+        const StepRecord record = step_record(statics, body, taken, next, report);
         file.append(record);
         progress.accepted(record, report);
         return true;
@@ -57,8 +57,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         Error{
             {},
             "",
-            fmt::format("stopped at t = {:.6g} after {} steps: {}; smallest increment reached", path.t, file.n_steps(),
-                        path.why),
+            fmt::format("stopped at t = {:.6g} after {} steps: {}{}; smallest increment reached", path.t, file.n_steps(),
+                        path.why,
+                        statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : ""),
             "",
             fmt::format(
                 "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",

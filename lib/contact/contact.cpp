@@ -54,9 +54,9 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
 }
 
 ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
-                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r) {
+                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r, double motion) {
   ContactDefect defect;
-  double largest = 0, motion = (c - c0).norm();
+  double largest = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];
     largest = std::max(largest, r[i].norm());

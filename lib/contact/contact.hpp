@@ -49,14 +49,15 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new);
 struct ContactDefect {
   double penetration = 0;      // largest -gap, or |gap| where there is a reaction [mm]
   double cone = 0;             // largest of |r_t| - mu r_n and -r_n, relative to the largest reaction
-  double complementarity = 0;  // largest |r.(x_t + (x_n + mu |x_t|) n)|, relative to largest reaction times largest motion
+  double complementarity = 0;  // largest |r.(x_t + (x_n + mu |x_t|) n)|, relative to largest reaction times motion
   int open = 0, stick = 0, slip = 0;
   Vec3 force = Vec3::Zero();  // sum of the reactions on the body [N]
   std::vector<ContactStatus> status;
   std::vector<double> gap;  // [mm]
 };
-// u, u0: (3 n) displacements now and at the start of the increment; r: one per candidate
+// u, u0: (3 n) displacements now and at the start of the increment; r: one per candidate;
+// motion: what moves the scene in this increment [mm], for the relative measure where nothing slips
 ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
-                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r);
+                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r, double motion);
 
 }  // namespace langer

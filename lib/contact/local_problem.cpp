@@ -169,6 +169,7 @@ LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions
   VecX best = r;
   report.residual = residual_of(problem, rho, r, nullptr);
   const auto judge = [&] {
+    if (!r.allFinite()) r = best;  // an indefinite W lets the sweeps run away
     const double residual = residual_of(problem, rho, r, nullptr);
     if (residual < report.residual) report.residual = residual, best = r;
     return residual;

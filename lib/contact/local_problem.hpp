@@ -31,7 +31,7 @@ struct LocalReport {
 struct LocalOptions {
   double tolerance = 1e-13;
   int sweeps = 2000;       // in all
-  int newton_steps = 200;  // in all
+  int newton_steps = 100;  // in all
 };
 
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options = {});

@@ -51,10 +51,10 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
 
 }  // namespace
 
-StepRecord step_record(const Statics& statics, const Equilibrium& body, double increment, const SolveReport& report) {
+StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report) {
   const BodyState& state = statics.accepted();
   StepRecord record;
-  record.t = state.t, record.increment = increment, record.iterations = report.iterations;
+  record.t = state.t, record.increment = taken, record.iterations = report.iterations;
   record.residual = report.reference > 0 ? report.residual / report.reference : report.residual;
   const VecX reactions = statics.reactions();
   for (int i = 0; i < body.mesh().n_nodes(); ++i) {
@@ -62,6 +62,7 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double i
     record.reaction.push_back(reactions.segment<3>(3 * i));
   }
   add_cell_fields(record, body, state.u);
+  record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
   const auto& contacts = statics.contacts();

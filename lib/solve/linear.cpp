@@ -107,16 +107,22 @@ void LinearSolver::State::order_last() {
   }
 }
 
-Definiteness LinearSolver::factorize(const std::vector<double>& values) {
+bool LinearSolver::factorize(const std::vector<double>& values) {
   State& s = *state_;
   const NoNestedThreads guard;
   std::copy(values.begin(), values.end(), static_cast<double*>(s.A->x));
   s.common.status = CHOLMOD_OK;
   cholmod_factorize(s.A, s.L, &s.common);
   if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  s.indefinite = s.common.status == CHOLMOD_NOT_POSDEF || s.L->minor < s.L->n;
-  if (!s.indefinite) return Definiteness::positive;
-  return s.factorize_indefinite() ? Definiteness::indefinite : Definiteness::singular;
+  s.indefinite = false;
+  return s.common.status != CHOLMOD_NOT_POSDEF && s.L->minor >= s.L->n;
+}
+
+bool LinearSolver::factorize_indefinite(const std::vector<double>& values) {
+  const NoNestedThreads guard;
+  std::copy(values.begin(), values.end(), static_cast<double*>(state_->A->x));
+  state_->indefinite = true;
+  return state_->factorize_indefinite();
 }
 
 bool LinearSolver::State::factorize_indefinite() {

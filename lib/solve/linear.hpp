@@ -12,16 +12,16 @@
 
 namespace langer {
 
-enum class Definiteness { positive, indefinite, singular };
-
 class LinearSolver {
  public:
   // threads: of the BLAS under CHOLMOD
   LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
   ~LinearSolver();
 
-  // indefinite: solved by UMFPACK from now until the next call; singular: neither could, solve() must not be called
-  Definiteness factorize(const std::vector<double>& values);
+  // By CHOLMOD; false where K is not positive definite. solve() then must wait for another factorization.
+  bool factorize(const std::vector<double>& values);
+  // By UMFPACK, whatever the signs; false where K is singular.
+  bool factorize_indefinite(const std::vector<double>& values);
   VecX solve(const VecX& b) const;
 
   // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`

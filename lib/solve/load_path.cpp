@@ -7,7 +7,7 @@ namespace langer {
 
 PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment,
                      const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
-                     const std::function<bool(double t, double increment, const SolveReport&)>& accepted) {
+                     const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted) {
   constexpr double tiny = 1e-10;
   PathReport report;
   report.t = t;
@@ -37,7 +37,7 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
     const double taken = next - t;
     t = next;
     if (solved.iterations <= options.easy) dt = std::min(largest, std::max(dt, taken) * 1.5);
-    if (!accepted(t, taken, solved)) return report;
+    if (!accepted(t, taken, dt, solved)) return report;
   }
   report.complete = true;
   return report;

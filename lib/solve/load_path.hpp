@@ -13,7 +13,7 @@ namespace langer {
 
 struct LoadPathOptions {
   std::optional<int> steps;
-  double first = 0.1, largest = 0.1, smallest = 1e-6;
+  double first = 0.1, largest = 0.1, smallest = 1e-4;
   int easy = 6;
   static void fields(auto& v) {
     v(&LoadPathOptions::steps, "steps", unit::none, "number of equal increments; first and largest follow from it",
@@ -44,10 +44,10 @@ struct PathReport {
 };
 
 // attempt(t): solve at t from the last accepted state; the callee keeps or restores its state.
-// accepted(t, increment, report): false stops the path (the report is then not complete).
+// accepted(t, increment taken, next increment, report): false stops the path (the report is then not complete).
 // stops: values of t that must be hit (kinks of the path); 1 is always one.
 PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment,
                      const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
-                     const std::function<bool(double t, double increment, const SolveReport&)>& accepted);
+                     const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted);
 
 }  // namespace langer

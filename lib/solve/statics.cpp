@@ -5,6 +5,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "contact/supported_problem.hpp"
+
 namespace langer {
 
 namespace {
@@ -51,7 +53,7 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
 }
 
 void Statics::begin(double t) {
-  t_ = t;
+  t_ = t, supported_ = false;
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
   const double last = now_.t - before_.t;
@@ -70,6 +72,14 @@ void Statics::begin(double t) {
 void Statics::accept() {
   before_ = std::move(now_);
   now_ = {t_, u_, r_};
+}
+
+double Statics::motion(double t0) const {
+  double largest = 0;
+  for (const RigidContact& contact : contacts_)
+    largest = std::max(largest, (indenter_displacement(contact, t_) - indenter_displacement(contact, t0)).norm());
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) largest = std::max(largest, std::abs(p.value * (t_ - t0)));
+  return largest;
 }
 
 VecX Statics::remaining_prescribed(const VecX& u) const {
@@ -94,7 +104,6 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   Assessment out;
   const VecX du = remaining_prescribed(u);
   out.admissible = equilibrium_.assemble(u, with_tangent, &du);
-  factor_current_ = false;
   if (!out.admissible) return out;
   out.residual = free_residual().norm();
   double reference = 0;
@@ -109,7 +118,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactDefect d =
         contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
-                       indenter_displacement(contacts_[k], now_.t), r_[k]);
+                       indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
     if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance ||
         d.cone > options_.law_tolerance) {
       out.others = false;
@@ -121,15 +130,33 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
 
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
+// K by Cholesky; where it is not positive definite, K with springs on the candidates, which contact_forces() takes out
+// again exactly; where that is not either, K as it is by UMFPACK.
+bool Statics::factorize() {
+  const Stopwatch watch(cost_.factor);
+  ++cost_.factorizations;
+  if (!supported_ && linear_->factorize(equilibrium_.K())) return true;
+  ++n_indefinite_;
+  if (!last_.empty()) {
+    const Pattern& pattern = equilibrium_.pattern();
+    double diagonal = 0;  // a column starts with its diagonal
+    for (int row : last_) diagonal += std::abs(equilibrium_.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
+    for (double stiffer : {1.0, 30.0, 1000.0}) {
+      if (supported_ && stiffer * diagonal < 0.5 * gamma_) continue;  // softer springs were not enough in this increment
+      gamma_ = stiffer * diagonal;
+      std::vector<double> K = equilibrium_.K();
+      for (int row : last_) K[pattern.column_start[row]] += gamma_;
+      if (linear_->factorize(K)) return supported_ = true;
+    }
+    supported_ = false;
+  }
+  ++n_unstable_;  // the body gives way even with every candidate held
+  return linear_->factorize_indefinite(equilibrium_.K());
+}
+
 std::optional<VecX> Statics::correction() {
   const Dofs& dofs = equilibrium_.dofs();
-  if (!factor_current_) {
-    const Stopwatch watch(cost_.factor);
-    definiteness_ = linear_->factorize(equilibrium_.K());
-    factor_current_ = true, ++cost_.factorizations;
-    if (definiteness_ != Definiteness::positive) ++n_indefinite_;
-  }
-  if (definiteness_ == Definiteness::singular) return std::nullopt;
+  if (!factorize()) return std::nullopt;
   VecX rhs = free_residual();
   for (int row = 0; row < dofs.n_free(); ++row) rhs[row] -= equilibrium_.K_du()[dofs.free[row]];
   VecX move;
@@ -171,10 +198,10 @@ std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
         const int row = dofs.equation[3 * node + j];
         d[j] = row >= 0 ? free_move[row] : 0;
       }
-      const double g = gap(contact.shape, x - c);
-      // far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away
+      // far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away;
+      // those with springs are all needed, to take the springs out
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05;
-      if (r_[k][i].isZero(0) && g > reach) continue;
+      if (!supported_ && r_[k][i].isZero(0) && gap(contact.shape, x - c) > reach) continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, r_[k][i]), {}, {}};
       n.r = n.law.frame.transpose() * r_[k][i];
       n.move = n.law.frame.transpose() * d;
@@ -186,43 +213,69 @@ std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
   if (near.empty()) return force;
   const int m = static_cast<int>(near.size());
   MatX B = MatX::Zero(last_.size(), 3 * m);
+  VecX move(3 * m), present(3 * m), q(3 * m), mu(m);
+  std::vector<Mat3> E(m);  // force that follows the movement: turning frame, and springs
+  bool follows = false;
+  std::vector<int> sharing(last_.size(), 0);  // candidates of several contacts share a node's springs
   for (int p = 0; p < m; ++p) {
     const int node = contacts_[near[p].contact].nodes[near[p].candidate];
     for (int j = 0; j < 3; ++j)
-      if (const int row = last_of_[3 * node + j]; row >= 0) B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j);
+      if (const int row = last_of_[3 * node + j]; row >= 0)
+        B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j), ++sharing[row];
   }
-  // local movement d = move + W (r + D d - r_present):  d = (1 - W D)^-1 (move + W (r - r_present))
-  MatX W = linear_->compliance(B);
-  VecX move(3 * m), present(3 * m), q(3 * m), mu(m), r(3 * m);
-  bool curved = false;
-  for (int p = 0; p < m; ++p) {
-    move.segment<3>(3 * p) = near[p].move, present.segment<3>(3 * p) = near[p].r, q.segment<3>(3 * p) = near[p].law.q;
-    mu[p] = contacts_[near[p].contact].mu;
-    curved = curved || !near[p].law.D.isZero(0);
-  }
-  VecX start = move - W * present;
-  if (curved) {
-    MatX turn = MatX::Identity(3 * m, 3 * m);
-    for (int p = 0; p < m; ++p)
-      if (!near[p].law.D.isZero(0)) turn.middleCols<3>(3 * p) -= W.middleCols<3>(3 * p) * near[p].law.D;
-    const Eigen::PartialPivLU<MatX> lu(turn);
-    W = lu.solve(W);
-    start = lu.solve(start);
-  }
-  r = present;
-  const LocalReport local = solve_local({W, q + start, mu}, r);
-  cost_.sweeps += local.sweeps;
-  if (!r.allFinite()) return std::nullopt;
-  const VecX d = start + W * r;
   for (int p = 0; p < m; ++p) {
     const Near& n = near[p];
-    const Vec3 change = r.segment<3>(3 * p) + n.law.D * d.segment<3>(3 * p) - n.r;
-    for (int j = 0; j < 3; ++j) {
-      const int node = contacts_[n.contact].nodes[n.candidate];
-      if (const int row = last_of_[3 * node + j]; row >= 0) force[row] += n.law.frame.row(j).dot(change);
+    const int node = contacts_[n.contact].nodes[n.candidate];
+    move.segment<3>(3 * p) = n.move, present.segment<3>(3 * p) = n.r, q.segment<3>(3 * p) = n.law.q;
+    mu[p] = contacts_[n.contact].mu;
+    E[p] = n.law.D;
+    if (supported_) {
+      Mat3 springs = Mat3::Zero();
+      for (int j = 0; j < 3; ++j)
+        if (const int row = last_of_[3 * node + j]; row >= 0) springs(j, j) = gamma_ / sharing[row];
+      E[p] += n.law.frame.transpose() * springs * n.law.frame;
     }
-    r_next_[n.contact][n.candidate] = n.law.frame * r.segment<3>(3 * p);  // in the frame at u; turned in moved()
+    follows = follows || !E[p].isZero(0);
   }
+  // force change s on the body, movement d:  d = move + W s,  reaction r = present + s - E d = b + A s
+  MatX W = linear_->compliance(B);
+  VecX b = present, s(3 * m);
+  MatX A;
+  bool solved = false;
+  if (follows) {
+    A = MatX::Identity(3 * m, 3 * m);
+    for (int p = 0; p < m; ++p)
+      if (!E[p].isZero(0)) {
+        A.middleRows<3>(3 * p) -= E[p] * W.middleRows<3>(3 * p);
+        b.segment<3>(3 * p) -= E[p] * move.segment<3>(3 * p);
+      }
+  }
+  VecX r = present;
+  const auto take = [&](const LocalReport& local) {
+    cost_.sweeps += local.sweeps;
+    solved = local.converged && r.allFinite();
+  };
+  if (!follows) {
+    take(solve_local({W, q + move - W * present, mu}, r));
+    s = r - present;
+  } else {
+    const Eigen::PartialPivLU<MatX> lu(A);
+    if (lu.rcond() > 1e-9) {  // s = A^-1 (r - b)
+      const MatX W_t = W.transpose(), W_r_t = lu.transpose().solve(W_t), W_r = W_r_t.transpose();
+      take(solve_local({W_r, q + move - W_r * b, mu}, r));
+      if (solved) s = lu.solve(r - b);
+    }
+  }
+  if (!solved && follows) {  // W_r indefinite, or none: stable only through its contacts
+    s = VecX::Zero(3 * m);
+    const LocalReport local = solve_supported({W, A, q + move, b, mu}, s);
+    r = b + A * s;
+    take(local);
+  }
+  if (!s.allFinite() || !r.allFinite()) return std::nullopt;
+  force = B * s;
+  for (int p = 0; p < m; ++p)  // in the frame at u; turned in moved()
+    r_next_[near[p].contact][near[p].candidate] = near[p].law.frame * r.segment<3>(3 * p);
   return force;
 }
 
@@ -252,10 +305,11 @@ Problem Statics::problem() {
 }
 
 std::vector<ContactDefect> Statics::defects() const {
+  const double t0 = now_.t == t_ ? before_.t : now_.t;
   std::vector<ContactDefect> out;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_, indenter_displacement(contacts_[k], t_),
-                                 indenter_displacement(contacts_[k], now_.t == t_ ? before_.t : now_.t), r_[k]));
+                                 indenter_displacement(contacts_[k], t0), r_[k], motion(t0)));
   return out;
 }
 

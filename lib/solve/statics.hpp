@@ -45,8 +45,10 @@ class Statics {
   const BodyState& accepted() const { return now_; }
   std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
-  VecX reactions() const;                             // (3 n) F_int at supports and contact nodes, 0 elsewhere
-  int n_indefinite() const { return n_indefinite_; }  // factorizations that needed the fallback so far
+  VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
+  // tangents so far that were not positive definite without contact, and among them those that were not with contact
+  int n_indefinite() const { return n_indefinite_; }
+  int n_unstable() const { return n_unstable_; }
   struct Cost {
     double assembly = 0, factor = 0, solve = 0, contact = 0;  // CPU seconds
     long factorizations = 0, sweeps = 0;
@@ -57,9 +59,11 @@ class Statics {
  private:
   Assessment assess(const VecX& u, bool with_tangent);
   std::optional<VecX> correction();
+  bool factorize();
   std::optional<VecX> contact_forces(const VecX& free_move);
   bool admissible(const VecX& u) const;
   void moved(const VecX& du, double step);
+  double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
   VecX remaining_prescribed(const VecX& u) const;
   VecX free_residual() const;  // -(F_int - F_ext - R) on the free rows
 
@@ -75,9 +79,9 @@ class Statics {
   VecX u_;
   std::vector<std::vector<Vec3>> r_, r_next_;  // on trial; r_next_: what the last linear solve found
   VecX u_start_;                               // state that the increment's slip is measured from
-  Definiteness definiteness_ = Definiteness::positive;
-  bool factor_current_ = false;
-  int n_indefinite_ = 0;
+  bool supported_ = false;                     // the factor is of K + gamma on the candidates' diagonal
+  double gamma_ = 0;                           // [N/mm]
+  int n_indefinite_ = 0, n_unstable_ = 0;
   Cost cost_;
 };
 

@@ -27,7 +27,7 @@ PathReport run(Statics& statics, double increment, const std::vector<double>& st
         statics.begin(t);
         return newton(statics.problem(), statics.trial(), {});
       },
-      [&](double, double, const SolveReport&) {
+      [&](double, double, double, const SolveReport&) {
         statics.accept();
         return true;
       });

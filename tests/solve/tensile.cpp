@@ -37,7 +37,7 @@ Tensile pull(const Material& material, Formulation formulation, double travel = 
         statics.begin(t);
         return newton(statics.problem(), statics.trial(), {});
       },
-      [&](double, double, const SolveReport&) {
+      [&](double, double, double, const SolveReport&) {
         statics.accept();
         return true;
       });

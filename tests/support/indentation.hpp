@@ -21,7 +21,8 @@ struct Indentation {
   Formulation formulation = Formulation::mean_dilatation;
   int threads = 1;
   bool extrapolate = true;
-  bool quarter = false;      // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
+  bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
+  bool loose_base = false;  // the bottom may glide in x
   NewtonOptions newton;
 
   struct Step {
@@ -51,7 +52,8 @@ struct Indentation {
     result.mesh = block(x, even(0, 4, ny), z);
     std::vector<Prescribed> held;
     for (int i : result.mesh.node_sets["y_min"])
-      for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+      for (int k = 0; k < 3; ++k)
+        if (k > 0 || !loose_base) held.push_back({3 * i + k, 0});
     if (quarter)
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
@@ -70,7 +72,7 @@ struct Indentation {
           statics.begin(t);
           return langer::newton(statics.problem(), statics.trial(), newton);
         },
-        [&](double t, double, const SolveReport& report) {
+        [&](double t, double, double, const SolveReport& report) {
           statics.accept();
           const ContactDefect defect = statics.defects()[0];
           result.steps.push_back({t * depth, -defect.force[1], report.iterations, defect});

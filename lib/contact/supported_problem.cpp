@@ -1,0 +1,92 @@
+#include "contact/supported_problem.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace langer {
+
+namespace {
+
+// F_n = r_n - max(0, A),  A = r_n - rho x_n;   F_t = r_t - projection of r_t - rho x_t on the disc of radius mu A
+struct Function {
+  VecX F;
+  std::vector<ContactStatus> status;
+};
+
+Function evaluate(const SupportedProblem& p, const VecX& rho, const VecX& s, MatX* Jacobian) {
+  const VecX x = p.q + p.W * s, r = p.b + p.A * s;
+  Function out{VecX(s.size()), std::vector<ContactStatus>(p.n_contacts(), ContactStatus::open)};
+  if (Jacobian) Jacobian->resize(s.size(), s.size());
+  for (int i = 0; i < p.n_contacts(); ++i) {
+    const Vec3 r_i = r.segment<3>(3 * i), x_i = x.segment<3>(3 * i);
+    const double a = r_i[0] - rho[i] * x_i[0];
+    const auto dr = p.A.middleRows<3>(3 * i), dx = p.W.middleRows<3>(3 * i);
+    if (a <= 0) {
+      out.F.segment<3>(3 * i) = r_i;
+      if (Jacobian) Jacobian->middleRows<3>(3 * i) = dr;
+      continue;
+    }
+    const Eigen::Vector2d trial = r_i.tail<2>() - rho[i] * x_i.tail<2>();
+    const double radius = p.mu[i] * a, size = trial.norm();
+    out.F[3 * i] = rho[i] * x_i[0];
+    if (Jacobian) Jacobian->row(3 * i) = rho[i] * dx.topRows<1>();
+    if (size <= radius) {
+      out.status[i] = ContactStatus::stick;
+      out.F.segment<2>(3 * i + 1) = rho[i] * x_i.tail<2>();
+      if (Jacobian) Jacobian->middleRows<2>(3 * i + 1) = rho[i] * dx.bottomRows<2>();
+      continue;
+    }
+    out.status[i] = ContactStatus::slip;
+    const Eigen::Vector2d t = trial / size;
+    out.F.segment<2>(3 * i + 1) = r_i.tail<2>() - radius * t;
+    if (Jacobian) {
+      const Eigen::Matrix2d turn = (radius / size) * (Eigen::Matrix2d::Identity() - t * t.transpose());
+      Jacobian->middleRows<2>(3 * i + 1) = dr.bottomRows<2>() - p.mu[i] * t * (dr.topRows<1>() - rho[i] * dx.topRows<1>()) -
+                                           turn * (dr.bottomRows<2>() - rho[i] * dx.bottomRows<2>());
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptions& options) {
+  LocalReport report;
+  VecX rho(p.n_contacts());
+  for (int i = 0; i < rho.size(); ++i) rho[i] = 1 / std::max(p.W.block<3, 3>(3 * i, 3 * i).norm(), 1e-300);
+  MatX Jacobian;
+  const auto scale = [&](const VecX& at) {
+    return std::max(
+        {(p.b + p.A * at).lpNorm<Eigen::Infinity>(),
+         rho.cwiseProduct(VecX::NullaryExpr(rho.size(), [&](Eigen::Index i) { return std::abs(p.q[3 * i]); })).maxCoeff() *
+             1e-3,
+         1e-300});
+  };
+  Function now = evaluate(p, rho, s, &Jacobian);
+  for (; report.newton_steps < options.newton_steps; ++report.newton_steps) {
+    report.residual = now.F.lpNorm<Eigen::Infinity>() / scale(s);
+    if (report.residual <= 1e-12 || !std::isfinite(report.residual)) break;
+    const Eigen::PartialPivLU<MatX> lu(Jacobian);
+    VecX step = lu.solve(-now.F);
+    // a direction that nothing decides (all contacts open, or smooth ones that leave a body free to glide): the least step
+    if (!step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm())
+      step = Jacobian.completeOrthogonalDecomposition().solve(-now.F);
+    if (!step.allFinite()) break;
+    double t = 1;
+    Function next;
+    for (; t > 1e-4; t *= 0.5) {
+      next = evaluate(p, rho, s + t * step, nullptr);
+      if (next.F.norm() <= (1 - 1e-4 * t) * now.F.norm()) break;
+    }
+    if (t <= 1e-4) t = 1;  // between pieces of the function |F| may have to rise once
+    s += t * step;
+    now = evaluate(p, rho, s, &Jacobian);
+  }
+  report.residual = now.F.lpNorm<Eigen::Infinity>() / scale(s);
+  report.status = now.status;
+  report.converged = report.residual <= 1e-10;
+  return report;
+}
+
+}  // namespace langer
