@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sensitivity/morris.hpp"
+#include "sensitivity/one_at_a_time.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
 

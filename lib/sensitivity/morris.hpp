@@ -1,36 +1,23 @@
-// One-at-a-time effects, which the paper calls Morris: one parameter goes from its lower to its upper bound in n steps while
-// the others stay at their identified values.                                         [A23] eqs 39-43
-//   effect    d^i = (phi(P + Delta) - phi(P))/Delta,  Delta = (upper - lower)/n                       (39-41)
-//   mu_star   mean of |d^i|                                                                           (42)
-//   s         as printed: sqrt(sum (d^i - mu_star)^2/(n - 1)), signed effects about the mean of their sizes   (43)
-//   spread    standard deviation of d^i about their own mean: 0 where phi is linear, which s is not if the slope is negative
-// Unlike true Morris trajectories [M91] this sees no interaction between parameters.
-// phi is a curve: every quantity has one value per point of it. Knows no mechanics: any callable.
+// Morris' screening [M91]: random paths through a grid of the box, one parameter moves at a time but each from another place,
+// so that curvature and interactions show. The box is scaled to [0, 1]: effects carry the unit of the curve and compare.
+//   effect   (y(x + Delta e_i) - y(x))/Delta on a grid of `levels` values, Delta = levels/(2 (levels - 1))
+//   mu       mean of the effects;  mu_star mean of their sizes [CCS07];  sigma their standard deviation:
+//            0 for a linear model, large where curved or where parameters act together
+// Costs trajectories (k + 1) curves. Intervals by resampling whole trajectories.
 #pragma once
 
-#include <functional>
-#include <vector>
-
-#include "tensor/types.hpp"
+#include "sensitivity/sampling.hpp"
 
 namespace langer {
 
-// fills y (m); false where the parameters have no curve
-using ParametricCurve = std::function<bool(const VecX& p, VecX& y)>;
-
-struct OneAtATime {
-  MatX mu_star, s, spread;  // (k, m) parameters, points; unit of y over unit of the parameter
-  bool complete = false;    // otherwise no curve exists at `missing`
-  VecX missing;
+struct Morris {
+  Estimate mu, mu_star, sigma;              // (k, m)
+  Estimate group_mu_star, group_sigma;      // (k, groups) means over the points of a group
+  int trajectories = 0, without_curve = 0;  // of those asked for, left out because a curve does not exist
 };
 
-// value, lower, upper (k), lower < upper; n >= 2 steps
-OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const VecX& lower, const VecX& upper, int n);
-
-// Means over the points of a zone, both ends included: rows as in `of`, one column per zone; NaN in a zone without points.
-struct Zone {
-  double from = 0, to = 0;
-};
-MatX zone_means(const MatX& of, const std::vector<double>& x, const std::vector<Zone>& zones);
+// lower < upper (k); levels even, >= 4; trajectories >= 2
+Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int trajectories, int levels,
+              const SamplingOptions& options);
 
 }  // namespace langer

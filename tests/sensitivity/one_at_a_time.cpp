@@ -1,5 +1,5 @@
 // One-at-a-time effects: closed forms, what s sees and what it does not, the law of the paper.
-#include "sensitivity/morris.hpp"
+#include "sensitivity/one_at_a_time.hpp"
 
 #include <doctest/doctest.h>
 
