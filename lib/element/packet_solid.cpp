@@ -33,7 +33,8 @@ struct Spatial {
 
 constexpr int most_families = 4;
 
-//   tau = dev sum 2 W' h,   h = I_bar-gradient pushed forward: b_bar for I1_bar, m (F a)(F a)^T for I4_bar
+//   tau = dev sum 2 W' h,   h = I_bar-gradient pushed forward: b_bar for I1_bar,
+//   kappa b_bar + (1 - 3 kappa) m (F a)(F a)^T for a fibre family
 void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres, Spatial& out) {
   const P root = cbrt(J), m = 1.0 / (root * root);  // I3^(-1/3)
   P b[6];
@@ -66,7 +67,9 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
     P a[3], h[6];
     for (int i = 0; i < 3; ++i)
       a[i] = F[3 * i] * fibres[k].a[0] + F[3 * i + 1] * fibres[k].a[1] + F[3 * i + 2] * fibres[k].a[2];
-    const P I4 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], I4_bar = m * I4;
+    const double along = 1 - 3 * fibre.kappa;
+    for (int p = 0; p < 6; ++p) h[p] = fibre.kappa * b[p] + along * m * a[voigt_i[p]] * a[voigt_j[p]];
+    const P I4_bar = h[0] + h[1] + h[2], I4 = I4_bar / m;
     const Energy<P> e = fibre.hgo(I4_bar);
     // the same threshold as the scalar law
     const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
@@ -74,10 +77,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
         fibre.tension_switch == FibreSwitch::off ? P(1.0) : (fibre.tension_switch == FibreSwitch::I4 ? I4 : I4_bar) - from;
     const P dW4 = where_not_negative(test, e.dW);
     out.W += where_not_negative(test, e.W);
-    for (int p = 0; p < 6; ++p) {
-      h[p] = m * a[voigt_i[p]] * a[voigt_j[p]];
-      sum[p] += 2.0 * dW4 * h[p];
-    }
+    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * dW4 * h[p];
     out.stiffness[out.n] = 4.0 * where_not_negative(test, e.ddW);
     deviator(h, out.h[out.n++]);
   }

@@ -1,5 +1,6 @@
 #include "material/material.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <limits>
 #include <numbers>
 
@@ -15,6 +16,19 @@ std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame) 
     a.push_back(std::cos(alpha) * frame.col(0) + std::sin(alpha) * frame.col(2));
   }
   return a;
+}
+
+double shear_modulus(const MatrixTerm& term) {
+  return std::visit(
+      [](const auto& law) {
+        if constexpr (law.of == Invariant::I1_bar_and_I2_bar)
+          return 2 * (law.of_I1(3.).dW + law.of_I2(3.).dW);
+        else if constexpr (law.of == Invariant::squared_stretches)
+          return 2 * (law(1.).ddW + law(1.).dW);
+        else
+          return 2 * law(3.).dW;
+      },
+      term);
 }
 
 namespace {
@@ -35,10 +49,47 @@ bool slack(FibreSwitch tension_switch, double I4, double I4_bar) {
   return false;
 }
 
+// What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H = d2W/dC_bar2
+//   dW/dC = I3^(-1/3) (G - (G:C)/3 C^-1), as of a term with M = G;  d2W/dC2 = that term's + Q^T H Q,  Q = dC_bar/dC
+struct OfStretches {
+  double W = 0;
+  Vec6 G = Vec6::Zero();
+  Mat6 QHQ = Mat6::Zero();
+};
+
+OfStretches of_stretches(const Ogden& law, const Invariants& v, bool with_tangent) {
+  OfStretches s;
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(tensor(v.m * v.C));
+  const Vec3& e = eigen.eigenvalues();
+  const Mat3& n = eigen.eigenvectors();
+  Mat6 H = Mat6::Zero();
+  for (int a = 0; a < 3; ++a) {
+    const Energy<double> g = law(e[a]);
+    const Vec6 N = structural_tensor(n.col(a));
+    s.W += g.W;
+    s.G += g.dW * N;
+    if (!with_tangent) continue;
+    H += g.ddW * N * N.transpose();
+    for (int b = 0; b < a; ++b) {
+      const Mat3 mixed = 0.5 * (n.col(a) * n.col(b).transpose() + n.col(b) * n.col(a).transpose());
+      const Vec6 N_ab = voigt(mixed);
+      H += 2 * law.divided_difference(e[a], e[b]) * N_ab * N_ab.transpose();
+    }
+  }
+  if (with_tangent) {
+    // contraction over symmetric pairs counts shear twice
+    Vec6 C = v.C;
+    C.tail<3>() *= 2;
+    const Mat6 Q = v.m * (Mat6::Identity() - (C / 3) * v.C_inverse.transpose());
+    s.QHQ = Q.transpose() * H * Q;
+  }
+  return s;
+}
+
 // the terms of one C, gathered before the derivatives of the invariants are formed once
 Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product) {
   Response r;
-  Vec6 M = Vec6::Zero();  // sum W' M, M = I or a a^T
+  Vec6 M = Vec6::Zero();  // sum W' M, M = I or the fibres' tensor
   double dW_I2 = 0;
   const auto square = [&](double ddW, const Vec6& dI_dC) {
     if (C_inverse_product && ddW != 0) r.D.noalias() += (4 * ddW * dI_dC) * dI_dC.transpose();
@@ -52,11 +103,23 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
             r.W += e.W;
             M.head<3>().array() += e.dW;
             square(e.ddW, dlinear_bar_dC(v, identity6()));
-          } else {
+          } else if constexpr (law.of == Invariant::I2_bar) {
             const Energy<double> e = law(I2_bar(v));
             r.W += e.W;
             dW_I2 += e.dW;
             square(e.ddW, dI2_bar_dC(v));
+          } else if constexpr (law.of == Invariant::I1_bar_and_I2_bar) {
+            const Energy<double> e1 = law.of_I1(v.m * v.I1), e2 = law.of_I2(I2_bar(v));
+            r.W += e1.W + e2.W;
+            M.head<3>().array() += e1.dW;
+            dW_I2 += e2.dW;
+            square(e1.ddW, dlinear_bar_dC(v, identity6()));
+            square(e2.ddW, dI2_bar_dC(v));
+          } else {
+            const OfStretches s = of_stretches(law, v, C_inverse_product);
+            r.W += s.W;
+            M += s.G;
+            if (C_inverse_product) r.D += 4 * s.QHQ;
           }
         },
         term);
@@ -64,7 +127,7 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
   for (std::size_t k = 0; k < material.fibres.size(); ++k) {
     const Fibre& fibre = material.fibres[k];
     if (fibre.hgo.c1 == 0) continue;
-    const Vec6 aa = structural_tensor(a[k]);
+    const Vec6 aa = fibre_tensor(fibre, a[k]);
     const double I4_bar = linear_bar(v, aa);
     if (slack(fibre.tension_switch, I4_bar / v.m, I4_bar)) continue;
     const Energy<double> e = fibre.hgo(I4_bar);

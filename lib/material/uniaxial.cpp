@@ -117,7 +117,10 @@ std::optional<std::vector<double>> uniaxial_curve(const Material& material, std:
   for (double e : strain) {
     const Uniaxial u = state(material, 1 + e, dilatation == Dilatation::incompressible);
     if (!u.converged) return std::nullopt;
-    stress.push_back(measure == StressMeasure::cauchy ? u.sigma : u.sigma * (1 + u.J_minus_1) / (1 + e));
+    const double nominal = u.sigma * (1 + u.J_minus_1) / (1 + e);
+    stress.push_back(measure == StressMeasure::cauchy    ? u.sigma
+                     : measure == StressMeasure::nominal ? nominal
+                                                         : nominal / (1 + e));
   }
   return stress;
 }

@@ -31,9 +31,9 @@ Uniaxial uniaxial_incompressible(const Material& material, double lambda);
 enum class Dilatation { incompressible, compressible };
 constexpr auto names(Dilatation) { return std::array{"incompressible", "compressible"}; }
 
-// force over the deformed area, or over the reference area:  nominal = cauchy J/lambda
-enum class StressMeasure { cauchy, nominal };
-constexpr auto names(StressMeasure) { return std::array{"cauchy", "nominal"}; }
+// force over the deformed area, over the reference area:  nominal = cauchy J/lambda,  second Piola-Kirchhoff = nominal/lambda
+enum class StressMeasure { cauchy, nominal, second_piola };
+constexpr auto names(StressMeasure) { return std::array{"cauchy", "nominal", "second_piola"}; }
 
 // Stresses [MPa] at engineering strains lambda - 1; nothing if one of the states does not exist.
 std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain,

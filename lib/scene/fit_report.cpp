@@ -58,14 +58,9 @@ std::vector<std::string> fit_results(const FitRecord& record) {
 std::vector<std::string> fit_warnings(const FitRecord& record, const Material& material) {
   std::vector<std::string> lines;
   for (const MatrixTerm& term : material.matrix)
-    std::visit(
-        [&](const auto& law) {
-          if (const double slope = law(3.).dW; slope < 0)
-            lines.push_back(
-                fmt::format("{} starts with a negative slope ({:.4g} MPa): the shear modulus of this term is negative at rest",
-                            law.key, slope));
-        },
-        term);
+    if (const double mu = shear_modulus(term); mu < 0)
+      lines.push_back(fmt::format("{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
+                                  std::visit([](const auto& law) { return law.key; }, term), mu));
   for (const Fibre& fibre : material.fibres)
     if (fibre.hgo.c1 < 0)
       lines.push_back(

@@ -28,6 +28,11 @@ struct Packet {
     for (int i = 0; i < lanes; ++i) r.v[i] = std::exp(a.v[i]);
     return r;
   }
+  friend Packet log1p(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::log1p(a.v[i]);
+    return r;
+  }
   friend Packet cbrt(const Packet& a) {
     Packet r;
     for (int i = 0; i < lanes; ++i) r.v[i] = std::cbrt(a.v[i]);

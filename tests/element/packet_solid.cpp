@@ -13,8 +13,17 @@ using namespace langer;
 TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, energy") {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> near(-0.15, 0.15), small(-0.1, 0.1);
+  const auto with = [](const MatrixTerm& term, double kappa = 0) {
+    Material m = test::stable(40, 1e-3);
+    m.matrix = {term};
+    m.fibres[0].kappa = kappa;
+    return m;
+  };
+  Material dispersed = with(Yeoh{0.05, 0.05, 0.02}, 0.1);
+  dispersed.fibres[0].tension_switch = FibreSwitch::off;
   for (const Material& material :
-       {test::table1(30, 1e-2), test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4)}) {
+       {test::table1(30, 1e-2), test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4), with(Gent{0.3, 4}),
+        with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
     REQUIRE(packet_form(material));
     const auto a = fibre_directions(material);
     std::vector<ElementGeometry> geometry;
@@ -61,5 +70,14 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
           CHECK(worst_dJ <= 1e-13);
         }
       }
+  }
+}
+
+TEST_CASE("laws that packets do not know are left to the scalar element") {
+  for (const MatrixTerm& term : {MatrixTerm(YeohI2{0.1, 0, 0}), MatrixTerm(MooneyRivlin{0.1, 0.1}),
+                                 MatrixTerm(Signorini{0.1, 0.1, 0.1}), MatrixTerm(Ogden{0.1, 3})}) {
+    Material m = test::stable(40, 1e-3);
+    m.matrix.push_back(term);
+    CHECK(!packet_form(m));
   }
 }

@@ -13,8 +13,9 @@ struct NamedMaterial {
   Material material;
 };
 
-inline Fibre hgo_fibre(double c1, double c2, double alpha_deg, FibreSwitch tension_switch = FibreSwitch::I4_bar) {
-  return {HgoFibre{c1, c2}, alpha_deg, tension_switch};
+inline Fibre hgo_fibre(double c1, double c2, double alpha_deg, FibreSwitch tension_switch = FibreSwitch::I4_bar,
+                       double kappa = 0) {
+  return {HgoFibre{c1, c2}, alpha_deg, tension_switch, kappa};
 }
 
 inline Material table1_hgo_yeoh(double alpha_deg = 0, double d = 1e-6) {
@@ -33,6 +34,17 @@ inline std::vector<NamedMaterial> catalogue() {
       {"Yeoh", {{Yeoh{0.2, 0.1, 0.05}}, {}, volume}},
       {"Yeoh of I2", {{YeohI2{0.2, 0.1, 0.05}}, {}, volume}},
       {"Mooney-Rivlin", {{NeoHooke{0.2}, YeohI2{0.1, 0, 0}}, {}, volume}},
+      {"Mooney-Rivlin in one term", {{MooneyRivlin{0.2, 0.1}}, {}, volume}},
+      {"Signorini", {{Signorini{0.2, 0.1, 0.05}}, {}, volume}},
+      {"Ogden, three terms", {{Ogden{0.63, 1.3, 0.0012, 5, -0.01, -2}}, {}, volume}},
+      {"Ogden, one term with fibres", {{Ogden{0.02, 9}}, {hgo_fibre(0.1, 0.3, 60)}, volume}},
+      {"Arruda-Boyce", {{ArrudaBoyce{0.3, 2.1}}, {}, volume}},
+      {"Gent", {{Gent{0.3, 4.5}}, {}, volume}},
+      {"dispersed fibres (GOH)",
+       {{NeoHooke{0.1}},
+        {hgo_fibre(0.2, 0.4, 35, FibreSwitch::I4_bar, 0.2), hgo_fibre(0.1, 0.9, -50, FibreSwitch::off, 0.1)},
+        volume}},
+      {"dispersed fibres without direction", {{NeoHooke{0.1}}, {hgo_fibre(0.2, 0.4, 35, FibreSwitch::off, 1. / 3)}, volume}},
       {"HGO, linear fibre", {{NeoHooke{0.3}}, {hgo_fibre(0.2, 0, 20)}, volume}},
       {"HGO-Yeoh of Table 1", table1_hgo_yeoh(30, 0.5)},
       {"HGO-Yeoh, positive", positive_hgo_yeoh(60, 0.5)},

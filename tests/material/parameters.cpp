@@ -18,7 +18,7 @@ std::vector<std::string> keys(Material m) {
 TEST_CASE("every number of a law has its YAML path, its name and its unit") {
   Material m = table1_hgo_yeoh(30);
   CHECK(keys(m) == std::vector<std::string>{"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3", "fibres[0].hgo.c1",
-                                            "fibres[0].hgo.c2", "fibres[0].alpha", "volume.quadratic.d"});
+                                            "fibres[0].hgo.c2", "fibres[0].alpha", "fibres[0].kappa", "volume.quadratic.d"});
   const auto all = parameters(m);
   CHECK(all[3].name == "c1");
   CHECK(all[3].unit == "MPa");
@@ -32,9 +32,9 @@ TEST_CASE("terms that stand twice are told apart by index, and names by a number
   const auto k = keys(m);
   CHECK(k[0] == "matrix[0].yeoh.a1");
   CHECK(k[3] == "matrix[1].yeoh.a1");
-  CHECK(k[9] == "fibres[1].hgo.c1");
+  CHECK(k[10] == "fibres[1].hgo.c1");
   const auto all = parameters(m);
   CHECK(all[0].name == "a1");
   CHECK(all[3].name == "a1_2");
-  CHECK(all[9].name == "c1_2");
+  CHECK(all[10].name == "c1_2");
 }

@@ -28,6 +28,21 @@ struct Samples<YeohI2> {
   static std::vector<double> at() { return {3, 3.2, 5, 12}; }
 };
 template <>
+struct Samples<ArrudaBoyce> {
+  static std::vector<ArrudaBoyce> terms() { return {{0.3, 1.2}, {-0.1, 5}}; }
+  static std::vector<double> at() { return {3, 3.2, 5, 12}; }
+};
+template <>
+struct Samples<Gent> {
+  static std::vector<Gent> terms() { return {{0.3, 12}, {-0.1, 80}}; }
+  static std::vector<double> at() { return {3, 3.2, 5, 12}; }
+};
+template <>
+struct Samples<Ogden> {
+  static std::vector<Ogden> terms() { return {{0.63, 1.3, 0.0012, 5, -0.01, -2}, {0.2, 1e-9}, {0.1, 2}, {0.1, 0}}; }
+  static std::vector<double> at() { return {0.3, 1, 1.05, 4}; }
+};
+template <>
 struct Samples<HgoFibre> {
   static std::vector<HgoFibre> terms() { return {{0.1, 0.3}, {-0.317, 0.319}, {0.2, 0}, {0.2, 1e-9}, {0.2, 20}}; }
   static std::vector<double> at() { return {0.8, 1, 1.05, 1.4, 2}; }
@@ -40,7 +55,8 @@ struct Samples<QuadraticVolume> {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2, HgoFibre, QuadraticVolume) {
+TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2, ArrudaBoyce, Gent, Ogden, HgoFibre,
+                   QuadraticVolume) {
   static_assert(EnergyTerm<Term>);
   for (const Term& term : Samples<Term>::terms())
     for (double x : Samples<Term>::at()) {
@@ -59,6 +75,9 @@ TEST_CASE("a term costs no energy in the undeformed state") {
   CHECK(NeoHooke{0.3}(3.).W == 0);
   CHECK(Yeoh{0.269, 0.376, 0.415}(3.).W == 0);
   CHECK(YeohI2{0.269, 0.376, 0.415}(3.).W == 0);
+  CHECK(ArrudaBoyce{0.3, 1.2}(3.).W == 0);
+  CHECK(Gent{0.3, 12}(3.).W == 0);
+  CHECK(Ogden{0.63, 1.3, 0.0012, 5, -0.01, -2}(1.).W == 0);
   CHECK(HgoFibre{0.1, 0.3}(1.).W == 0);
   CHECK(HgoFibre{0.1, 0.3}(1.).dW == 0);
   CHECK(QuadraticVolume{1e-6}(1.).W == 0);
@@ -69,5 +88,47 @@ TEST_CASE("the fibre energy tends to its quadratic limit as c2 goes to zero") {
   for (double c2 : {1e-7, 1.1e-8, 1e-9}) {
     const double x = 0.4;  // W = c1/2 x^2 (1 + c2 x^2/2 + ...), and exp(y) - 1 keeps eps/y of its digits
     CHECK(HgoFibre{0.2, c2}(1 + x).W == doctest::Approx(HgoFibre{0.2, 0}(1 + x).W).epsilon(c2 * x * x + 2e-16 / (c2 * x * x)));
+  }
+}
+
+TEST_CASE("Ogden's divided difference joins the derivative as the stretches meet") {
+  const Ogden law{0.63, 1.3, 0.0012, 5, -0.01, -2};
+  for (double f : {0.4, 1., 3.}) {
+    CHECK(law.divided_difference(f, f) == doctest::Approx(law(f).ddW).epsilon(1e-14));
+    for (double gap : {1e-14, 1e-10, 1e-6, 1e-3}) {
+      // the derivative in the middle is the divided difference up to gap^2 times a third derivative over 24
+      const double e = f * (1 + gap);
+      CHECK(law.divided_difference(e, f) == doctest::Approx(law((e + f) / 2).ddW).epsilon(1e-13 + 10 * gap * gap));
+    }
+    const double e = 2 * f;
+    CHECK(law.divided_difference(e, f) == doctest::Approx((law(e).dW - law(f).dW) / (e - f)).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("laws meet where one is a special case of another") {
+  const Vec3 stretch(1.3, 0.9, 0.95);
+  const Mat3 C = stretch.cwiseAbs2().asDiagonal();
+  const auto same = [&](const MatrixTerm& a, const MatrixTerm& b, double tolerance) {
+    const Volume volume{QuadraticVolume{1}};
+    const Response x = response({{a}, {}, volume}, C, {}), y = response({{b}, {}, volume}, C, {});
+    CHECK((x.S - y.S).norm() <= tolerance * y.S.norm());
+    CHECK((x.D - y.D).norm() <= tolerance * y.D.norm());
+    CHECK(shear_modulus(a) == doctest::Approx(shear_modulus(b)).epsilon(tolerance));
+  };
+  same(Ogden{0.6, 2}, NeoHooke{0.3}, 1e-13);
+  same(Ogden{0.6, 2, -0.2, -2}, MooneyRivlin{0.3, 0.1}, 1e-13);
+  same(Ogden{-0.2, -2}, YeohI2{0.1, 0, 0}, 1e-13);
+  same(Signorini{0.3, 0.1, 0}, MooneyRivlin{0.3, 0.1}, 1e-15);
+  same(Signorini{0.3, 0, 0.05}, Yeoh{0.3, 0.05, 0}, 1e-15);
+  same(Gent{0.6, 1e9}, NeoHooke{0.3}, 1e-8);
+  same(ArrudaBoyce{0.6, 1e5}, NeoHooke{0.3}, 1e-9);
+}
+
+TEST_CASE("beyond its limit Gent's law has no energy, and says so") {
+  for (double I1 : {3 + 12.001, 20., 1e3}) {
+    const Energy<double> e = Gent{0.3, 12}(I1);
+    CHECK(std::isnan(e.W));
+    CHECK(std::isnan(e.dW));
+    CHECK(std::isnan(e.ddW));
   }
 }
