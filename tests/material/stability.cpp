@@ -1,0 +1,108 @@
+// Homogeneous tests of a sheet against exact states, and where Table 1's law stops being stable.
+#include "material/stability.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "material/catalogue.hpp"
+
+using namespace langer;
+
+namespace {
+
+std::vector<double> amounts(double to, int n) {
+  std::vector<double> x;
+  for (int i = 0; i < n; ++i) x.push_back(to * i / (n - 1));
+  return x;
+}
+
+double stress(double alpha, Path path, double amount) { return on_path(positive_hgo_yeoh(alpha), path, amount).cauchy; }
+
+}  // namespace
+
+TEST_CASE("the tests of a sheet have the exact stresses") {
+  // three independent codes, to the digits given
+  CHECK(stress(0, Path::uniaxial, 0.1) == doctest::Approx(0.083312).epsilon(1e-5));
+  CHECK(stress(0, Path::uniaxial, 0.4) == doctest::Approx(0.740122).epsilon(1e-6));
+  CHECK(stress(30, Path::uniaxial, 0.4) == doctest::Approx(0.443926).epsilon(2e-6));
+  CHECK(stress(60, Path::uniaxial, 0.4) == doctest::Approx(0.244924).epsilon(2e-6));
+  CHECK(stress(0, Path::equibiaxial, 0.2) == doctest::Approx(0.314544).epsilon(2e-6));
+  CHECK(stress(90, Path::equibiaxial, 0.4) == doctest::Approx(0.855348).epsilon(1e-6));
+  CHECK(stress(0, Path::simple_shear, 0.5) == doctest::Approx(0.078750).epsilon(1e-5));
+  CHECK(stress(45, Path::simple_shear, 0.5) == doctest::Approx(0.184156).epsilon(2e-6));
+  CHECK(stress(90, Path::simple_shear, 0.5) == doctest::Approx(0.104223).epsilon(2e-6));
+}
+
+TEST_CASE("the work of a path is the derivative of the energy, in every test and fibre direction") {
+  for (const NamedMaterial& m : catalogue())
+    for (Path path : all_paths)
+      for (double x : {0.07, 0.31}) {
+        CAPTURE(m.name);
+        CAPTURE(static_cast<int>(path));
+        CAPTURE(x);
+        constexpr double h = 1e-5;
+        const double dW = (on_path(m.material, path, x + h).W - on_path(m.material, path, x - h).W) / (2 * h);
+        const double work = on_path(m.material, path, x).work * (path == Path::equibiaxial ? 2 : 1);
+        CHECK(work == doctest::Approx(dW).epsilon(1e-7).scale(1));
+      }
+}
+
+TEST_CASE("Table 1 along the fibre: the stress peaks at 1.627 and is negative from 1.73") {
+  const Material m = table1_hgo_yeoh();
+  const auto sigma = [&](double l) { return on_path(m, Path::uniaxial, l - 1).cauchy; };
+  CHECK(sigma(1.627) == doctest::Approx(1.091).epsilon(5e-4));
+  CHECK(sigma(1.627) > sigma(1.6265));
+  CHECK(sigma(1.627) > sigma(1.6275));
+  CHECK(sigma(1.725) > 0);
+  CHECK(sigma(1.735) < 0);
+  // the nominal stress falls earlier, and first near 1.1 where c1 < 0 softens the pull
+  const PathStability s = path_stability(m, Path::uniaxial, amounts(0.8, 81));
+  CHECK(s.slope_loss == doctest::Approx(0.0955).epsilon(0.2));
+}
+
+TEST_CASE("Table 1 loses strong ellipticity where an independent scan found it") {
+  const auto lost = [](double alpha, Path path, double to) {
+    return path_stability(table1_hgo_yeoh(alpha), path, amounts(to, 51)).ellipticity_loss;
+  };
+  // the scan named the first unstable state on a grid of 0.01
+  const auto on_grid = [&](double alpha, Path path, double to) { return std::ceil(100 * lost(alpha, path, to)) / 100; };
+  CHECK(on_grid(0, Path::uniaxial, 1) == 0.64);
+  CHECK(on_grid(15, Path::uniaxial, 2) == 0.64);
+  CHECK(on_grid(45, Path::uniaxial, 2) == 1.43);
+  CHECK(on_grid(0, Path::equibiaxial, 1) == 0.85);
+  CHECK(on_grid(45, Path::simple_shear, 1.5) == 1.10);
+  CHECK(lost(0, Path::uniaxial, 1) == doctest::Approx(0.638).epsilon(1e-3));
+  CHECK(lost(45, Path::uniaxial, 2) == doctest::Approx(1.424).epsilon(1e-3));
+  CHECK(lost(0, Path::equibiaxial, 1) == doctest::Approx(0.844).epsilon(1e-3));
+  CHECK(lost(45, Path::simple_shear, 1.5) == doctest::Approx(1.093).epsilon(1e-3));
+}
+
+TEST_CASE("the map: losses by direction, the plane of stretches, the safe radius, whatever the number of threads") {
+  StabilityOptions options;
+  options.points = 21, options.angles = {0, 45}, options.stretches = 9, options.threads = 3;
+  const StabilityMap map = stability_map(table1_hgo_yeoh(30), options);  // turned to 0 and 45
+  REQUIRE(map.paths.size() == 8);
+  CHECK(map.paths[0].ellipticity_loss == doctest::Approx(0.638).epsilon(2e-3));
+  CHECK(std::isinf(map.paths[1].ellipticity_loss));  // 1.42 lies beyond
+  CHECK(map.plane.minCoeff() < 0);
+  CHECK(map.plane(2, 2) > 0);  // near rest
+  CHECK(map.safe_hencky > 0.3);
+  CHECK(map.safe_hencky <= std::sqrt(1.5) * std::log(1.638) + 1e-3);
+  options.threads = 1;
+  const StabilityMap again = stability_map(table1_hgo_yeoh(30), options);
+  CHECK((map.plane.array() == again.plane.array()).all());
+  CHECK(map.safe_hencky == again.safe_hencky);
+
+  Material positive = table1_hgo_yeoh();
+  positive.fibres[0].hgo.c1 = 0.317;
+  CHECK(std::isinf(safe_hencky(positive, 1.2)));
+  for (Path path : all_paths)
+    for (double alpha : {0., 30., 90.}) {
+      positive.fibres[0].alpha_deg = alpha;
+      const PathStability s = path_stability(positive, path, amounts(0.8, 17));
+      CHECK(std::isinf(s.ellipticity_loss));
+      if (path == Path::uniaxial) CHECK(std::isinf(s.slope_loss));
+    }
+  CHECK(safe_hencky({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}, 1.2) == 0);  // unstable at rest
+}
