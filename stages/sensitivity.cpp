@@ -1,6 +1,10 @@
-// langer-sensitivity: which parameters of a material decide its uniaxial stress, and at which strains.
-//   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also sensitivity.csv, sensitivity_zones.csv
+// langer-sensitivity: which parameters of a material decide its stress in a test, and at which strains.
+//   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
+#include <memory>
+
+#include "scene/long_work.hpp"
 #include "scene/ranking.hpp"
+#include "scene/sensitivity_tables.hpp"
 #include "scene/step_record.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
@@ -14,9 +18,39 @@ std::optional<FitRecord> fit_of(const std::string& path) {
   return read_material(path).fit;
 }
 
+// The stress over the strains as a function of the ranked numbers; every copy has a material of its own.
+CurveMaker stress_of(const SensitivityConfig& config, const Material& material, const std::vector<std::string>& keys,
+                     const std::vector<double>& strain) {
+  return [=, &strain]() -> ParametricCurve {
+    const auto own = std::make_shared<Material>(material);
+    std::vector<double*> numbers;
+    for (const std::string& key : keys)
+      for (const MaterialParameter& p : parameters(*own))
+        if (p.key == key) numbers.push_back(p.value);
+    return [=, &strain](const VecX& p, VecX& y) {
+      for (std::size_t j = 0; j < numbers.size(); ++j) *numbers[j] = p[static_cast<Eigen::Index>(j)];
+      const auto sigma = config.dilatation == Dilatation::compressible
+                             ? uniaxial_curve(*own, strain, config.stress, config.dilatation)
+                             : path_curve(*own, config.test, strain, config.stress);
+      if (sigma) y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
+      return sigma.has_value();
+    };
+  };
+}
+
+// Samples where the law has no state are left out: a few change little, many make the numbers those of another box.
+void need_samples(const Job<SensitivityConfig>& job, const std::string& method, long used, long without, long least) {
+  if (used < least)
+    throw Failure(Exit::not_converged,
+                  {job.where(method), method, fmt::format("no state exists in {} of {} samples", without, used + without), "",
+                   "narrower bounds or a smaller strain.to"});
+  if (without > 0)
+    job.say("warning: {}: {} of {} samples have no state at some strain and are left out", method, without, used + without);
+}
+
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   const SensitivityConfig& config = job.config;
-  Material material = material_from(job.input("material"));
+  Material material = turned(material_from(job.input("material")), config.turn);
   const Ranking chosen = ranking(config, material, fit_of(job.input("material")), job.where);
   SensitivityRecord record;
   record.parameters = chosen.numbers;
@@ -31,16 +65,11 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
     value[j] = n.value, lower[j] = n.lower, upper[j] = n.upper;
   }
-  const auto stress = [&](const VecX& p, VecX& y) {
-    for (Eigen::Index j = 0; j < k; ++j) *chosen.values[static_cast<std::size_t>(j)] = p[j];
-    const auto sigma = uniaxial_curve(material, record.strain, config.stress, config.dilatation);
-    if (sigma) y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
-    return sigma.has_value();
-  };
+  const CurveMaker stress = stress_of(config, material, chosen.keys, record.strain);
   VecX curve;
-  if (stress(value, curve)) {
+  if (stress()(value, curve)) {
     record.curve.assign(curve.data(), curve.data() + curve.size());
-    record.effects = one_at_a_time(stress, value, lower, upper, config.steps);
+    record.effects = one_at_a_time(stress(), value, lower, upper, config.steps);
   } else
     record.effects.missing = value;
   if (!record.effects.complete) {
@@ -48,14 +77,30 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     for (Eigen::Index j = 0; j < k; ++j)
       at += fmt::format("{}{} = {:.6g}", j ? ", " : "", record.parameters[static_cast<std::size_t>(j)].name,
                         record.effects.missing[j]);
-    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters", "no uniaxial state exists at " + at, "",
+    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters", "no state exists at " + at, "",
                                         "narrower bounds or a smaller strain.to"});
   }
-  write_text_file(job.beside("sensitivity.csv"), effects_csv(record));
-  write_text_file(job.beside("sensitivity_zones.csv"), zones_csv(record));
-  write_sensitivity(job.output, record, job.identity);
   job.say("one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen", config.steps, k,
           config.strain.points);
+  SamplingOptions options;
+  options.seed = static_cast<std::uint64_t>(config.seed), options.threads = config.threads;
+  options.resamples = config.resamples, options.groups = points_in(record.strain, record.zones);
+  if (config.morris) {
+    options.progress = progress_of("sensitivity", "Morris", job.quiet);
+    record.morris = morris(stress, lower, upper, config.morris->trajectories, config.morris->levels, options);
+    need_samples(job, "morris", record.morris->trajectories, record.morris->without_curve, 2);
+  }
+  if (config.sobol) {
+    options.progress = progress_of("sensitivity", "Sobol", job.quiet);
+    record.sobol = sobol(stress, lower, upper, config.sobol->samples, options);
+    need_samples(job, "sobol", record.sobol->rows, record.sobol->without_curve, 64);
+  }
+  for (const std::string& line : sensitivity_lines(record)) job.say("{}", line);
+  write_text_file(job.beside("sensitivity.csv"), effects_csv(record));
+  write_text_file(job.beside("sensitivity_zones.csv"), zones_csv(record));
+  if (record.morris) write_text_file(job.beside("sensitivity_morris.csv"), morris_csv(record));
+  if (record.sobol) write_text_file(job.beside("sensitivity_sobol.csv"), sobol_csv(record));
+  write_sensitivity(job.output, record, job.identity);
   return summary_of(record);
 }
 

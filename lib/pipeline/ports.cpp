@@ -7,7 +7,7 @@ const std::vector<StageSpec>& stages() {
       {"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"},
       {"fit", "Finds material parameters from a measured curve.", {}, "material.h5"},
       {"sensitivity",
-       "Ranks material parameters by Morris.",
+       "Ranks material parameters: one at a time, by Morris, by Sobol.",
        {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},
        "sensitivity.h5"},
       {"solve",

@@ -57,7 +57,7 @@ Ranking ranking(const SensitivityConfig& config, Material& material, const std::
       say(at, fmt::format("bounds {} and {}", n.lower, n.upper),
           fmt::format("within {} and {}, as the law asks", one->range.low, one->range.high));
     ranking.numbers.push_back(n);
-    ranking.values.push_back(one->value);
+    ranking.keys.push_back(one->key);
   }
   if (!errors.empty()) throw Failure(Exit::config, std::move(errors));
   return ranking;

@@ -16,7 +16,7 @@ namespace langer {
 
 struct Ranking {
   std::vector<RankedNumber> numbers;
-  std::vector<double*> values;  // into the material
+  std::vector<std::string> keys;  // of the same numbers in the material
 };
 
 // Throws Failure(config) with everything that is wrong: a number that the material lacks, no bounds, bounds the law forbids.

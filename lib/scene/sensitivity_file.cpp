@@ -2,30 +2,48 @@
 
 #include <fmt/format.h>
 
-#include "store/curves_file.hpp"
+#include "scene/sensitivity_tables.hpp"
+
 #include "store/h5.hpp"
 
 namespace langer {
 
 namespace {
 
-// mu_star (upper - lower)
-MatX over_range(const SensitivityRecord& r, MatX mu_star) {
-  for (std::size_t j = 0; j < r.parameters.size(); ++j)
-    mu_star.row(static_cast<Eigen::Index>(j)) *= r.parameters[j].upper - r.parameters[j].lower;
-  return mu_star;
-}
-
-std::vector<double> row(const MatX& A, std::size_t j) {
-  const VecX x = A.row(static_cast<Eigen::Index>(j));
-  return {x.data(), x.data() + x.size()};
-}
-
 void write_matrix(const h5::Group& group, const char* name, const MatX& A, const std::string& unit, const std::string& units) {
   const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = A;
   group.write<double>(name, {static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols())},
                       std::span(rows.data(), static_cast<std::size_t>(rows.size())), unit);
   if (!units.empty()) group.annotate(name, "units", units);
+}
+
+void write_estimate(const h5::Group& group, const std::string& name, const Estimate& e, const std::string& unit) {
+  write_matrix(group, name.c_str(), e.value, unit, "");
+  write_matrix(group, (name + "_low").c_str(), e.low, unit, "");
+  write_matrix(group, (name + "_high").c_str(), e.high, unit, "");
+}
+
+void write_morris(const h5::Group& group, const Morris& m) {
+  write_estimate(group, "mu", m.mu, "MPa");
+  write_estimate(group, "mu_star", m.mu_star, "MPa");
+  write_estimate(group, "sigma", m.sigma, "MPa");
+  group.write_scalar("trajectories", m.trajectories, "-");
+  group.write_scalar("without_curve", m.without_curve, "-");
+  write_estimate(group.make_group("zones"), "mu_star", m.group_mu_star, "MPa");
+  write_estimate(group.make_group("zones"), "sigma", m.group_sigma, "MPa");
+}
+
+void write_sobol(const h5::Group& group, const Sobol& s) {
+  write_estimate(group, "first", s.first, "-");
+  write_estimate(group, "total", s.total, "-");
+  group.write<double>("mean", {static_cast<std::size_t>(s.mean.size())},
+                      std::span(s.mean.data(), static_cast<std::size_t>(s.mean.size())), "MPa");
+  group.write<double>("deviation", {static_cast<std::size_t>(s.deviation.size())},
+                      std::span(s.deviation.data(), static_cast<std::size_t>(s.deviation.size())), "MPa");
+  group.write_scalar("rows", static_cast<double>(s.rows), "-");
+  group.write_scalar("without_curve", static_cast<double>(s.without_curve), "-");
+  write_estimate(group.make_group("zones"), "first", s.group_first, "-");
+  write_estimate(group.make_group("zones"), "total", s.group_total, "-");
 }
 
 }  // namespace
@@ -46,33 +64,15 @@ std::vector<Summary> summary_of(const SensitivityRecord& r) {
       all.push_back({fmt::format("mu_star_{}_zone{}", name, z + 1), row(mu_star, j)[z], effect_unit(unit)});
       all.push_back({fmt::format("s_{}_zone{}", name, z + 1), row(s, j)[z], effect_unit(unit)});
     }
+  const auto add = [&](const char* what, const MatX& A, const char* unit) {
+    for (std::size_t j = 0; j < r.parameters.size(); ++j)
+      for (std::size_t z = 0; z < r.zones.size(); ++z)
+        all.push_back({fmt::format("{}_{}_zone{}", what, r.parameters[j].name, z + 1), row(A, j)[z], unit});
+  };
+  if (r.morris)
+    add("morris_mu_star", r.morris->group_mu_star.value, "MPa"), add("morris_sigma", r.morris->group_sigma.value, "MPa");
+  if (r.sobol) add("sobol_first", r.sobol->group_first.value, "-"), add("sobol_total", r.sobol->group_total.value, "-");
   return all;
-}
-
-std::string effects_csv(const SensitivityRecord& r) {
-  std::vector<Column> columns{{"strain", "-", r.strain}, {"stress", "MPa", r.curve}};
-  const MatX range = over_range(r, r.effects.mu_star);
-  for (std::size_t j = 0; j < r.parameters.size(); ++j) {
-    const std::string &name = r.parameters[j].name, unit = effect_unit(r.parameters[j].unit);
-    columns.push_back({"mu_star_" + name, unit, row(r.effects.mu_star, j)});
-    columns.push_back({"s_" + name, unit, row(r.effects.s, j)});
-    columns.push_back({"spread_" + name, unit, row(r.effects.spread, j)});
-    columns.push_back({"mu_star_range_" + name, "MPa", row(range, j)});
-  }
-  return csv(columns);
-}
-
-std::string zones_csv(const SensitivityRecord& r) {
-  const auto of = [&](const MatX& A) { return zone_means(A, r.strain, r.zones); };
-  const MatX mu_star = of(r.effects.mu_star), s = of(r.effects.s), spread = of(r.effects.spread);
-  const MatX range = over_range(r, mu_star);
-  std::string text = "parameter,zone,strain_from,strain_to,mu_star,s,spread,unit,mu_star_range_MPa\n";
-  for (std::size_t j = 0; j < r.parameters.size(); ++j)
-    for (std::size_t z = 0; z < r.zones.size(); ++z)
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{}\n", r.parameters[j].name, z + 1, r.zones[z].from, r.zones[z].to,
-                      row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], effect_unit(r.parameters[j].unit), row(range, j)[z]);
-  return text;
 }
 
 void write_sensitivity(const std::string& path, const SensitivityRecord& r, const Identity& identity) {
@@ -105,6 +105,8 @@ void write_sensitivity(const std::string& path, const SensitivityRecord& r, cons
   zones.write<double>("from", {from.size()}, from, "-");
   zones.write<double>("to", {to.size()}, to, "-");
   write_effects(zones, [&](const MatX& A) { return zone_means(A, r.strain, r.zones); });
+  if (r.morris) write_morris(root.make_group("morris"), *r.morris);
+  if (r.sobol) write_sobol(root.make_group("sobol"), *r.sobol);
   write_summary(root, summary_of(r));
   file.commit();
 }

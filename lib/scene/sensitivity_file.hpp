@@ -4,14 +4,19 @@
 //   /mu_star, /s, /spread (k, m)                 stress over parameter; units differ by row: attribute `units`
 //   /mu_star_range (k, m)                        mu_star (upper - lower) [MPa], which compares
 //   /zones/{from, to} (z)   /zones/{mu_star, s, spread, mu_star_range} (k, z)
+//   /morris/{mu, mu_star, sigma}[_low, _high] (k, m) [MPa], over the range   /morris/zones/{mu_star, sigma}[_low, _high] (k, z)
+//   /sobol/{first, total}[_low, _high] (k, m) [-]   /sobol/zones/... (k, z)   /sobol/{mean, deviation} (m) [MPa]
 //   /summary/<mu_star | s>_<name>_zone<1..z>
-// and sensitivity.csv, sensitivity_zones.csv beside it.
+//   /summary/<morris_mu_star | morris_sigma | sobol_first | sobol_total>_<name>_zone<1..z>
+// and sensitivity.csv, sensitivity_zones.csv, sensitivity_morris.csv, sensitivity_sobol.csv beside it (sensitivity_tables.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "sensitivity/one_at_a_time.hpp"
+#include "sensitivity/morris.hpp"
+#include "sensitivity/sobol.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
 
@@ -27,12 +32,12 @@ struct SensitivityRecord {
   std::vector<double> strain, curve;     // m
   OneAtATime effects;
   std::vector<Zone> zones;
+  std::optional<Morris> morris;
+  std::optional<Sobol> sobol;
 };
 
 std::string effect_unit(const std::string& parameter_unit);  // of a stress over a parameter
 std::vector<Summary> summary_of(const SensitivityRecord& record);
-std::string effects_csv(const SensitivityRecord& record);  // one row per strain
-std::string zones_csv(const SensitivityRecord& record);    // one row per parameter and zone
 void write_sensitivity(const std::string& path, const SensitivityRecord& record, const Identity& identity);
 
 }  // namespace langer
