@@ -9,7 +9,7 @@ namespace langer {
 struct Identity {
   std::string stage;                          // "mesh", "fit", "solve", ...
   std::string config;                         // full effective YAML text
-  std::string config_hash;                    // 16 hex digits: FNV-1a 64 of `config`
+  std::string config_hash;                    // FNV-1a 64 of `config` with input files by name: what they hold is in `inputs`
   std::map<std::string, std::string> inputs;  // port -> content id of the input file
   std::string command;                        // command line as typed
 };
