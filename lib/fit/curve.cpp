@@ -2,45 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "fit/csv_table.hpp"
 
 namespace langer {
 
 namespace {
-
-struct Cell {
-  std::string text;
-  int column;  // of its first character, from 1
-};
-
-std::vector<Cell> cells(const std::string& line) {
-  std::vector<Cell> row;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::size_t first = line.find_first_not_of(" \t", begin);
-    if (first == std::string::npos || first >= end)
-      row.push_back({"", static_cast<int>(begin) + 1});
-    else
-      row.push_back({line.substr(first, line.find_last_not_of(" \t", end - 1) + 1 - first), static_cast<int>(first) + 1});
-    if (end == line.size()) return row;
-    begin = end + 1;
-  }
-}
-
-std::optional<double> number(const std::string& text) {
-  double x = 0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), x);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return x;
-}
 
 // what a column holds: deformation = factor * cell + offset, or stress = factor * cell
 struct Meaning {
@@ -71,7 +43,7 @@ constexpr const char* expected_columns =
     "one column of strain, strain_percent or stretch, and one of "
     "cauchy_stress_MPa or nominal_stress_MPa (or kPa, Pa)";
 
-Columns read_columns(const std::vector<Cell>& header, const Place& place) {
+Columns read_columns(const std::vector<CsvCell>& header, const Place& place) {
   Columns c;
   c.count = header.size();
   std::string found;
@@ -109,7 +81,7 @@ Curve parse_curve(const std::string& text, const std::string& shown_name) {
     if (line.ends_with('\r')) line.pop_back();
     const std::size_t first = line.find_first_not_of(" \t");
     if (first == std::string::npos || line[first] == '#') continue;
-    const std::vector<Cell> row = cells(line);
+    const std::vector<CsvCell> row = csv_cells(line);
     if (!columns) {
       columns = read_columns(row, {shown_name, line_number, 1});
       curve.measure = columns->of_stress.measure;
@@ -124,8 +96,8 @@ Curve parse_curve(const std::string& text, const std::string& shown_name) {
       continue;
     }
     const auto value = [&](int column, const Meaning& m) {
-      const Cell& cell = row[static_cast<std::size_t>(column)];
-      const auto x = number(cell.text);
+      const CsvCell& cell = row[static_cast<std::size_t>(column)];
+      const auto x = csv_number(cell.text);
       if (x && std::isfinite(*x)) return m.factor * *x + m.offset;
       errors.push_back({{shown_name, line_number, cell.column},
                         "",

@@ -50,8 +50,17 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
     if (i == 0) J.resize(dr_dp.size(), p.size());
     J.col(i) = dr_dp;
   };
-  VecX value;
+  VecX value, base;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
+    if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) {
+      // any step is exact: a large one, into the box
+      const double above = q.upper[i] - p[i], below = p[i] - q.lower[i], size = std::max(std::abs(p[i]), q.typical[i]);
+      const double h = above >= below ? std::min(size, above) : -std::min(size, below);
+      if (base.size() == 0 && !at(i, p[i], base)) return false;
+      if (h != 0 && !at(i, p[i] + h, value)) return false;
+      column(i, h != 0 ? VecX((value - base) / h) : VecX::Zero(base.size()));
+      continue;
+    }
     // h^4 against eps/h
     double h = std::pow(eps, 0.2) * std::max(std::abs(p[i]), q.typical[i]);
     const double below = p[i] - q.lower[i], above = q.upper[i] - p[i];

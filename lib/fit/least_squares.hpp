@@ -19,6 +19,7 @@ struct LeastSquares {
   std::function<bool(const VecX& p, VecX& r)> residual;
   VecX start, lower, upper, typical;
   double size = 1;
+  std::vector<bool> linear;  // parameters in which r is linear: one difference gives their column; empty: none
 };
 
 struct LeastSquaresOptions {

@@ -1,0 +1,68 @@
+// Parameters of a law from one or several tests: least squares on the stress.         [A23] eqs 35-36
+//   min over p of  1/2 sum_i w_i^2 (model_i(p) - stress_i)^2,  lower <= p <= upper
+// The values stand in the order of the tests; within a test all x components, then all z components.
+// The search starts at the given values and at seeded random places of the box; the lowest cost wins, the first of equals.
+// Everything here may run on several threads at once, each with its own problem or result.
+#pragma once
+
+#include "fit/least_squares.hpp"
+#include "fit/test_data.hpp"
+#include "material/parameters.hpp"
+
+namespace langer {
+
+struct FreeParameter {
+  std::string key;  // as in material/parameters.hpp
+  double start = 0, lower = 0, upper = 0;
+};
+
+struct FitProblem {
+  Material law;
+  std::vector<FreeParameter> free;
+  std::vector<Test> tests;
+  Dilatation dilatation = Dilatation::incompressible;  // compressible: held uniaxial tests only
+};
+
+struct FitOptions {
+  int starts = 20;
+  unsigned seed = 1;
+  LeastSquaresOptions least_squares;
+};
+
+// How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test.
+//   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2
+//   aicc = n ln(2 cost/n) + 2 k + 2 k (k + 1)/(n - k - 1),  bic = n ln(2 cost/n) + k ln n,  k = parameters + 1
+struct Quality {
+  double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;
+};
+
+struct FitResult {
+  Material material;  // the law with the parameters found
+  LeastSquaresResult best;
+  MatX covariance;  // NaN where the tests do not determine a parameter
+  MatX starts;      // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
+  VecX model;       // of each value [MPa]; empty if no start has a model
+  Quality quality;
+  std::vector<Quality> of_test;  // r2 and errors
+};
+
+// stresses of a law in the states of a test [MPa], in the order above; false where a state does not exist
+bool model_stress(const Material& material, const Test& test, Dilatation dilatation, double* stress);
+
+VecX measured_stress(const std::vector<Test>& tests);
+VecX weights(const std::vector<Test>& tests);
+
+// the law with the numbers p in place of the free ones
+Material with_parameters(const FitProblem& problem, const VecX& p);
+
+// The problem in numbers. It holds copies of everything, but works in them: one copy per thread.
+LeastSquares least_squares_problem(const FitProblem& problem);
+
+// one search, from given values
+LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const LeastSquaresOptions& options = {});
+
+// Throws Failure(input) if there are fewer values than parameters, or no stress.
+// best.converged tells whether an optimum was found.
+FitResult fit(const FitProblem& problem, const FitOptions& options = {});
+
+}  // namespace langer

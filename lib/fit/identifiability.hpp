@@ -1,0 +1,68 @@
+// What data tell about parameters: errors, correlations, combinations that they hardly feel, profiles, and which further test
+// would help most. Works on any residual in a box (least_squares.hpp), of one test or of many.
+//   residuals are divided by `noise`, their standard deviation, so that a sum of squares is a chi-square
+//   sizes     |p|, or the width of the box where p is 0: errors and combinations are relative to them
+// Parameters on a bound are left out of errors and combinations: NaN.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fit/least_squares.hpp"
+
+namespace langer {
+
+struct Identifiability {
+  double noise = 0;               // standard deviation of one residual
+  VecX size;                      // (p) what errors are relative to
+  VecX error, correlation_worst;  // (p) standard errors in units of the parameters; largest |correlation| with another
+  MatX covariance, correlation;
+  VecX singular;     // of the Jacobian per size and noise, descending (free parameters)
+  MatX combination;  // (p, free) unit columns: changes relative to size, one per singular value
+};
+
+// J (m, p) at the optimum; at_bound as least_squares gives it
+Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& at_bound,
+                                double noise);
+VecX sizes_of(const LeastSquares& problem, const VecX& p);
+
+// The combination of the smallest singular value in words: "a1 +44 %, a2 -45 %, ... together move the data by one standard
+// deviation of the noise in all". Parts below a twentieth of the largest are left out.
+std::string sloppy_words(const Identifiability& study, const std::vector<std::string>& names, Eigen::Index which);
+
+using ProblemMaker = std::function<LeastSquares()>;  // a problem of its own for each thread
+
+// Chi-square above its minimum when one parameter is held and the others follow. limit: 3.84 for 95 %.
+struct Profile {
+  std::vector<double> value, rise;           // ascending by value; the optimum is among them
+  double low = 0, high = 0;                  // where the rise reaches the limit, or the bound of the box
+  bool low_open = false, high_open = false;  // the bound was reached first
+};
+struct ProfileOptions {
+  double limit = 3.841458820694124;
+  int threads = 1;
+  std::function<void(double)> progress;
+};
+std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error, double noise,
+                              const ProfileOptions& options);
+
+// the rise at one value: at most the limit where the interval holds it
+double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value, const VecX& best, double noise);
+
+// Fits to the model with fresh noise: Gaussian of the given size, or the fit's own residuals drawn again.
+struct Bootstrap {
+  MatX samples;    // (n, p) of the fits that converged
+  VecX low, high;  // percentiles 2.5 and 97.5
+  int failed = 0;
+};
+struct BootstrapOptions {
+  int samples = 200;
+  std::uint64_t seed = 1;
+  bool gaussian = true;
+  int threads = 1;
+  std::function<void(double)> progress;
+};
+Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, double noise, const BootstrapOptions& options);
+
+}  // namespace langer
