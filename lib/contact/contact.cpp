@@ -29,20 +29,20 @@ Mat3 contact_frame(const Vec3& n) {
 LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0,
                             const Vec3& r) {
   LinearisedContact out;
-  const Vec3 n = normal(contact.shape, x - c);
-  const double bend = curvature(contact.shape, x - c);
-  out.frame = contact_frame(n);
-  const Vec3 v = (x - x0) - (c - c0);
-  const Vec3 v_local = out.frame.transpose() * v;
-  // d(t.v) = t.d - bend (t.d)(n.v): the factor 1 - bend n.v is common to both tangents
-  const double factor = 1 - bend * v_local[0];
-  out.q = Vec3(gap(contact.shape, x - c), v_local[1], v_local[2]);
-  if (factor > 0.1) out.q.tail<2>() /= factor;
-  // dn = bend P d, dt_i = -bend (t_i.d) n:   d(frame r) = bend (r_n P d - n (r_t.d))
+  const ShapePoint shape = shape_at(contact.shape, x - c);
+  out.frame = contact_frame(shape.normal);
+  const Vec3 v = out.frame.transpose() * ((x - x0) - (c - c0));
+  out.q = Vec3(shape.gap, v[1], v[2]);
+  const auto tangents = out.frame.rightCols<2>();
+  const Eigen::Matrix2d bend = tangents.transpose() * shape.bend * tangents;
+  // d(t.v) = (1 - v_n bend) d_t, since dt = -(t.dn) n
+  out.T = Mat3::Identity();
+  out.T.bottomRightCorner<2, 2>() -= v[0] * bend;
+  // dn = bend d, dt = -(t.dn) n:   d(frame r) = r_n bend d - n (r_t.bend d)
   const Vec3 r_local = out.frame.transpose() * r;
   out.D.setZero();
-  out.D(0, 1) = -bend * r_local[1], out.D(0, 2) = -bend * r_local[2];
-  out.D(1, 1) = out.D(2, 2) = bend * r_local[0];
+  out.D.topRightCorner<1, 2>() = -r_local.tail<2>().transpose() * bend;
+  out.D.bottomRightCorner<2, 2>() = r_local[0] * bend;
   return out;
 }
 
@@ -66,7 +66,8 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];
     const Vec3 x = X[node] + u.segment<3>(3 * node);
-    const double g = gap(contact.shape, x - c);
+    const ShapePoint shape = shape_at(contact.shape, x - c);
+    const double g = shape.gap;
     defect.gap.push_back(g);
     const bool closed = r[i].squaredNorm() > 0;
     defect.penetration = std::max(defect.penetration, closed ? std::abs(g) : -g);
@@ -74,7 +75,7 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
       defect.status.push_back(ContactStatus::open), ++defect.open;
       continue;
     }
-    const Vec3 n = normal(contact.shape, x - c);
+    const Vec3& n = shape.normal;
     const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
     const Vec3 x_t = v - v.dot(n) * n;
     const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();

@@ -32,11 +32,12 @@ Vec3 indenter_displacement(const RigidContact& contact, double t);
 // Orthonormal columns n, t1, t2.
 Mat3 contact_frame(const Vec3& n);
 
-// A candidate's law, linearised for a movement d of the node: x_n = q_n + d.n,  x_t = q_t + d.t (a positive factor of the
-// slip is divided out: the law does not feel it).  Reaction force moves with the frame:  r + D d, in local components.
+// A candidate's law, linearised for a movement d of the node, in local components (n, t1, t2):
+//   position  x = q + T d,   reaction force  r + D d  (it turns with the frame)
 struct LinearisedContact {
-  Mat3 frame;
+  Mat3 frame;  // columns n, t1, t2
   Vec3 q;
+  Mat3 T;
   Mat3 D;
 };
 LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0,

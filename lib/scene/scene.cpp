@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/read_surface.hpp"
+
 namespace langer {
 
 namespace {
@@ -73,12 +75,17 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, Material material,
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
     RigidContact rigid{name, contact.rigid, contact.friction, composer.nodes(contact.on, key + ".on"), {}};
+    if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
+      SurfaceFile file = read_surface(facets->file.path);
+      for (Vec3& p : file.points) p = facets->scale * p + vec(facets->move);
+      facets->tree = std::make_shared<TriangleTree>(Triangles{std::move(file.points), std::move(file.corners)});
+    }
     for (const WaypointConfig& w : contact.motion) {
       rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
       scene.stops.push_back(w.t);
     }
     for (int node : rigid.nodes)
-      if (const double g = gap(rigid.shape, mesh.X[node]); g < -1e-9) {
+      if (const double g = shape_at(rigid.shape, mesh.X[node]).gap; g < -1e-9) {
         const Vec3& X = mesh.X[node];
         composer.errors.push_back({where(key + ".rigid"), key + ".rigid",
                                    fmt::format("starts {:.3g} mm inside the body at ({:g}, {:g}, {:g})", -g, X[0], X[1], X[2]),

@@ -201,7 +201,7 @@ std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
       // far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away;
       // those with springs are all needed, to take the springs out
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05;
-      if (!supported_ && r_[k][i].isZero(0) && gap(contact.shape, x - c) > reach) continue;
+      if (!supported_ && r_[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, r_[k][i]), {}, {}};
       n.r = n.law.frame.transpose() * r_[k][i];
       n.move = n.law.frame.transpose() * d;
@@ -251,24 +251,28 @@ std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
       }
   }
   VecX r = present;
+  const auto slipping = [&](MatX M) {  // rows of each contact times its T: the law feels x = q + T d
+    for (int p = 0; p < m; ++p) M.middleRows<3>(3 * p) = (near[p].law.T * M.middleRows<3>(3 * p)).eval();
+    return M;
+  };
   const auto take = [&](const LocalReport& local) {
     cost_.sweeps += local.sweeps;
     solved = local.converged && r.allFinite();
   };
   if (!follows) {
-    take(solve_local({W, q + move - W * present, mu}, r));
+    take(solve_local({slipping(W), q + slipping(move - W * present), mu}, r));
     s = r - present;
   } else {
     const Eigen::PartialPivLU<MatX> lu(A);
     if (lu.rcond() > 1e-9) {  // s = A^-1 (r - b)
       const MatX W_t = W.transpose(), W_r_t = lu.transpose().solve(W_t), W_r = W_r_t.transpose();
-      take(solve_local({W_r, q + move - W_r * b, mu}, r));
+      take(solve_local({slipping(W_r), q + slipping(move - W_r * b), mu}, r));
       if (solved) s = lu.solve(r - b);
     }
   }
   if (!solved && follows) {  // W_r indefinite, or none: stable only through its contacts
     s = VecX::Zero(3 * m);
-    const LocalReport local = solve_supported({W, A, q + move, b, mu}, s);
+    const LocalReport local = solve_supported({slipping(W), A, q + slipping(move), b, mu}, s);
     r = b + A * s;
     take(local);
   }
@@ -290,7 +294,7 @@ void Statics::moved(const VecX& du, double step) {
       const int node = contacts_[k].nodes[i];
       const Vec3 x = X[node] + u_.segment<3>(3 * node) - c, moved_x = x + step * du.segment<3>(3 * node);
       const Vec3 r = step == 1 ? r_next_[k][i] : Vec3(r_[k][i] + step * (r_next_[k][i] - r_[k][i]));
-      r_[k][i] = turn_with_normal(r, normal(contacts_[k].shape, x), normal(contacts_[k].shape, moved_x));
+      r_[k][i] = turn_with_normal(r, shape_at(contacts_[k].shape, x).normal, shape_at(contacts_[k].shape, moved_x).normal);
     }
   }
 }

@@ -16,8 +16,9 @@ struct Indentation {
   double depth = 1;  // [mm]
   double mu = 0.34;
   double radius = 2.5;
-  double reach = 2.6;  // candidates within this radius
-  double step = 0.1;   // [mm]
+  std::optional<Indenter> shape;  // in place of the sphere
+  double reach = 2.6;             // candidates within this radius
+  double step = 0.1;              // [mm]
   Formulation formulation = Formulation::mean_dilatation;
   int threads = 1;
   bool extrapolate = true;
@@ -57,7 +58,8 @@ struct Indentation {
     if (quarter)
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
-    RigidContact contact{"sphere", Sphere{radius, {0, 4 + radius, 0}}, mu, {}, {{1, Vec3(0, -depth, 0)}}};
+    RigidContact contact{
+        "sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, {{1, Vec3(0, -depth, 0)}}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
     Equilibrium body(result.mesh, {material}, formulation, number_dofs(result.mesh.n_nodes(), held).dofs, threads);

@@ -1,0 +1,115 @@
+#include "contact/facets.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace langer {
+
+namespace {
+
+struct OnTriangle {
+  Vec3 point;
+  int feature;     // 0 face, 1 edge, 2 corner
+  Vec3 direction;  // of the edge
+};
+
+// Nearest point of a triangle by its Voronoi regions.
+OnTriangle nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
+  const Vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
+  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
+  if (d1 <= 0 && d2 <= 0) return {a, 2, {}};
+  if (d3 >= 0 && d4 <= d3) return {b, 2, {}};
+  if (d6 >= 0 && d5 <= d6) return {c, 2, {}};
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {a + d1 / (d1 - d3) * ab, 1, ab.normalized()};
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, 1, ac.normalized()};
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 1, (c - b).normalized()};
+  const double sum = va + vb + vc;
+  return {a + vb / sum * ab + vc / sum * ac, 0, {}};
+}
+
+double squared_distance_to_box(const Vec3& low, const Vec3& high, const Vec3& x) {
+  return (low - x).cwiseMax(x - high).cwiseMax(0).squaredNorm();
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(Triangles triangles) : t_(std::move(triangles)), order_(t_.corners.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  build(0, static_cast<int>(order_.size()));
+}
+
+int TriangleTree::build(int first, int last) {
+  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity()),
+          first, last};
+  for (int i = first; i < last; ++i)
+    for (int p : t_.corners[order_[i]]) box.low = box.low.cwiseMin(t_.points[p]), box.high = box.high.cwiseMax(t_.points[p]);
+  const int index = static_cast<int>(boxes_.size());
+  boxes_.push_back(box);
+  if (last - first <= 4) return index;
+  int axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  const auto centre = [&](int t) {
+    const auto& c = t_.corners[t];
+    return t_.points[c[0]][axis] + t_.points[c[1]][axis] + t_.points[c[2]][axis];
+  };
+  const int middle = (first + last) / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                   [&](int a, int b) { return centre(a) < centre(b) || (centre(a) == centre(b) && a < b); });
+  const int left = build(first, middle), right = build(middle, last);
+  boxes_[index].left = left, boxes_[index].right = right;
+  return index;
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
+  double best = std::numeric_limits<double>::infinity();
+  Nearest out{};
+  double steepest = -1;
+  std::vector<int> open{0};
+  while (!open.empty()) {
+    const Box& box = boxes_[open.back()];
+    open.pop_back();
+    if (squared_distance_to_box(box.low, box.high, x) > best * (1 + 1e-12)) continue;
+    if (box.left >= 0) {
+      const bool left_first = squared_distance_to_box(boxes_[box.left].low, boxes_[box.left].high, x) <
+                              squared_distance_to_box(boxes_[box.right].low, boxes_[box.right].high, x);
+      open.push_back(left_first ? box.right : box.left), open.push_back(left_first ? box.left : box.right);
+      continue;
+    }
+    for (int i = box.first; i < box.last; ++i) {
+      const auto& c = t_.corners[order_[i]];
+      const Vec3 &p0 = t_.points[c[0]], &p1 = t_.points[c[1]], &p2 = t_.points[c[2]];
+      const OnTriangle on = nearest_on(p0, p1, p2, x);
+      const double distance = (x - on.point).squaredNorm();
+      const Vec3 normal = (p1 - p0).cross(p2 - p0).normalized();
+      // triangles that share the nearest point: the one whose plane x stands off most decides inside or outside
+      const double stands_off = std::abs((x - on.point).dot(normal));
+      const bool same = distance <= best * (1 + 1e-10);
+      if (distance < best * (1 - 1e-10) || (same && stands_off > steepest)) {
+        best = std::min(best, distance), steepest = stands_off;
+        out = {on.point, (x - on.point).dot(normal) >= 0 ? 1.0 : -1.0, on.feature, on.feature == 0 ? normal : on.direction};
+      }
+    }
+  }
+  return out;
+}
+
+ShapePoint Facets::at(const Vec3& x) const {
+  const TriangleTree::Nearest near = tree->nearest(x);
+  const Vec3 away = near.sign * (x - near.point);
+  const double distance = away.norm();
+  ShapePoint p;
+  if (distance < 1e-12) return {-rounding, near.feature == 0 ? near.direction : Vec3(Vec3::UnitY()), Mat3::Zero()};
+  p.normal = away / distance;
+  p.gap = near.sign * distance - rounding;
+  if (near.feature == 2)
+    p.bend = tangent_projection(p.normal) / (near.sign * distance);
+  else if (near.feature == 1)
+    p.bend = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) / (near.sign * distance);
+  return p;
+}
+
+}  // namespace langer
