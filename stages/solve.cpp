@@ -15,6 +15,11 @@
 namespace langer {
 namespace {
 
+SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& solver, const Problem& problem, VecX& u) {
+  if (const auto* options = std::get_if<KinsolOptions>(&solver)) return kinsol(problem, u, *options);
+  return newton(problem, u, std::get<NewtonOptions>(solver));
+}
+
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const SolveConfig& config = job.config;
   const Mesh mesh = read_mesh(job.input("mesh")).mesh;
@@ -35,12 +40,11 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     increment = last->scalars.at("next_increment");
     progress.resumed(file.n_steps(), last->t);
   }
-  const auto nonlinear = std::get<NewtonOptions>(config.solver);
   const PathReport path = load_path(
       config.path, statics.accepted().t, increment, scene.stops,
       [&](double t) {
         statics.begin(t);
-        const SolveReport report = newton(statics.problem(), statics.trial(), nonlinear);
+        const SolveReport report = equilibrium_by(config.solver, statics.problem(), statics.trial());
         if (!report.converged()) progress.failed(t, report);
         return report;
       },

@@ -10,6 +10,7 @@
 #include "base/fields.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
+#include "solve/kinsol.hpp"
 #include "solve/load_path.hpp"
 #include "solve/newton.hpp"
 
@@ -92,7 +93,7 @@ struct SolveConfig {
   std::vector<LoadConfig> loads;
   std::map<std::string, ContactConfig> contacts;
   LoadPathOptions path;
-  std::variant<NewtonOptions> solver;
+  std::variant<NewtonOptions, KinsolOptions> solver;
   int threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");

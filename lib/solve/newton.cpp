@@ -7,6 +7,25 @@
 
 namespace langer {
 
+bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport& report) {
+  const std::optional<VecX> dx = problem.correction();
+  if (!dx || !dx->allFinite()) {
+    report.outcome = Outcome::singular, report.why = "the tangent is singular";
+    return false;
+  }
+  const double longest = dx->lpNorm<Eigen::Infinity>();
+  double step = longest > largest_move ? largest_move / longest : 1;
+  int halvings = 0;
+  while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
+  if (halvings > 8) {
+    report.outcome = Outcome::inadmissible, report.why = "no admissible step: elements would be turned inside out";
+    return false;
+  }
+  problem.moved(*dx, step);
+  x += step * *dx;
+  return true;
+}
+
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
@@ -25,15 +44,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
       return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
                                                    : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
                                                                  now.residual, report.tolerance, report.iterations));
-    const std::optional<VecX> dx = problem.correction();
-    if (!dx || !dx->allFinite()) return stop(Outcome::singular, "the tangent is singular");
-    const double longest = dx->lpNorm<Eigen::Infinity>();
-    double step = longest > options.largest_move ? options.largest_move / longest : 1;
-    int halvings = 0;
-    while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
-    if (halvings > 8) return stop(Outcome::inadmissible, "no admissible step: elements would be turned inside out");
-    problem.moved(*dx, step);
-    x += step * *dx;
+    if (!take_step(problem, x, options.largest_move, report)) return report;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/fields.hpp"
 #include "tensor/types.hpp"
@@ -29,6 +30,13 @@ struct Problem {
   std::function<std::optional<VecX>()> correction;
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
+
+  // For solvers that iterate on the free unknowns themselves, contact reactions fixed:
+  std::vector<int> free;                                 // index in x of each free unknown
+  std::function<bool(const VecX& x, VecX& f)> residual;  // false where x is not admissible
+  std::function<bool(const VecX& x)> tangent;            // assembles and factorizes at x
+  std::function<VecX(const VecX& rhs)> solve;            // with that tangent
+  std::function<void(const VecX& free_step)> predicted;  // told each solution of the tangent
 };
 
 struct NewtonOptions {
@@ -50,11 +58,14 @@ enum class Outcome { converged, not_converged, inadmissible, singular };
 
 struct SolveReport {
   Outcome outcome = Outcome::not_converged;
-  int iterations = 0;
+  int iterations = 0, evaluations = 0;
   double residual = 0, tolerance = 0, reference = 0;
   std::string why;  // in words, when not converged
   bool converged() const { return outcome == Outcome::converged; }
 };
+
+// One linearised step, shortened where it is too long or would turn elements inside out; false: `report` says why.
+bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport& report);
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options);
 

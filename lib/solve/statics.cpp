@@ -305,6 +305,29 @@ Problem Statics::problem() {
   p.correction = [this] { return correction(); };
   p.admissible = [this](const VecX& u) { return admissible(u); };
   p.moved = [this](const VecX& du, double step) { moved(du, step); };
+  p.free = equilibrium_.dofs().free;
+  p.residual = [this](const VecX& u, VecX& f) {
+    const Stopwatch watch(cost_.assembly);
+    if (!equilibrium_.assemble(u, false)) return false;
+    f = -free_residual();
+    return true;
+  };
+  p.tangent = [this](const VecX& u) {
+    if (!equilibrium_.assemble(u, true)) return false;
+    supported_ = false;
+    ++cost_.factorizations;
+    const Stopwatch watch(cost_.factor);
+    return linear_->factorize(equilibrium_.K()) || (++n_indefinite_, linear_->factorize_indefinite(equilibrium_.K()));
+  };
+  p.solve = [this](const VecX& rhs) {
+    const Stopwatch watch(cost_.solve);
+    return linear_->solve(rhs);
+  };
+  p.predicted = [this](const VecX& step) {
+    VecX du = VecX::Zero(u_.size());
+    for (Eigen::Index i = 0; i < step.size(); ++i) du[equilibrium_.dofs().free[i]] = step[i];
+    equilibrium_.predict_pressures(du, 1);
+  };
   return p;
 }
 

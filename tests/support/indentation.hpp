@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "solve/kinsol.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
@@ -25,6 +26,7 @@ struct Indentation {
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   bool loose_base = false;  // the bottom may glide in x
   NewtonOptions newton;
+  std::optional<KinsolOptions> kinsol;  // in place of newton
 
   struct Step {
     double depth, force;
@@ -72,7 +74,8 @@ struct Indentation {
         path, 0, {}, {},
         [&](double t) {
           statics.begin(t);
-          return langer::newton(statics.problem(), statics.trial(), newton);
+          return kinsol ? langer::kinsol(statics.problem(), statics.trial(), *kinsol)
+                        : langer::newton(statics.problem(), statics.trial(), newton);
         },
         [&](double t, double, double, const SolveReport& report) {
           statics.accept();

@@ -1,0 +1,100 @@
+// KINSOL and newton() give the same answers; KINSOL's traps are guarded.
+#include "solve/kinsol.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/indentation.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+// x^3 = 8 for each of n unknowns, as a Problem whose residual can be spoilt
+struct Cubes {
+  int n = 3, calls = 0, spoil_from = 1 << 30;
+  VecX at;
+  Problem problem() {
+    Problem p;
+    for (int i = 0; i < n; ++i) p.free.push_back(i);
+    p.residual = [this](const VecX& x, VecX& f) {
+      f = x.array().cube() - 8;
+      if (++calls >= spoil_from) f[0] = std::nan("");
+      return true;
+    };
+    p.assess = [this, p](const VecX& x, bool) {
+      VecX f(n);
+      at = x;
+      p.residual(x, f);
+      Assessment a;
+      a.residual = f.norm(), a.reference = 8;
+      return a;
+    };
+    p.tangent = [this](const VecX& x) { return at = x, true; };
+    p.solve = [this](const VecX& rhs) { return VecX(rhs.array() / (3 * at.array().square())); };
+    p.predicted = [](const VecX&) {};
+    p.correction = [this]() -> std::optional<VecX> { return VecX((8 - at.array().cube()) / (3 * at.array().square())); };
+    p.admissible = [](const VecX&) { return true; };
+    p.moved = [](const VecX&, double) {};
+    return p;
+  }
+};
+
+const KinsolStrategy strategies[] = {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard,
+                                     KinsolStrategy::fixed_point};
+
+}  // namespace
+
+TEST_CASE("every strategy finds the root that newton finds") {
+  for (KinsolStrategy strategy : strategies) {
+    Cubes cubes;
+    KinsolOptions options;
+    options.strategy = strategy, options.relative = 1e-10;
+    VecX x = VecX::Constant(3, 3.0);
+    const SolveReport report = kinsol(cubes.problem(), x, options);
+    CAPTURE(static_cast<int>(strategy));
+    CHECK(report.converged());
+    CHECK((x - VecX::Constant(3, 2)).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("a residual that becomes NaN is never a success and never hangs, whenever it happens") {
+  for (KinsolStrategy strategy : strategies)
+    for (int from : {1, 2, 3, 4, 6}) {
+      Cubes cubes;
+      cubes.spoil_from = from;
+      KinsolOptions options;
+      options.strategy = strategy, options.iterations = 20, options.rounds = 3;
+      VecX x = VecX::Constant(3, 30.0);
+      CAPTURE(static_cast<int>(strategy));
+      CAPTURE(from);
+      CHECK_FALSE(kinsol(cubes.problem(), x, options).converged());
+      CHECK(cubes.calls < 2000);
+    }
+}
+
+TEST_CASE("indentation with friction: every strategy agrees with newton to 1e-8 mm") {
+  test::Indentation scene;
+  scene.nx = scene.nz = 10, scene.ny = 3, scene.h = 0.6, scene.depth = 0.4, scene.newton.relative = 1e-9;
+  const Material skin = test::table1(60, 1e-6);
+  const auto reference = scene.run(skin);
+  REQUIRE(reference.path.complete);
+  for (KinsolStrategy strategy : strategies) {
+    KinsolOptions options;
+    options.strategy = strategy, options.relative = 1e-9;
+    scene.kinsol = options;
+    const auto result = scene.run(skin);
+    CAPTURE(static_cast<int>(strategy));
+    REQUIRE(result.path.complete);
+    MESSAGE("strategy " << static_cast<int>(strategy) << ": " << result.path.iterations << " iterations, "
+                        << result.cost.factorizations << " factorizations, " << result.path.cuts << " cuts; newton "
+                        << reference.path.iterations);
+    CHECK((result.u - reference.u).lpNorm<Eigen::Infinity>() < 1e-8);
+    for (const auto& step : result.steps) {
+      CHECK(step.defect.penetration <= 1e-9);
+      CHECK(step.defect.complementarity <= 1e-8);
+    }
+  }
+}
