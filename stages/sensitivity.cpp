@@ -6,6 +6,7 @@
 #include "scene/ranking.hpp"
 #include "scene/sensitivity_tables.hpp"
 #include "scene/step_record.hpp"
+#include "scene/study_files.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
 
@@ -100,6 +101,8 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   write_text_file(job.beside("sensitivity_zones.csv"), zones_csv(record));
   if (record.morris) write_text_file(job.beside("sensitivity_morris.csv"), morris_csv(record));
   if (record.sobol) write_text_file(job.beside("sensitivity_sobol.csv"), sobol_csv(record));
+  if (config.figures)
+    for (const std::string& line : draw_sensitivity(record, job.beside(""))) job.say("{}", line);
   write_sensitivity(job.output, record, job.identity);
   return summary_of(record);
 }

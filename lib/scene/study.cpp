@@ -114,10 +114,10 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
 std::string up_to(const PathStability& p, double end) {
   const double loss = std::min(p.slope_loss, p.ellipticity_loss);
   const bool shear = p.path == Path::simple_shear;
-  const auto text = [&](double x) { return shear ? fmt::format("shear {:.2f}", x) : fmt::format("stretch {:.2f}", 1 + x); };
+  const auto text = [&](double x) { return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x); };
   if (std::isinf(loss)) return "stable up to " + text(end) + ", as far as looked";
   // rounded down: stable as far as said
-  std::string s = "stable up to " + text(std::floor(100 * std::max(0., loss)) / 100);
+  std::string s = "stable up to " + text(std::floor(1000 * std::max(0., loss)) / 1000);
   if (loss <= 0) s = "unstable from rest on";
   if (p.slope_loss < p.ellipticity_loss) {
     s += ", where the nominal stress starts to fall";
