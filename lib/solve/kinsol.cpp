@@ -170,7 +170,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
     if (!then.admissible) return stop(Outcome::inadmissible, "an element is turned inside out");
-    Round inner{problem, options, x, VecX(static_cast<Eigen::Index>(problem.free.size()))};
+    Round inner{.problem = problem, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(problem.free.size()))};
     inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);
     report.iterations += inner.iterations;
