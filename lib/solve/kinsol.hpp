@@ -22,7 +22,7 @@ struct KinsolOptions {
   int anderson = 5;
   int iterations = 100;
   int rounds = 25;
-  double relative = 1e-7;
+  double relative = 1e-6;
   double absolute = 1e-12;
   double largest_move = 1;
   static void fields(auto& v) {

@@ -42,7 +42,7 @@ struct Problem {
 struct NewtonOptions {
   static constexpr const char* key = "newton";
   int iterations = 25;
-  double relative = 1e-7;
+  double relative = 1e-6;
   double absolute = 1e-12;
   double largest_move = 1;
   static void fields(auto& v) {
