@@ -1,5 +1,5 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
-//   langer-bench [case ...]     cases: indentation, paper, grading
+//   langer-bench [case ...]     cases: assembly, indentation, solvers; only when named: paper, grading, sobol
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "material/path.hpp"
+#include "sensitivity/sobol.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -53,12 +55,80 @@ test::Indentation paper_block() {  // 56 x 4 x 55: 12 320 hexahedra; the paper h
   return scene;
 }
 
+// 1e6 curves of the uniaxial law at ten strains each, on two threads
+void measure_sobol(const Material& skin) {
+  const std::vector<double> strain{0.06, 0.12, 0.18, 0.24, 0.3, 0.36, 0.42, 0.48, 0.54, 0.6};
+  const CurveMaker maker = [&] {
+    return ParametricCurve([&, m = skin](const VecX& p, VecX& y) mutable {
+      m.matrix = {Yeoh{p[0], p[1], p[2]}};
+      m.fibres[0].hgo = {p[3], p[4]};
+      const auto sigma = path_curve(m, Path::uniaxial, strain, StressMeasure::cauchy);
+      if (sigma) y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
+      return sigma.has_value();
+    });
+  };
+  VecX value(5), range(5);
+  value << 0.269, 0.376, 0.415, -0.317, 0.319;
+  range = 0.5 * value.cwiseAbs();
+  SamplingOptions options;
+  options.threads = 2;
+  const double cpu = cpu_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  const Sobol s = sobol(maker, value - range, value + range, 1000000 / 7 + 1, options);
+  fmt::print(
+      "Sobol: {} curves of {} strains: {:.1f} s CPU, {:.1f} s wall on 2 threads; total share of c1 at 60 %: {:.3f} +- {:.3f}\n",
+      s.curves, strain.size(), cpu_seconds() - cpu,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), s.total.value(3, 9),
+      0.5 * (s.total.high(3, 9) - s.total.low(3, 9)));
+}
+
+// elements per second, one thread, with the tangent
+void measure_assembly(const Material& skin) {
+  const Mesh mesh = test::block(test::even(-15, 15, 56), test::even(0, 4, 4), test::even(-15, 15, 55));
+  for (Kernel kernel : {Kernel::packets, Kernel::one_by_one}) {
+    Equilibrium body(mesh, {skin}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
+    VecX u(3 * mesh.n_nodes());
+    for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = 0.01 * mesh.X[i].cwiseProduct(Vec3(1, -1, 0.5));
+    body.assemble(u, true);
+    const double start = cpu_seconds();
+    const int rounds = kernel == Kernel::packets ? 20 : 5;
+    for (int k = 0; k < rounds; ++k) body.assemble(u, true);
+    const double seconds = (cpu_seconds() - start) / rounds;
+    fmt::print("assembly, {}: {:.4f} s CPU for {} hexahedra, {:.2f} million elements per second\n",
+               kernel == Kernel::packets ? "eight at a time" : "one by one", seconds, mesh.n_cells(),
+               1e-6 * mesh.n_cells() / seconds);
+  }
+}
+
+// what each nonlinear solver needs for the same answer
+void measure_solvers(const Material& skin) {
+  test::Indentation scene;
+  scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45;
+  fmt::print("indentation to 1 mm in ten steps, {} hexahedra, friction\n", 14 * 14 * 4);
+  const auto line = [&](const std::string& name) {
+    const double cpu = cpu_seconds();
+    const auto result = scene.run(skin);
+    fmt::print("  {:<20} {:4} iterations, {:4} factorizations, {:2} cuts, {:6.2f} s CPU, force {:.6f} N\n", name,
+               result.path.iterations, result.cost.factorizations, result.path.cuts, cpu_seconds() - cpu,
+               result.steps.empty() ? 0 : result.steps.back().force);
+  };
+  line("newton");
+  for (KinsolStrategy strategy :
+       {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
+    scene.kinsol = KinsolOptions{};
+    scene.kinsol->strategy = strategy;
+    line(std::string("kinsol ") + names(strategy)[static_cast<int>(strategy)]);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::set<std::string> asked(argv + 1, argv + argc);
   const auto wanted = [&](const char* name) { return asked.empty() || asked.count(name) > 0; };
   const Material skin = test::table1(60, 1e-6);
+  if (wanted("assembly")) measure_assembly(skin);
+  if (wanted("solvers")) measure_solvers(skin);
   if (wanted("indentation")) {  // what an iteration costs at the paper's size
     auto scene = paper_block();
     scene.depth = 0.2;
@@ -66,6 +136,7 @@ int main(int argc, char** argv) {
     scene.step = 0.1, scene.depth = 1;
     measure("the same to 1 mm in steps of 0.1 mm", scene, skin);
   }
+  if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper")) measure("the paper's 100 steps of 0.01 mm", paper_block(), skin);
   if (asked.count("grading")) {
     test::Indentation scene;
