@@ -1,41 +1,55 @@
-// langer-fit: parameters of a law from a measured curve.
-//   langer-fit abdomen.yaml -o material.h5        also writes fit.csv: strain, measured stress, model, error
+// langer-fit: parameters of a law from measured tests.
+//   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
+//                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
+#include "fit/second_answer.hpp"
+#include "scene/cards.hpp"
 #include "scene/fit_report.hpp"
+#include "scene/long_work.hpp"
+#include "scene/study_files.hpp"
+#include "store/curves_file.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
 
 namespace langer {
 namespace {
 
-UniaxialFit best_fit(const FitConfig& config, const Curve& curve) {
-  UniaxialFitOptions options;
-  options.dilatation = config.dilatation;
-  options.starts = config.starts;
-  options.seed = static_cast<unsigned>(config.seed);
+FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
   try {
-    return fit_uniaxial(curve, config.law, free_parameters(config), options);
+    return fit(problem, {config.starts, static_cast<unsigned>(config.seed), {}});
   } catch (const Failure& failure) {
     std::vector<Error> errors = failure.errors();
-    for (Error& e : errors) e.where.file = config.data.file.path;
+    for (Error& e : errors) e.where.file = config.data.front().file.path;
     throw Failure(failure.code(), errors);
   }
 }
 
-std::vector<Summary> fit(const Job<FitConfig>& job) {
+std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  const Curve curve = between_strains(read_curve(config.data.file.path), config.data.strain_from.value_or(-inf),
-                                      config.data.strain_to.value_or(inf));
-  const UniaxialFit found = best_fit(config, curve);
+  const FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation};
+  const FitResult found = best_fit(config, problem);
   if (!found.best.converged)
     throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
                                         fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
                                                     config.starts, found.best.why, found.best.kkt, found.best.cost),
                                         "", "more starts, other start values or narrower bounds"});
-  const FitRecord record = fit_record(config, curve, found);
+  FitRecord record = fit_record(problem, found);
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.say("warning: {}", line);
-  write_text_file(job.beside("fit.csv"), fit_csv(curve, record.model));
+  if (config.check == SecondAnswer::nlopt) {
+    const Comparison second = second_answer(problem, found.best, static_cast<unsigned>(config.seed));
+    job.say("{}{}", second.agrees ? "" : "warning: ", second.text);
+  }
+  record.study.range = fitted_range(found.material, problem.tests);
+  if (config.study) {
+    record.study =
+        study(problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); });
+    for (const std::string& line : study_lines(record.study)) job.say("{}", line);
+    for (const std::string& line : write_study_files(record.study, *config.study, job.beside(""))) job.say("{}", line);
+  }
+  write_text_file(job.beside("fit.csv"), fit_csv(record));
+  if (config.study && config.study->figures && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
+    for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), job.beside(""))) job.say("{}", line);
+  for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
   return read_summary(job.output);
 }
@@ -43,4 +57,4 @@ std::vector<Summary> fit(const Job<FitConfig>& job) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit); }
+int main(int argc, char** argv) { return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit_stage); }

@@ -66,8 +66,8 @@ bool imposed(const Test& test, const Material& law) {
   return test.kind == TestKind::simple_shear || (test.kind != TestKind::uniaxial && test.shear == OffAxisShear::held);
 }
 
-Quality quality(const VecX& model, const VecX& stress, double largest) {
-  Quality q;
+FitQuality quality(const VecX& model, const VecX& stress, double largest) {
+  FitQuality q;
   const VecX error = model - stress;
   q.r2 = 1 - error.squaredNorm() / (stress.array() - stress.mean()).matrix().squaredNorm();
   q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest;
@@ -84,7 +84,7 @@ void judge(const FitProblem& problem, FitResult& fit) {
   for (const Test& test : problem.tests) {
     const auto m = static_cast<Eigen::Index>(test.values());
     const double largest = std::max(largest_stress(test), std::numeric_limits<double>::min());
-    const Quality q = quality(fit.model.segment(at, m), stress.segment(at, m), largest);
+    const FitQuality q = quality(fit.model.segment(at, m), stress.segment(at, m), largest);
     fit.of_test.push_back(q);
     fit.quality.mean_error_percent += q.mean_error_percent * static_cast<double>(m) / n;
     fit.quality.max_error_percent = std::max(fit.quality.max_error_percent, q.max_error_percent);

@@ -32,7 +32,7 @@ struct FitOptions {
 // How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test.
 //   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2
 //   aicc = n ln(2 cost/n) + 2 k + 2 k (k + 1)/(n - k - 1),  bic = n ln(2 cost/n) + k ln n,  k = parameters + 1
-struct Quality {
+struct FitQuality {
   double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;
 };
 
@@ -42,8 +42,8 @@ struct FitResult {
   MatX covariance;  // NaN where the tests do not determine a parameter
   MatX starts;      // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
   VecX model;       // of each value [MPa]; empty if no start has a model
-  Quality quality;
-  std::vector<Quality> of_test;  // r2 and errors
+  FitQuality quality;
+  std::vector<FitQuality> of_test;  // r2 and errors
 };
 
 // stresses of a law in the states of a test [MPa], in the order above; false where a state does not exist

@@ -9,10 +9,13 @@
 
 namespace langer {
 
-FitRecord fit_record(const FitConfig& config, const Curve& curve, const UniaxialFit& fit);
+FitRecord fit_record(const FitProblem& problem, const FitResult& fit);
 
-// strain, measured stress, model, error in percent of the largest stress (fig. 5 of [A23])
-std::string fit_csv(const Curve& curve, const std::vector<double>& model);
+// One table of all tests: strain, measured stress, model, error in percent of the test's largest stress (fig. 5 of [A23]).
+// One uniaxial test has the columns strain, <measure>_stress, model, error; otherwise there is a column for each of
+//   test (its number in the list, from 1), first, second, stress_x, stress_z, model_x, model_z, error_x, error_z
+// and missing z columns are NaN.
+std::string fit_csv(const FitRecord& record);
 
 // one line per parameter, one about the errors
 std::vector<std::string> fit_results(const FitRecord& record);

@@ -63,13 +63,41 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   write_vector(curve, "stress", fit.stress, "MPa");
   write_vector(curve, "model", fit.model, "MPa");
 
+  const h5::Group tests = root.make_group("tests");
+  std::string names;
+  for (const FittedTest& test : fit.tests) {
+    const h5::Group one = tests.make_group(test.name);
+    one.attribute("kind", test.kind);
+    one.attribute("measure", test.measure);
+    one.write_scalar("fibre_angle", test.fibre_angle_deg, "deg");
+    one.write_scalar("weight", test.weight);
+    write_vector(one, "first", test.first, "-");
+    write_vector(one, "second", test.second, "-");
+    write_vector(one, "stress_x", test.stress_x, "MPa");
+    write_vector(one, "stress_z", test.stress_z, "MPa");
+    write_vector(one, "model_x", test.model_x, "MPa");
+    write_vector(one, "model_z", test.model_z, "MPa");
+    one.write_scalar("r2", test.r2);
+    one.write_scalar("mean_error", test.mean_error_percent, "percent");
+    one.write_scalar("max_error", test.max_error_percent, "percent");
+    names += (names.empty() ? "" : " ") + test.name;
+  }
+  tests.attribute("order", names);
+  group.write_scalar("r2", fit.r2);
+  group.write_scalar("aicc", fit.aicc);
+  group.write_scalar("bic", fit.bic);
+
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
   summary.push_back({"max_error", fit.max_error_percent, "percent"});
+  summary.push_back({"r2", fit.r2, "-"});
+  summary.push_back({"aicc", fit.aicc, "-"});
+  summary.push_back({"bic", fit.bic, "-"});
   summary.push_back({"cost", fit.cost, "-"});
   summary.push_back({"kkt_residual", fit.kkt_residual, "-"});
   write_summary(root, summary);
+  write_study(root, fit.study);
 }
 
 FitRecord read_fit(const h5::Group& root) {
@@ -93,6 +121,22 @@ FitRecord read_fit(const h5::Group& root) {
   fit.strain = curve.read_finite("strain", {h5::any});
   fit.stress = curve.read_finite("stress", {fit.strain.size()});
   fit.model = curve.read_finite("model", {fit.strain.size()});
+  fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"), fit.bic = group.read_scalar("bic");
+  const h5::Group tests = root.group("tests");
+  std::istringstream names(tests.text_attribute("order"));
+  for (std::string name; names >> name;) {
+    const h5::Group one = tests.group(name);
+    FittedTest test{name, one.text_attribute("kind"), one.text_attribute("measure"), 0, 1, {}, {}, {}, {}, {}, {}, 0, 0, 0};
+    test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
+    test.first = one.read_finite("first", {h5::any}), test.second = one.read_finite("second", {h5::any});
+    test.stress_x = one.read_finite("stress_x", {test.first.size()}), test.stress_z = one.read_finite("stress_z", {h5::any});
+    test.model_x = one.read_finite("model_x", {test.first.size()});
+    test.model_z = one.read_finite("model_z", {test.stress_z.size()});
+    test.r2 = one.read_scalar("r2"), test.mean_error_percent = one.read_scalar("mean_error");
+    test.max_error_percent = one.read_scalar("max_error");
+    fit.tests.push_back(std::move(test));
+  }
+  fit.study = read_study(root);
   return fit;
 }
 

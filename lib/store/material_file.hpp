@@ -7,6 +7,7 @@
 
 #include "material/material.hpp"
 #include "store/identity.hpp"
+#include "store/study_record.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -19,6 +20,15 @@ struct FittedParameter {
   double standard_error = 0;    // NaN where the curve does not determine it
 };
 
+// One of the tests of a fit. n points; x and z are the axes of the specimen.
+struct FittedTest {
+  std::string name, kind, measure;
+  double fibre_angle_deg = 0, weight = 1;
+  std::vector<double> first, second;  // stretch (simple shear: its amount) along x; stretch along z, biaxial tests only
+  std::vector<double> stress_x, stress_z, model_x, model_z;  // [MPa]; z may be empty
+  double r2 = 0, mean_error_percent = 0, max_error_percent = 0;
+};
+
 // How the parameters were found. p parameters, n points of the curve, k starts.
 struct FitRecord {
   std::vector<FittedParameter> parameters;
@@ -28,7 +38,10 @@ struct FitRecord {
   double mean_error_percent = 0, max_error_percent = 0;  // of the largest measured stress
   MatX starts;                                           // (k, p + 1) parameters and cost reached from each start; may be empty
   double strain_min = 0, strain_max = 0;                 // range of the curve that was fitted
-  std::vector<double> strain, stress, model;             // (n) [-], [MPa], [MPa]
+  std::vector<double> strain, stress, model;             // (n) of the first test [-], [MPa], [MPa]
+  std::vector<FittedTest> tests;                         // all of them
+  double r2 = 0, aicc = 0, bic = 0;                      // see fit/fit.hpp; NaN where there are too few points
+  StudyRecord study;                                     // read back: fitted range, verdict and safe radius
 };
 
 struct MaterialFile {
@@ -37,7 +50,7 @@ struct MaterialFile {
   std::string content_id;
 };
 
-// /summary gets the parameters, mean_error, max_error, cost and kkt_residual of a fit
+// /summary gets the parameters, mean_error, max_error, cost, kkt_residual, r2, aicc and bic of a fit
 void write_material(const std::string& path, const Material& material, const std::optional<FitRecord>& fit,
                     const Identity& identity);
 MaterialFile read_material(const std::string& path);

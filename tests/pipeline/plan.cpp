@@ -43,7 +43,7 @@ struct Project {
     write("law.yaml", "matrix: {yeoh: {a1: 0.2}}\nvolume: {quadratic: {d: 1.0e-3}}   # MPa\n");
     write("curve.csv", "strain,stress_MPa\n0,0\n");
     write("configs/fit.yaml",
-          "data: {file: ../curve.csv}\nlaw: {include: ../law.yaml}\nparameters: [{key: matrix.yeoh.a1, lower: 0, upper: 1}]\n");
+          "data: [{file: ../curve.csv}]\nlaw: {include: ../law.yaml}\nparameters: [{key: matrix.yeoh.a1, lower: 0, upper: 1}]\n");
     write("configs/mesh.yaml", "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\n");
     write("configs/solve.yaml",
           "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, displacement: {x: 0.1}}]\nthreads: 1\n");
@@ -171,7 +171,7 @@ TEST_CASE("a missing data file is found by plan, with the code of an input file"
   fs::remove("curve.csv");
   Exit code = Exit::ok;
   const std::string said = failure(code);
-  CHECK(said.find("configs/fit.yaml:1:8: data.file: curve.csv: there is no such file") != std::string::npos);
+  CHECK(said.find("configs/fit.yaml:1:9: data[0].file: curve.csv: there is no such file") != std::string::npos);
   CHECK(code == Exit::input);
   CHECK_FALSE(fs::exists("runs"));
 }

@@ -68,7 +68,7 @@ foreach(case "nan|0.1,nan|curve.csv:3:5: found nan; expected a finite number"
   run(3 "${message}" ${BIN}/langer-fit ${name}/fit.yaml -o yeoh/material.h5)
 endforeach()
 file(WRITE ${WORK}/absent.yaml "${changed}")
-run(3 "data.file" ${BIN}/langer-fit absent.yaml -o yeoh/material.h5)
+run(3 "data[0].file" ${BIN}/langer-fit absent.yaml -o yeoh/material.h5)
 file(SHA256 ${WORK}/yeoh/material.h5 after)
 if(NOT before STREQUAL after)
   message(FATAL_ERROR "a refused fit has touched the result that was there")

@@ -114,6 +114,10 @@ FitRecord fit() {
   f.cost = 1e-5, f.kkt_residual = 1e-12, f.mean_error_percent = 0.4, f.max_error_percent = 2.1;
   f.strain_min = 0, f.strain_max = 0.6;
   f.strain = {0, 0.3, 0.6}, f.stress = {0, 0.0709, 1.0564}, f.model = {0, 0.07, 1.06};
+  f.r2 = 0.99, f.aicc = -100, f.bic = -90;
+  FittedTest biaxial{"offx", "biaxial", "nominal", 30, 2, {1, 1.1}, {1, 1.2}, {0, 1}, {0, 2}, {0, 1.1}, {0, 2.1}, 0.97, 1, 3};
+  FittedTest shear{"s", "simple_shear", "cauchy", 0, 1, {0, 0.5, 1}, {}, {0, 1, 2}, {}, {0, 1.1, 2.1}, {}, 0.9, 1, 3};
+  f.tests = {biaxial, shear};
   return f;
 }
 }  // namespace
@@ -149,6 +153,16 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(f.starts == fit().starts);
   CHECK(f.model == fit().model);
   CHECK(f.strain_max == 0.6);
+  CHECK(f.r2 == 0.99);
+  CHECK(f.bic == -90);
+  REQUIRE(f.tests.size() == 2);
+  CHECK(f.tests[0].name == "offx");
+  CHECK(f.tests[0].fibre_angle_deg == 30);
+  CHECK(f.tests[0].second == std::vector{1, 1.2});
+  CHECK(f.tests[0].model_z == std::vector{0, 2.1});
+  CHECK(f.tests[1].kind == "simple_shear");
+  CHECK(f.tests[1].stress_z.empty());
+  CHECK(f.tests[1].model_x == std::vector{0, 1.1, 2.1});
   const auto correlation = h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
   CHECK(correlation[1] == doctest::Approx(0.5).epsilon(1e-14));
   bool found = false;
