@@ -158,11 +158,11 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   REQUIRE(f.tests.size() == 2);
   CHECK(f.tests[0].name == "offx");
   CHECK(f.tests[0].fibre_angle_deg == 30);
-  CHECK(f.tests[0].second == std::vector{1, 1.2});
-  CHECK(f.tests[0].model_z == std::vector{0, 2.1});
+  CHECK(f.tests[0].second == std::vector{1., 1.2});
+  CHECK(f.tests[0].model_z == std::vector{0., 2.1});
   CHECK(f.tests[1].kind == "simple_shear");
   CHECK(f.tests[1].stress_z.empty());
-  CHECK(f.tests[1].model_x == std::vector{0, 1.1, 2.1});
+  CHECK(f.tests[1].model_x == std::vector{0., 1.1, 2.1});
   const auto correlation = h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
   CHECK(correlation[1] == doctest::Approx(0.5).epsilon(1e-14));
   bool found = false;
