@@ -4,6 +4,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "scene/progress.hpp"
+#include "scene/range_watch.hpp"
 #include "scene/scene.hpp"
 #include "scene/step_record.hpp"
 #include "solve/load_path.hpp"
@@ -31,6 +32,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   Statics statics(body, scene.contacts, options);
   SolutionWriter file(job.output, header_of(body, scene, job.identity));
   Progress progress(job.quiet, body, scene);
+  RangeWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
 
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
@@ -53,8 +55,11 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         const StepRecord record = step_record(statics, body, taken, next, report);
         file.append(record);
         progress.accepted(record, report);
+        watch.look(body, statics.accepted());
         return true;
       });
+  if (!job.quiet)
+    for (const std::string& line : watch.warnings(body, statics.accepted())) job.say("warning: {}", line);
   if (!path.complete)
     throw Failure(
         Exit::not_converged,

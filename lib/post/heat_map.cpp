@@ -33,6 +33,7 @@ Drawing heat_map(const HeatMap& map) {
   };
   const auto colour = [&](double value) {
     if (!std::isfinite(value)) return grey;
+    if (map.losses) return signed_colour(1 - 0.9 * std::clamp(value / map.limit, 0., 1.));
     return signed_colour((map.swap_colours ? -1 : 1) * std::clamp(value / map.limit, -1., 1.));
   };
   d.marks.push_back(label(left + width / 2, 30, map.title, 16));
@@ -88,6 +89,7 @@ Drawing heat_map(const HeatMap& map) {
   }
   d.marks.push_back(label(left + width / 2, bottom + 48, map.x_label, 14));
   if (!map.y_label.empty()) d.marks.push_back(label(20, top - 14, map.y_label, 14, Label::Anchor::start));
+  if (map.losses) return d;
   // the scale
   const double x = left + width + 30, cells = 40, step = height / cells;
   for (int k = 0; k < cells; ++k)

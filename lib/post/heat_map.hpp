@@ -16,6 +16,7 @@ struct HeatMap {
   MatX values;                                        // NaN cells are grey
   double limit = 1;           // of the scale, -limit to limit: blue below zero, red above; larger values have the end's colour
   bool swap_colours = false;  // red below zero: for what is lost there
+  bool losses = false;        // values from 0 to limit, the smaller the redder; no scale
   bool numbers = false;       // written into the cells
   bool zero_line = false;     // between cells of different sign
   bool first_row_on_top = false;

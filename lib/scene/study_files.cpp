@@ -53,7 +53,7 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
 
   HeatMap losses;
   losses.title = "first loss: strain or shear from which the law is unstable";
-  losses.x_label = "angle between fibres and x (degrees)", losses.value_label = "amount";
+  losses.x_label = "angle between fibres and x (degrees)", losses.losses = true;
   const auto angles = static_cast<Eigen::Index>(m.angle.size());
   losses.values.resize(2 * static_cast<Eigen::Index>(all_paths.size()), angles);
   for (double a : m.angle) losses.x_names.push_back(fmt::format("{:g}", a));
@@ -80,6 +80,18 @@ std::vector<std::string> write_study_files(const StudyRecord& study, const Study
   Pictures pictures(folder);
   if (study.identifiability) draw_identifiability(pictures, *study.identifiability);
   if (study.stability) draw_stability(pictures, study.stability->map);
+  return lines_of(pictures);
+}
+
+std::vector<std::string> draw_fit(const std::string& measured_column, const std::string& folder) {
+  Pictures pictures(folder);
+  Plot plot;
+  plot.x_label = "strain", plot.y_label = "stress (MPa)", plot.title = "measured and fitted";
+  plot.lines = {{"fit.csv", "strain", measured_column, "measured"}, {"fit.csv", "strain", "model_MPa", "model"}};
+  pictures.draw("figure_4", gnuplot_script(plot, "figure_4"));
+  plot.y_label = "error (% of the largest stress)", plot.title = "model less measured";
+  plot.lines = {{"fit.csv", "strain", "error_percent", "error"}};
+  pictures.draw("figure_5", gnuplot_script(plot, "figure_5"));
   return lines_of(pictures);
 }
 

@@ -12,6 +12,8 @@ namespace langer {
 
 // Both return a line for every figure that could not be drawn.
 std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const std::string& folder);
+// of fit.csv of one uniaxial test: figs 4 and 5 of [A23]
+std::vector<std::string> draw_fit(const std::string& measured_column, const std::string& folder);
 std::vector<std::string> draw_sensitivity(const SensitivityRecord& record, const std::string& folder);
 
 }  // namespace langer
