@@ -13,6 +13,7 @@
 
 #include "base/fields.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/order.hpp"
 
 namespace langer {
 
@@ -74,6 +75,7 @@ struct GradedBlock {
   int outer_cells = 1;
   int layers = 1;
   std::optional<TowardsTop> top;
+  Blocks blocks = Blocks::turned;
   static void fields(auto& v) {
     v(&GradedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&GradedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -83,6 +85,9 @@ struct GradedBlock {
       between(1, 1000));
     v(&GradedBlock::layers, "layers", unit::none, "number of cells along y", required, between(1, 1000));
     v(&GradedBlock::top, "top", unit::none, "refinement towards the top in y; none: even cells");
+    v(&GradedBlock::blocks, "blocks", unit::none,
+      "how the four blocks around the core are numbered, which frames: element_edges follows: each as its neighbour turned by "
+      "90 degrees, or opposite ones as mirror images");
   }
   std::vector<Complaint> complaints() const;
 };

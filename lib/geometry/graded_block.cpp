@@ -138,7 +138,9 @@ Mesh mesh_of(const GradedBlock& b, const Points&, std::vector<std::string>&) {
     for (double line : y)
       if (std::abs(x[1] - line) < 1e-9 * b.size[1]) x[1] = line;
   turn_cells(mesh);
-  make_symmetric(mesh, {b.origin[0] + 0.5 * b.size[0], 0, b.origin[2] + 0.5 * b.size[2]});
+  const Vec3 axis(b.origin[0] + 0.5 * b.size[0], 0, b.origin[2] + 0.5 * b.size[2]);
+  make_symmetric(mesh, axis);
+  turn_outwards(mesh, axis, b.core.half_width, b.blocks);
   number_in_order(mesh);
   return mesh;
 }

@@ -1,7 +1,9 @@
 // The orthonormal frame of each cell, in which the fibres' angle is measured.                     [A23] eq. 1, section 4.4
 //   global         the coordinate axes
-//   element_edges  e_x along the cell's xi edges at its centre, e_y the part of its eta edges normal to e_x, e_z = e_x x e_y.
-//                  On a mesh whose edges turn, so do the fibres: this is what gives fig. 17's kinks.
+//   element_edges  as the cell's own numbering has it: e_x along its first edge (node 0 to 1, mean of the four xi edges), e_y the
+//                  part of its second edge (node 0 to 3) normal to e_x, e_z = e_x x e_y. The block meshes number the second
+//                  edge through the thickness, so that the angle is measured in the plane of the skin. Where the numbering
+//                  turns from block to block, so do the fibres: this is what gives fig. 17's kinks.
 #pragma once
 
 #include <array>

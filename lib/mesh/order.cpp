@@ -56,6 +56,19 @@ std::vector<int> sorted_by_place(const std::vector<Vec3>& places, double unit) {
 
 }  // namespace
 
+namespace {
+
+void turn_cell(Mesh& mesh, int e, const Mat3& R) {
+  std::array<int, 8> nodes;
+  for (int a = 0; a < 8; ++a) {
+    const Vec3 corner(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]);
+    nodes[a] = mesh.cell(e)[corner_at(R * corner)];
+  }
+  std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + 8 * e);
+}
+
+}  // namespace
+
 void turn_cells(Mesh& mesh) {
   const std::vector<Mat3> rotations = cube_rotations();
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -64,12 +77,27 @@ void turn_cells(Mesh& mesh) {
     Mat3 turn;
     for (const Mat3& R : rotations)
       if (const double along = (edges * R).trace(); along > best + 1e-9) best = along, turn = R;
-    std::array<int, 8> nodes;
-    for (int a = 0; a < 8; ++a) {
-      const Vec3 corner(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]);
-      nodes[a] = mesh.cell(e)[corner_at(turn * corner)];
+    turn_cell(mesh, e, turn);
+  }
+}
+
+void turn_outwards(Mesh& mesh, const Vec3& axis, double core, Blocks blocks) {
+  const Mat3 quarter{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};  // of a turn about eta
+  const Mat3 over{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};    // half a turn about xi
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    Vec3 out = Vec3::Zero();
+    for (int node : mesh.cell(e)) out += (mesh.X[node] - axis) / 8;
+    out[1] = 0;
+    if (out.lpNorm<Eigen::Infinity>() < core) continue;
+    const Mat3 edges = jacobian(mesh, e, Vec3::Zero()).colwise().normalized();
+    Mat3 turn = Mat3::Identity();
+    for (Mat3 R = quarter; !R.isIdentity(); R = quarter * R)
+      if ((edges * R).col(0).dot(out) > (edges * turn).col(0).dot(out)) turn = R;
+    if (blocks == Blocks::mirrored) {
+      const Vec3 around = (edges * turn).col(2);  // nearer to z in the blocks at +x and -x, nearer to x in the others
+      if ((std::abs(around[2]) > std::abs(around[0]) ? around[2] : around[0]) < 0) turn = turn * over;
     }
-    std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + 8 * e);
+    turn_cell(mesh, e, turn);
   }
 }
 
