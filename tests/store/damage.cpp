@@ -160,7 +160,7 @@ TEST_CASE("a material file with values out of range or unknown words is refused 
     return refusal([&] { read_material(path); });
   };
   CHECK(holds(with_material([](const h5::Group&) {}), "/material/matrix: group is missing"));
-  CHECK(holds(with_material([](const h5::Group& m) { m.make_group("matrix").make_group("0").make_group("gent"); }),
+  CHECK(holds(with_material([](const h5::Group& m) { m.make_group("matrix").make_group("0").make_group("no_such_law"); }),
               "/material/matrix/0: no known alternative"));
   const auto volume = [](double d) {
     return [d](const h5::Group& m) {
