@@ -17,8 +17,8 @@ foreach(attempt RANGE 26)  # 0.10 s, 0.13 s, ... 0.88 s
     math(EXPR kept "${kept} + 1")
   endif()
 endforeach()
-if(NOT EXISTS ${folder}/killed/solution.h5)
-  message(FATAL_ERROR "not finished after 27 attempts")
+if(NOT EXISTS ${folder}/killed/solution.h5)  # a slow or busy machine: the last attempt is left alone
+  run(0 ${solve} killed/solution.h5)
 endif()
 message("killed ${kept} times with steps kept")
 if(kept EQUAL 0)
