@@ -24,9 +24,14 @@ SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& sol
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const SolveConfig& config = job.config;
   const Mesh mesh = read_mesh(job.input("mesh")).mesh;
-  const Material material = job.has("material") ? material_from(job.input("material")) : *config.material;
+  const std::optional<Material> material =
+      job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
   const Scene scene = make_scene(config, mesh, material, job.where);
-  Equilibrium body(mesh, {scene.material}, config.formulation, scene.dofs, config.threads);
+  Equilibrium body(mesh, scene.materials, config.formulation, scene.dofs, config.threads, Kernel::packets, scene.fibres);
+  const FibreJump jump = largest_jump(mesh, [&](int e) { return body.fibres(e); });
+  if (jump.cell >= 0)
+    job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
+            jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   StaticsOptions options;
   options.threads = config.threads;
   Statics statics(body, scene.contacts, options);
@@ -75,7 +80,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
                 file.n_steps(), job.output)});
   file.finish();
   progress.finished(path, statics);
-  return summary_of(file.n_steps(), path, statics);
+  std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
+  summary.push_back({"fibre_jump", jump.degrees, "deg"});
+  return summary;
 }
 
 }  // namespace

@@ -9,19 +9,21 @@
 namespace langer {
 
 Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads,
-                         Kernel kernel)
+                         Kernel kernel, std::vector<std::vector<Vec3>> fibres)
     : mesh_(mesh),
       materials_(std::move(materials)),
       formulation_(formulation),
       dofs_(std::move(dofs)),
       pattern_(make_pattern(mesh, dofs_)),
       threads_(threads),
-      kernel_(kernel) {
+      kernel_(kernel),
+      fibres_(std::move(fibres)) {
   const int n = mesh.n_cells(), per_element = n_pressures(formulation);
   geometry_.reserve(n);
+  const bool from_frames = fibres_.empty();
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
-    fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3::Identity() : mesh.frames[e]));
+    if (from_frames) fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3::Identity() : mesh.frames[e]));
   }
   for (const Material& m : materials_)
     if (!packet_form(m)) kernel_ = Kernel::one_by_one;

@@ -1,7 +1,8 @@
 // Balance of a meshed body: internal force, tangent and the pressures that the tangent uses.   [A23] eqs 31-33
 //   F_int(u) - F_ext - R = 0
 // Vectors have one entry per dof (3 n); the tangent has the free rows only, lower triangle in the pattern's order.
-// A cell's material is materials[body[e]]. The parallel loop over elements lives here; sums are made in order,
+// A cell's material is materials[body[e]]; its fibres follow from that and its frame, unless `fibres` has its directions.
+// The parallel loop over elements lives here; sums are made in order,
 // so the number of threads does not change a bit of the result.
 #pragma once
 
@@ -19,7 +20,7 @@ enum class Kernel { packets, one_by_one };  // one_by_one: the scalar element, t
 class Equilibrium {
  public:
   Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1,
-              Kernel kernel = Kernel::packets);
+              Kernel kernel = Kernel::packets, std::vector<std::vector<Vec3>> fibres = {});
 
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().

@@ -52,7 +52,8 @@ void need_one_source(const StageSpec& stage, const Tree& config, const std::vect
     const bool given = std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
     if (key && given)
       throw Failure(Exit::config, Error{key->place, port.name, "given here and as a file", "one of the two", ""});
-    if (!key && !given)
+    const bool one_each = config.find(std::string(port.name) + "s") != nullptr;  // materials: one for each body
+    if (!key && !given && !one_each)
       throw Failure(Exit::config,
                     Error{config.place, port.name, "missing", fmt::format("the key {0}, or a file (--{0})", port.name), ""});
   }

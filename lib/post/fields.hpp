@@ -26,7 +26,8 @@ constexpr auto names(StressAt) { return std::array{"nodal_average", "nearest_gau
 class Body {
  public:
   // materials: one for all cells, or one per body of the mesh; the mesh must outlive this
-  Body(const Mesh& mesh, std::vector<Material> materials, Formulation formulation);
+  // fibres: directions by cell; none: those that follow from the frames
+  Body(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, std::vector<std::vector<Vec3>> fibres = {});
 
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }

@@ -19,6 +19,32 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
   }
 }
 
+void name_bodies(Mesh& mesh, const MeshConfig& config) {
+  mesh.bodies = {config.body};
+  mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
+  if (config.bodies.empty()) return;
+  mesh.bodies.clear();
+  const auto [bottom, height] = std::visit([](const auto& g) { return std::pair(g.origin[1], g.size[1]); }, config.geometry);
+  double low = bottom;
+  for (std::size_t b = 0; b < config.bodies.size(); ++b) {
+    mesh.bodies.push_back(config.bodies[b].name);
+    const double high = low + config.bodies[b].thickness, slack = 1e-9 * height;
+    for (int e = 0; e < mesh.n_cells(); ++e) {
+      double least = mesh.X[mesh.cell(e)[0]][1], most = least;
+      for (int n : mesh.cell(e)) least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
+      if (least > low - slack && most < high + slack) mesh.body[e] = static_cast<int>(b);
+      if (least < high - slack && most > high + slack)
+        throw Failure(Exit::config, Error{{},
+                                          fmt::format("bodies[{}].thickness", b),
+                                          fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm",
+                                                      high, least, most),
+                                          "a border between cells",
+                                          "change the thickness, or the divisions or layers of the geometry"});
+    }
+    low = high;
+  }
+}
+
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
@@ -26,8 +52,7 @@ MadeMesh made(const MeshConfig& config) {
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
   refuse_folded(result.quality, "geometry");
-  mesh.bodies = {config.body};
-  mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
+  name_bodies(mesh, config);
   mesh.frames = frames(mesh, config.frames);
   name_sides(mesh);
   name_sets(mesh, config);

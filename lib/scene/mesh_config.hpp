@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,14 +32,29 @@ struct SetConfig {
   }
 };
 
+struct LayerConfig {
+  std::string name;
+  double thickness = 0;
+  static void fields(auto& v) {
+    v(&LayerConfig::name, "name", unit::none, "name of the body", required);
+    v(&LayerConfig::thickness, "thickness", unit::mm, "along y; faces of cells must lie on its borders", required, positive);
+  }
+  std::vector<Complaint> complaints() const {
+    if (!name.empty() && name.find_first_of(" \t\n./") == std::string::npos) return {};
+    return {{"name", "found \"" + name + "\"", "a name without spaces, points and slashes", ""}};
+  }
+};
+
 struct MeshConfig {
   std::string body = "skin";
+  std::vector<LayerConfig> bodies;
   Geometry geometry;
   Frames frames = Frames::global;
   std::map<std::string, std::array<double, 3>> points;
   std::map<std::string, SetConfig> sets;
   static void fields(auto& v) {
-    v(&MeshConfig::body, "body", unit::none, "name of the body");
+    v(&MeshConfig::body, "body", unit::none, "name of the body, where it is one");
+    v(&MeshConfig::bodies, "bodies", unit::none, "layers from the bottom up, each a body of its own; none: one body");
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
@@ -52,6 +68,18 @@ struct MeshConfig {
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found = std::visit([&](const auto& g) { return contradictions(g, positions()); }, geometry);
+    double thickness = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      thickness += bodies[i].thickness;
+      for (std::size_t k = 0; k < i; ++k)
+        if (bodies[k].name == bodies[i].name)
+          found.push_back(
+              {"bodies[" + std::to_string(i) + "].name", "found \"" + bodies[i].name + "\" again", "another name", ""});
+    }
+    const double height = std::visit([](const auto& g) { return g.size[1]; }, geometry);
+    if (!bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
+      found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
+                       std::to_string(height) + " mm, the height of the geometry", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
     for (const auto& [name, x] : points)

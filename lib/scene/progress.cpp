@@ -6,10 +6,11 @@ namespace langer {
 
 Progress::Progress(bool quiet, const Equilibrium& body, const Scene& scene) : quiet_(quiet), contact_(!scene.contacts.empty()) {
   if (quiet_) return;
+  std::size_t families = 0;
+  for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
   fmt::print(stderr, "solve: {} hexahedra, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}\n",
              body.mesh().n_cells(), body.mesh().n_nodes(), body.dofs().n_free(),
-             names(body.formulation())[static_cast<int>(body.formulation())],
-             scene.material.fibres.empty() ? "none" : std::to_string(scene.material.fibres.size()),
+             names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
              scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
 }
 

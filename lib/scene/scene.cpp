@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/read_surface.hpp"
@@ -36,9 +37,60 @@ class Composer {
   const Find& where_;
 };
 
+void set_angles(Material& material, const std::vector<double>& angles, const std::string& key, const Find& where,
+                std::vector<Error>& errors) {
+  if (angles.size() != material.fibres.size())
+    return errors.push_back({where(key), key, fmt::format("found {} angles", angles.size()),
+                             fmt::format("{}, one for each fibre family of the material", material.fibres.size()), ""});
+  for (std::size_t k = 0; k < angles.size(); ++k) material.fibres[k].alpha_deg = angles[k];
+}
+
+void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& general,
+                   const Find& where, std::vector<Error>& errors) {
+  std::string list;
+  for (const std::string& name : mesh.bodies) list += (list.empty() ? "" : ", ") + name;
+  for (const auto& [name, body] : config.materials)
+    if (std::find(mesh.bodies.begin(), mesh.bodies.end(), name) == mesh.bodies.end()) {
+      const std::string near = nearest(name, mesh.bodies), key = "materials." + name;
+      errors.push_back({where(key), key, fmt::format("found \"{}\"", name), "a body of the mesh: " + list,
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    }
+  if (!errors.empty()) return;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const auto named = config.materials.find(mesh.bodies[b]);
+    const BodyConfig own = named == config.materials.end() ? BodyConfig{} : named->second;
+    const std::string key = "materials." + mesh.bodies[b] + ".";
+    if (!own.material && !general) {
+      errors.push_back({where("materials"), "materials", fmt::format("nothing for the body \"{}\"", mesh.bodies[b]),
+                        "a material for every body: " + list, "the key `material` or --material stands for those not named"});
+      continue;
+    }
+    Material material = own.material ? *own.material : *general;
+    if (!own.fibre_angles.empty())
+      set_angles(material, own.fibre_angles, key + "fibre_angles", where, errors);
+    else if (!config.fibre_angles.empty() && !own.material)
+      set_angles(material, config.fibre_angles, "fibre_angles", where, errors);
+    const auto& field = own.fibre_field ? own.fibre_field : config.fibre_field;
+    const std::string field_key = (own.fibre_field ? key : "") + "fibre_field";
+    if (own.fibre_field && material.fibres.empty())
+      errors.push_back({where(field_key), field_key, "the material has no fibres", "a material with fibres", ""});
+    std::erase_if(material.fibres, [](const Fibre& f) { return f.hgo.c1 == 0; });  // c1 = 0: no fibre code runs
+    scene.materials.push_back(material);
+    if (!field || material.fibres.empty() || !errors.empty()) continue;
+    if (scene.fibres.empty()) scene.fibres.resize(mesh.n_cells());
+    std::vector<int> cells;
+    for (int e = 0; e < mesh.n_cells(); ++e)
+      if (mesh.body[e] == static_cast<int>(b)) cells.push_back(e);
+    lay_fibres(*field, mesh, cells, material, scene.fibres, field_key, where);
+  }
+  if (scene.fibres.empty() || !errors.empty()) return;
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    if (scene.fibres[e].empty()) scene.fibres[e] = fibre_directions(scene.materials[mesh.body[e]], mesh.frames[e]);
+}
+
 }  // namespace
 
-Scene make_scene(const SolveConfig& config, const Mesh& mesh, Material material, const Find& where) {
+Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {
   Scene scene;
   Composer composer(mesh, where);
   std::vector<Prescribed> prescribed;
@@ -94,17 +146,8 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, Material material,
       }
     scene.contacts.push_back(std::move(rigid));
   }
-  if (!config.fibre_angles.empty()) {
-    if (config.fibre_angles.size() != material.fibres.size())
-      composer.errors.push_back({where("fibre_angles"), "fibre_angles",
-                                 fmt::format("found {} angles", config.fibre_angles.size()),
-                                 fmt::format("{}, one for each fibre family of the material", material.fibres.size()), ""});
-    else
-      for (std::size_t k = 0; k < material.fibres.size(); ++k) material.fibres[k].alpha_deg = config.fibre_angles[k];
-  }
+  add_materials(scene, config, mesh, material, where, composer.errors);
   if (!composer.errors.empty()) throw Failure(Exit::config, composer.errors);
-  std::erase_if(material.fibres, [](const Fibre& f) { return f.hgo.c1 == 0; });  // c1 = 0: no fibre code runs
-  scene.material = std::move(material);
   scene.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed)).dofs;
   return scene;
 }

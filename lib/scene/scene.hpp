@@ -16,13 +16,15 @@
 namespace langer {
 
 struct Scene {
-  Material material;
+  std::vector<Material> materials;        // one for each body of the mesh
+  std::vector<std::vector<Vec3>> fibres;  // directions by cell where a field gives them, else empty
   Dofs dofs;
   std::vector<RigidContact> contacts;  // empty: no contact code runs
   std::vector<double> stops;           // values of t where an indenter turns
 };
 
-Scene make_scene(const SolveConfig& config, const Mesh& mesh, Material material,
+// material: of the bodies that `materials` gives none
+Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material,
                  const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

@@ -10,6 +10,7 @@
 #include "base/fields.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
+#include "scene/fibre_field.hpp"
 #include "solve/kinsol.hpp"
 #include "solve/load_path.hpp"
 #include "solve/newton.hpp"
@@ -85,9 +86,22 @@ struct ContactConfig {
   }
 };
 
+struct BodyConfig {
+  std::optional<Material> material;
+  std::vector<double> fibre_angles;
+  std::optional<FibreField> fibre_field;
+  static void fields(auto& v) {
+    v(&BodyConfig::material, "material", unit::none, "its material; none: that of the bodies not named");
+    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named");
+    v(&BodyConfig::fibre_field, "fibre_field", unit::none, "directions that vary from cell to cell");
+  }
+};
+
 struct SolveConfig {
   std::optional<Material> material;
   std::vector<double> fibre_angles;
+  std::optional<FibreField> fibre_field;
+  std::map<std::string, BodyConfig> materials;
   Formulation formulation = Formulation::mean_dilatation;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
@@ -98,6 +112,10 @@ struct SolveConfig {
   static void fields(auto& v) {
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
+    v(&SolveConfig::fibre_field, "fibre_field", unit::none,
+      "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
+    v(&SolveConfig::materials, "materials", unit::none,
+      "bodies of the mesh by name, each with its own material and fibres; the keys above stand for those not named");
     v(&SolveConfig::formulation, "formulation", unit::none, "how the dilatation enters an element");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
     v(&SolveConfig::loads, "loads", unit::none, "imposed displacements");

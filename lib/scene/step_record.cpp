@@ -17,7 +17,9 @@ Material material_from(const std::string& path) {
 SolutionHeader header_of(const Equilibrium& body, const Scene& scene, const Identity& identity) {
   SolutionHeader header;
   header.mesh = body.mesh();
-  header.material = scene.material;
+  header.material = scene.materials.front();
+  if (scene.materials.size() > 1) header.materials = scene.materials;
+  header.fibres = scene.fibres;
   header.formulation = names(body.formulation())[static_cast<int>(body.formulation())];
   for (const RigidContact& contact : scene.contacts) header.contact_nodes[contact.name] = contact.nodes;
   header.identity = identity;
@@ -29,7 +31,8 @@ namespace {
 // means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress, I4_bar of the first family
 void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u) {
   const int n = body.mesh().n_cells();
-  const bool fibres = !body.material(0).fibres.empty();
+  bool fibres = false;
+  for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
   for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
   if (fibres) record.cell_fields["I4_bar"].resize(n);
   auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"], &mises = record.cell_fields["von_mises"];
@@ -42,10 +45,10 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
          gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e))) {
       sigma += w * g.sigma;
       J[e] += w * g.J;
-      if (fibres) I4_bar += w * (g.F * a[0]).squaredNorm() / std::cbrt(g.J * g.J);
+      if (!a.empty()) I4_bar += w * (g.F * a[0]).squaredNorm() / std::cbrt(g.J * g.J);
     }
     pressure[e] = mean_stress(sigma), mises[e] = von_mises(sigma);
-    if (fibres) record.cell_fields["I4_bar"][e] = I4_bar;
+    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : I4_bar;
   }
 }
 

@@ -19,6 +19,9 @@ bool among(const std::array<const char*, n>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// a cell array that no step has
+inline bool is_static(const std::string& name) { return among(static_cells, name) || name.starts_with("fibre_"); }
+
 inline std::string unit_of(const std::string& name) {
   for (const char* word : {"von_mises", "pressure", "sigma", "stress"})
     if (name.starts_with(word)) return "MPa";

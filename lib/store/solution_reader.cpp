@@ -31,6 +31,28 @@ std::vector<double> finite_rows(const h5::Group& group, const std::string& name,
   return values;
 }
 
+void read_fibres(const h5::Group& cells, SolutionHeader& header) {
+  const std::size_t n = static_cast<std::size_t>(header.mesh.n_cells());
+  for (int k = 1; cells.has(fmt::format("fibre_{}", k)); ++k) {
+    const std::string name = fmt::format("fibre_{}", k);
+    header.fibres.resize(n);
+    const std::vector<Vec3> directions = vectors(cells.read_finite(name, {n, 3}));
+    for (std::size_t e = 0; e < n; ++e) {
+      if (directions[e].isZero(0)) continue;
+      if (!(std::abs(directions[e].norm() - 1) < 1e-9))
+        cells.refuse(name, fmt::format("length {} in cell {}", directions[e].norm(), e), "unit vectors");
+      header.fibres[e].push_back(directions[e]);
+    }
+  }
+  if (header.fibres.empty()) return;
+  for (std::size_t e = 0; e < n; ++e) {
+    const Material& m = header.materials.empty() ? header.material : header.materials[header.mesh.body[e]];
+    if (header.fibres[e].size() != m.fibres.size())
+      cells.refuse("fibre_1", fmt::format("{} directions in cell {}", header.fibres[e].size(), e),
+                   fmt::format("{}, one for each fibre family of its material", m.fibres.size()));
+  }
+}
+
 }  // namespace
 
 SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::File::open(path), {}, {}, 0}) {
@@ -41,6 +63,10 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   header.mesh = read_grid(root);
   header.formulation = root.text_attribute("formulation");
   read_listing(root.group("material"), header.material);
+  if (root.has("materials"))
+    for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b)
+      read_listing(root.group("materials").group(std::to_string(b)), header.materials.emplace_back());
+  read_fibres(root.group("VTKHDF").group("CellData"), header);
   if (root.has("contact")) {
     const h5::Group contacts = root.group("contact");
     for (const std::string& name : contacts.groups()) {
@@ -84,7 +110,7 @@ StepRecord SolutionReader::step(int index) const {
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
   record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
   for (const std::string& name : cells.datasets())
-    if (!solution::among(solution::static_cells, name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
+    if (!solution::is_static(name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
 
   if (state_->header.contact_nodes.empty()) return record;
   record.u_ind = vectors(finite_rows(history, "u_ind", i, 1, {3}))[0];

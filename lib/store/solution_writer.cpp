@@ -2,6 +2,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -140,6 +141,18 @@ void SolutionWriter::State::begin() {
   write_sets(root, header.mesh);
   root.attribute("formulation", header.formulation);
   write_listing(root.make_group("material"), header.material);
+  if (!header.materials.empty()) {
+    const h5::Group materials = root.make_group("materials");
+    for (std::size_t b = 0; b < header.materials.size(); ++b)
+      write_listing(materials.make_group(std::to_string(b)), header.materials[b]);
+  }
+  std::size_t families = 0;
+  for (const auto& a : header.fibres) families = std::max(families, a.size());
+  for (std::size_t k = 0; k < families; ++k) {
+    std::vector<Vec3> directions;  // zero in cells without this family
+    for (const auto& a : header.fibres) directions.push_back(k < a.size() ? a[k] : Vec3::Zero());
+    grid.group("CellData").write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions), "-");
+  }
   grid.make_group("PointData");
   const h5::Group steps = grid.make_group("Steps");
   steps.make_group("PointDataOffsets");
@@ -203,7 +216,8 @@ void SolutionWriter::State::append(const StepRecord& record) {
   for (const char* name : {"PartOffsets", "PointOffsets"}) add(steps, name, std::int64_t{0});
   add(steps, "NumberOfParts", std::int64_t{1});
   for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) add(steps, name, std::int64_t{0}, {1});
-  for (const char* name : solution::static_cells) add(cell_offsets, name, std::int64_t{0});
+  for (const std::string& name : cells.datasets())
+    if (solution::is_static(name)) add(cell_offsets, name, std::int64_t{0});
 
   add(history, "t", record.t, "-");
   add(history, "increment", record.increment, "-");

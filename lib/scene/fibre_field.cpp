@@ -1,0 +1,134 @@
+#include "scene/fibre_field.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "config/formula.hpp"
+#include "element/reference.hpp"
+#include "fit/csv_table.hpp"
+
+namespace langer {
+
+namespace {
+constexpr double degree = std::numbers::pi / 180;
+}
+
+Vec3 cell_centre(const Mesh& mesh, int e) {
+  Vec3 centre = Vec3::Zero();
+  for (int node : mesh.cell(e)) centre += mesh.X[node] / 8;
+  return centre;
+}
+
+Directions read_directions(const PointField& field) {
+  const CsvTable table = read_table(field.file.path);
+  const auto refuse = [&](int line, int column, const std::string& key, const std::string& found, const std::string& expected) {
+    throw Failure(Exit::input, Error{{table.name, line, column}, key, found, expected, ""});
+  };
+  std::array<std::size_t, 6> at{};
+  for (int i = 0; i < 6; ++i) {
+    const auto& names = table.header.cells;
+    const auto found = std::find_if(names.begin(), names.end(), [&](const CsvCell& c) { return c.text == field.columns[i]; });
+    if (found == names.end())
+      refuse(table.header.line, 1, field.columns[i], "no such column", "columns as `columns` names them");
+    at[i] = found - names.begin();
+  }
+  Directions points;
+  for (const CsvRow& row : table.rows) {
+    std::array<double, 6> value{};
+    for (int i = 0; i < 6; ++i) {
+      const CsvCell& cell = row.cells[at[i]];
+      const auto number = csv_number(cell.text);
+      if (!number || !std::isfinite(*number))
+        refuse(row.line, cell.column, field.columns[i], "found \"" + cell.text + "\"", "a finite number");
+      value[i] = *number;
+    }
+    const Vec3 a(value[3], value[4], value[5]);
+    if (!(a.stableNorm() > 1e-12)) refuse(row.line, 1, field.columns[3], "a direction of no length", "a vector");
+    points.x.emplace_back(value[0], value[1], value[2]);
+    points.a.push_back(a.stableNormalized());
+  }
+  if (points.x.empty()) refuse(table.header.line, 1, "", "found no points", "at least one row");
+  return points;
+}
+
+Vec3 direction_at(const Directions& points, const Vec3& x, Between method, double power) {
+  std::size_t near = 0;
+  for (std::size_t i = 1; i < points.x.size(); ++i)
+    if ((points.x[i] - x).squaredNorm() < (points.x[near] - x).squaredNorm()) near = i;
+  const double least = (points.x[near] - x).norm();
+  if (method == Between::nearest || least == 0) return points.a[near];
+  Mat3 sum = Mat3::Zero();  // weights relative to the nearest point's, so that no power overflows
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    sum += std::pow(least / (points.x[i] - x).norm(), power) * points.a[i] * points.a[i].transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(sum);
+  if (axes.eigenvalues()[2] - axes.eigenvalues()[1] <= 1e-9 * axes.eigenvalues()[2]) return Vec3::Zero();
+  return axes.eigenvectors().col(2);
+}
+
+void lay_fibres(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const Material& material,
+                std::vector<std::vector<Vec3>>& fibres, const std::string& key,
+                const std::function<Place(const std::string&)>& where) {
+  if (const auto* formula = std::get_if<FormulaField>(&field)) {
+    std::vector<FormulaPoint> centres;
+    for (int e : cells) {
+      const Vec3 x = cell_centre(mesh, e);
+      centres.push_back({x[0], x[1], x[2]});
+    }
+    const std::string at = key + ".formula.alpha";
+    const std::vector<double> alpha = evaluate(formula->alpha, centres, where(at), at);
+    Material turned = material;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t k = 0; k < material.fibres.size(); ++k)
+        turned.fibres[k].alpha_deg = alpha[i] + material.fibres[k].alpha_deg - material.fibres[0].alpha_deg;
+      fibres[cells[i]] = fibre_directions(turned, mesh.frames[cells[i]]);
+    }
+    return;
+  }
+  const auto& given = std::get<PointField>(field);
+  const Directions points = read_directions(given);
+  for (int e : cells) {
+    const Vec3 x = cell_centre(mesh, e), a = direction_at(points, x, given.method, given.power);
+    if (a.isZero(0))
+      throw Failure(Exit::config, Error{where(key + ".points"), key + ".points",
+                                        fmt::format("the points agree on no direction at ({:g}, {:g}, {:g})", x[0], x[1], x[2]),
+                                        "directions with one main axis", "method: nearest always has one"});
+    fibres[e].clear();
+    for (const Fibre& fibre : material.fibres) {
+      const double further = (fibre.alpha_deg - material.fibres[0].alpha_deg) * degree;
+      fibres[e].push_back(Eigen::AngleAxisd(-further, mesh.frames[e].col(1)) * a);  // from x towards z is about -y
+    }
+  }
+}
+
+FibreJump largest_jump(const Mesh& mesh, const std::function<std::span<const Vec3>(int)>& fibres) {
+  FibreJump jump;
+  std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side : {-1, 1}) {
+        std::array<int, 4> nodes{};
+        int n = 0;
+        for (int a = 0; a < 8; ++a)
+          if (Hex8::corner[a][axis] == side) nodes[n++] = mesh.cell(e)[a];
+        std::sort(nodes.begin(), nodes.end());
+        const auto [entry, is_new] = open.try_emplace(nodes, e);
+        if (is_new) continue;
+        const auto here = fibres(e), there = fibres(entry->second);
+        for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
+          const double angle = std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
+          if (angle <= jump.degrees) continue;
+          jump = {angle, entry->second, e, static_cast<int>(k), Vec3::Zero()};
+          for (int node : nodes) jump.place += mesh.X[node] / 4;
+        }
+        open.erase(entry);
+      }
+  return jump;
+}
+
+}  // namespace langer
