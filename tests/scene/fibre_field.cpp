@@ -1,0 +1,66 @@
+// Fibre directions from formulas and points, and how far they turn between neighbours.
+#include "scene/fibre_field.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "support/block.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+constexpr double degree = std::numbers::pi / 180;
+Place nowhere(const std::string&) { return {"solve.yaml", 7, 3}; }
+
+std::vector<std::vector<Vec3>> laid(const FibreField& field, const Mesh& mesh) {
+  std::vector<std::vector<Vec3>> fibres(mesh.n_cells());
+  std::vector<int> cells;
+  for (int e = 0; e < mesh.n_cells(); ++e) cells.push_back(e);
+  lay_fibres(field, mesh, cells, test::table1(0, 1e-3), fibres, "fibre_field", nowhere);
+  return fibres;
+}
+}  // namespace
+
+TEST_CASE("a formula gives each cell the angle at its centre, and the jump is its slope times the cell's length") {
+  const Mesh mesh = test::block(test::even(0, 8, 4), test::even(0, 1, 1), test::even(0, 3, 3));
+  const auto fibres = laid(FormulaField{"30 + 2*x"}, mesh);
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const double alpha = (30 + 2 * cell_centre(mesh, e)[0]) * degree;
+    CHECK((fibres[e][0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
+  }
+  const FibreJump jump = largest_jump(mesh, [&](int e) { return std::span<const Vec3>(fibres[e]); });
+  CHECK(jump.degrees == doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
+  CHECK(std::fmod(jump.place[0], 2) == doctest::Approx(0));
+}
+
+TEST_CASE("a formula that cannot be read is refused with the place of its key and the position in the text") {
+  const Mesh mesh = test::block(test::even(0, 1, 1), test::even(0, 1, 1), test::even(0, 1, 1));
+  for (const auto& [formula, part] :
+       {std::pair{"30 + 2*q", "character 8"}, {"1/(x - 0.5)", "inf"}, {"1, 2", "2 values"}, {"", ""}}) {
+    CAPTURE(std::string(formula));
+    std::string said;
+    try {
+      laid(FormulaField{formula}, mesh);
+    } catch (const Failure& failure) {
+      CHECK(failure.code() == Exit::config);
+      said = failure.what();
+    }
+    CHECK(said.find("solve.yaml:7:3: fibre_field.formula.alpha") != std::string::npos);
+    CHECK(said.find(part) != std::string::npos);
+  }
+}
+
+TEST_CASE("directions between points do not depend on the points' signs, and opposite answers are said to be none") {
+  Directions points{{{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, Vec3(1, 0, 1).normalized()}};
+  const Vec3 middle(1, 0, 0), a = direction_at(points, middle, Between::inverse_distance, 2);
+  CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) == doctest::Approx(1));
+  points.a[1] = -points.a[1];
+  CHECK(a.cross(direction_at(points, middle, Between::inverse_distance, 2)).norm() < 1e-14);
+  CHECK(direction_at(points, {0.9, 0, 0}, Between::nearest, 2) == Vec3(1, 0, 0));
+  points.a[1] = Vec3(0, 0, 1);
+  CHECK(direction_at(points, middle, Between::inverse_distance, 2) == Vec3::Zero());
+}
