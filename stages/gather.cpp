@@ -1,10 +1,54 @@
-// langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv.
+// langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv;
+// figures and maps of all members.
 #include "post/gather.hpp"
+#include "post/gnuplot.hpp"
 #include "scene/gather_config.hpp"
+#include "scene/pictures.hpp"
 #include "scene/sweep_file.hpp"
 #include "stage.hpp"
+#include "store/seal.hpp"
 
 namespace langer {
+namespace {
+
+using Members = std::vector<SweepMember>;
+
+// The map of that name of every member.
+std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep& sweep, const Members& members,
+                                       const std::string& name) {
+  std::vector<const SurfaceMap*> found;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    std::vector<std::string> known;
+    for (const SurfaceMap& map : members[i].curves.maps) {
+      known.push_back(map.name);
+      if (map.name == name) found.push_back(&map);
+    }
+    if (found.size() == i + 1) continue;
+    const std::string key = "maps." + name, near = nearest(name, known);
+    throw Failure(Exit::config,
+                  Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
+                        known.empty() ? "a file with maps: post has the key `maps`" : "one of " + list_words(known),
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+  }
+  return found;
+}
+
+SweepColumn differences(const Job<GatherConfig>& job, const Members& members, const std::string& name,
+                        const std::vector<const SurfaceMap*>& maps) {
+  const auto& at = job.config.maps.at(name).compare_with;
+  const auto other = std::find_if(members.begin(), members.end(), [&](const SweepMember& m) { return m.at == at; });
+  if (other == members.end()) {
+    const std::string key = fmt::format("maps.{}.compare_with", name);
+    std::vector<std::string> known;
+    for (const SweepMember& m : members) known.push_back(fmt::format("[{}]", fmt::join(m.at, ", ")));
+    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no member is [{}]", fmt::join(at, ", ")),
+                                      fmt::format("one of {}", fmt::join(known, ", ")), ""});
+  }
+  SweepColumn column{name + "_difference", "percent", {}};
+  for (const SurfaceMap* map : maps)
+    column.values.push_back(100 * difference(*map, *maps[static_cast<std::size_t>(other - members.begin())]));
+  return column;
+}
 
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
@@ -14,7 +58,9 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
                                       fmt::format("one for each of the {} files given", files.size()), ""});
   std::vector<SweepAxis> axes;
   for (const GatherAxis& a : config.axes) axes.push_back({a.name, a.unit, {}});
-  std::vector<GatherInput> members;
+  std::vector<GatherInput> inputs;
+  Members members;
+  const bool drawn = !config.figures.empty() || !config.maps.empty();
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {}, read_summary(files[i])};
     if (member.summary.empty())
@@ -24,14 +70,36 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
                                        "a file with a summary",
                                        "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
     if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
-    members.push_back(std::move(member));
+    if (drawn) {
+      const bool has_curves = read_origin(files[i]).schema == curves_schema.name;
+      members.push_back({member.at, member.summary, has_curves ? read_curves(files[i]).curves : Curves{}});
+    }
+    inputs.push_back(std::move(member));
   }
-  const Sweep sweep = gather(config.columns, axes, members, job.where("columns"));
+  Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
+
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  for (const auto& [name, map] : config.maps) {
+    const auto maps = maps_of(job, sweep, members, name);
+    if (!map.compare_with.empty()) sweep.columns.push_back(differences(job, members, name, maps));
+    std::vector<MapPanel> panels;
+    for (std::size_t i = 0; i < maps.size(); ++i) panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
+    pictures.draw(name, map_drawing(panels, map.style, map.columns));
+  }
+  for (const auto& [name, figure] : config.figures) {
+    const auto where = [&, at = "figures." + name + "."](const std::string& key) { return job.where(at + key); };
+    const FigureData data = figure_over(figure, name, axes, members, where);
+    write_text_file(job.beside(name + ".csv"), data.csv);
+    pictures.draw(name, gnuplot_script(data.plot, name));
+  }
+  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   write_sweep(job.output, job.beside("table.csv"), sweep, job.identity);
-  job.say("{} rows, {} columns", sweep.members.size(), sweep.axes.size() + sweep.columns.size());
+  job.say("{} rows, {} columns, {} figures", sweep.members.size(), sweep.axes.size() + sweep.columns.size(),
+          config.figures.size() + config.maps.size());
   return {};
 }
 
+}  // namespace
 }  // namespace langer
 
 int main(int argc, char** argv) { return langer::run_stage<langer::GatherConfig>(argc, argv, "gather", langer::gather_sweep); }

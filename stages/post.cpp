@@ -1,8 +1,6 @@
 // langer-post: curves, snapshots and figures of a solution.
 //   langer-post indentation.yaml --solution solution.h5 -o curves.h5
-#include <fstream>
-
-#include "post/gnuplot.hpp"
+#include "scene/pictures.hpp"
 #include "scene/post_config.hpp"
 #include "scene/post_files.hpp"
 #include "stage.hpp"
@@ -17,7 +15,10 @@ namespace {
 // Row 0 of every table is the unloaded state, row i the i-th step.
 struct Solution {
   explicit Solution(const std::string& path)
-      : reader(path), body(reader.header().mesh, {reader.header().material}, formulation_of(reader.header(), path)) {}
+      : reader(path),
+        body(reader.header().mesh,
+             reader.header().materials.empty() ? std::vector{reader.header().material} : reader.header().materials,
+             formulation_of(reader.header(), path), reader.header().fibres) {}
   SolutionReader reader;
   Body body;
   StepRecord record(int row) const {
@@ -37,95 +38,140 @@ using Columns = std::vector<Column>;
   throw Failure(Exit::config, std::move(errors));
 }
 
-int chosen_row(const Job<PostConfig>& job, const std::string& key, const std::string& step, const std::vector<double>& t) {
-  const int row = row_of(*parse_step(step), t);
-  if (row < 0) refuse(job, {{key, step, fmt::format("a row from 0 to {}, or t=0 to t={}", t.size() - 1, t.back()), ""}});
-  return row;
-}
+// One row per state, the first is the unloaded one.
+struct Table {
+  std::vector<double> t, u_ind;
+  Columns columns;
 
-// Writes the scripts of figures and runs them; what goes wrong is said at the end, each reason once.
-struct Figures {
-  const Job<PostConfig>& job;
-  std::map<std::string, std::string> failed;  // reason -> figures
-
-  void draw(const std::string& name, const std::string& script) {
-    write_text_file(job.beside(name + ".gp"), script);
-    const std::string reason = run_gnuplot(std::filesystem::path(job.output).parent_path().string(), name + ".gp");
-    if (!reason.empty()) failed[reason] += (failed[reason].empty() ? "" : ", ") + name;
+  int row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
+    const int row = row_of(*parse_step(step), t, u_ind);
+    if (row >= 0) return row;
+    const double furthest = *std::max_element(u_ind.begin(), u_ind.end());
+    refuse(job,
+           {{key, step,
+             fmt::format("a row from 0 to {}, or t=0 to t={}, or u_ind=0 to u_ind={}", t.size() - 1, t.back(), furthest), ""}});
   }
-  void report() const {
-    for (const auto& [reason, names] : failed) job.say("not drawn: {} ({})", names, reason);
+  int exact_row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
+    const int found = row(job, key, step);
+    if (!is_exact(*parse_step(step), found, t, u_ind))
+      refuse(job,
+             {{key, step, "a state of the solution",
+               fmt::format("the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
+                           "where it is wanted",
+                           t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
+    return found;
   }
 };
+
+Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
+               const std::vector<Measure>& measures) {
+  const int n_steps = solution.reader.n_steps();
+  EnergyPath path(solution.body.mesh(), indenters);
+  for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters));
+  const std::vector<PathSums> sums = path.sums();
+  Table table;
+  for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
+  for (int row = 0; row <= n_steps; ++row) {
+    StepState state = state_of(solution.record(row));
+    state.sums = sums[row];
+    GaussValues gauss;
+    const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
+    for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
+    table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
+  }
+  return table;
+}
+
+std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, const std::vector<SurfaceMap>& maps) {
+  std::vector<Summary> summary;
+  for (const Column& c : table.columns) summary.push_back({c.name, c.values.back(), c.unit});
+  for (const auto& [name, step] : job.config.summary_at) {
+    const int row = table.exact_row(job, "summary_at." + name, step);
+    for (const Column& c : table.columns) summary.push_back({c.name + "_" + name, c.values[row], c.unit});
+  }
+  for (const SurfaceMap& map : maps) {
+    const auto [low, high] = std::minmax_element(map.values.begin(), map.values.end());
+    summary.push_back({map.name + "_min", *low, map.unit});
+    summary.push_back({map.name + "_max", *high, map.unit});
+  }
+  return summary;
+}
 
 std::vector<Summary> post(const Job<PostConfig>& job) {
   const PostConfig& config = job.config;
   const Solution solution(job.input("solution"));
   const SolutionHeader& header = solution.reader.header();
-  const int n_steps = solution.reader.n_steps();
+  const Body& body = solution.body;
+  const std::vector<RigidContact> indenters = indenters_of(header);
 
-  Available available{!header.contact_nodes.empty(), {}};
-  if (n_steps > 0)
+  Available available{!header.contact_nodes.empty(), indenters.size() == header.contact_nodes.size(), {}};
+  if (solution.reader.n_steps() > 0)
     for (const auto& [name, value] : solution.reader.step(0).scalars) available.histories.push_back(name);
-  Measures table = look_up(config.columns, "columns", solution.body, available);
-  Measures further = look_up(config.further, "further", solution.body, available);
-  table.complaints.insert(table.complaints.end(), further.complaints.begin(), further.complaints.end());
-  if (config.render && config.render->field == Quantity::fibre_stretch && config.render->family > solution.body.n_families())
-    table.complaints.push_back({"render.family", "a fibre family that the material lacks", "another field", ""});
-  if (!table.complaints.empty()) refuse(job, table.complaints);
+  Measures shown = look_up(config.columns, "columns", body, available);
+  Measures further = look_up(config.further, "further", body, available);
+  std::vector<Complaint> complaints = std::move(shown.complaints);
+  complaints.insert(complaints.end(), further.complaints.begin(), further.complaints.end());
+  for (const auto& [name, map] : config.maps)
+    for (const Complaint& c : langer::complaints(map, body))
+      complaints.push_back({"maps." + name + "." + c.key, c.found, c.expected, c.hint});
+  if (config.render && config.render->field == Quantity::fibre_stretch && config.render->family > body.n_families())
+    complaints.push_back({"render.family", "a fibre family that the material lacks", "another field", ""});
+  if (!complaints.empty()) refuse(job, complaints);
 
-  std::vector<Measure> measures = table.measures;
+  std::vector<Measure> measures = shown.measures;
   measures.insert(measures.end(), further.measures.begin(), further.measures.end());
-  Columns columns;
-  for (const Measure& m : measures) columns.push_back({m.name, m.unit, {}});
-  std::vector<double> t;
-  for (int row = 0; row <= n_steps; ++row) {
-    const StepState state = state_of(solution.record(row));
-    GaussValues gauss;
-    const std::vector<double> values = measured(solution.body, measures, config.stress, state, gauss);
-    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(values[c]);
-    t.push_back(state.t);
-  }
+  const Table table = table_of(job, solution, indenters, measures);
   std::vector<int> snapshots;
   for (std::size_t i = 0; i < config.snapshots.size(); ++i)
-    snapshots.push_back(chosen_row(job, fmt::format("snapshots[{}]", i), config.snapshots[i], t));
-  const int pictured = config.render ? chosen_row(job, "render.step", config.render->step, t) : 0;
+    snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
+  const int pictured = config.render ? table.row(job, "render.step", config.render->step) : 0;
 
   Curves curves;
-  curves.columns.assign(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(table.measures.size()));
-  const Column& x = columns.front();
-  for (std::size_t c = 1; c < columns.size(); ++c)
-    curves.curves.push_back({columns[c].name, x.name, x.unit, columns[c].name, columns[c].unit, x.values, columns[c].values});
-  for (const Column& c : columns) curves.summary.push_back({c.name, c.values.back(), c.unit});
+  curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(shown.measures.size()));
+  const Column& x = table.columns.front();
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
+    const Column& y = table.columns[c];
+    curves.curves.push_back({y.name, x.name, x.unit, y.name, y.unit, x.values, y.values});
+  }
+  for (const auto& [name, map] : config.maps) {
+    const StepState state = state_of(solution.record(table.row(job, "maps." + name + ".step", map.step)));
+    const auto values = picture_values(body, state, map.field, map.family, config.stress);
+    curves.maps.push_back(surface_map(body, map, name, values, state.t));
+  }
+  curves.summary = summary_of(job, table, curves.maps);
 
   // the main output comes last: once it is there, everything is
   const std::filesystem::path csv_file = std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
   for (int row : snapshots) {
-    const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
+    const SnapshotFields fields = snapshot_fields(body, header, solution.record(row), config.stress);
     write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity);
   }
-  Figures figures{job, {}};
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
   for (const auto& [name, figure] : config.figures) {
     Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);
-    plot.rows = n_steps + 1;
-    figures.draw(name, gnuplot_script(plot, name));
+    plot.rows = static_cast<int>(table.t.size());
+    pictures.draw(name, gnuplot_script(plot, name));
+  }
+  for (const SurfaceMap& map : curves.maps) {
+    write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
+    pictures.draw(map.name, map_drawing({{"", &map}}, config.maps.at(map.name).style));
   }
   if (config.render) {
     const StepState state = state_of(solution.record(pictured));
-    RenderScene scene{header.mesh, header.mesh.X, picture_values(solution.body, state, *config.render, config.stress), "",
-                      sphere_of(header, state.u_ind)};
+    const RenderChoice& choice = *config.render;
+    RenderScene scene{header.mesh, header.mesh.X, picture_values(body, state, choice.field, choice.family, config.stress), "",
+                      sphere_of(indenters, state.u_ind)};
     for (std::size_t i = 0; i < scene.x.size(); ++i) scene.x[i] += state.u[i];
-    const QuantityLine& field = line_of(config.render->field);
+    const QuantityLine& field = line_of(choice.field);
     scene.label = plain(with_unit(field.label, field.unit));
-    const Drawing drawing = render(scene, *config.render);
-    write_text_file(job.beside("render.svg"), svg(drawing));
-    figures.draw("render", gnuplot_script(drawing, "render"));
+    pictures.draw("render", render(scene, choice));
   }
-  figures.report();
+  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   write_curves(job.output, curves, job.identity);
-  job.say("{} rows, {} columns in {}; {} snapshots, {} figures", t.size(), curves.columns.size(), csv_file.filename().string(),
-          snapshots.size(), config.figures.size() + config.render.has_value());
+  job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
+          csv_file.filename().string(), snapshots.size(),
+          config.figures.size() + config.maps.size() + config.render.has_value());
   return curves.summary;
 }
 

@@ -17,7 +17,6 @@ double extent(const Mesh& mesh, int axis) {
   return high - low;
 }
 
-// may stand in the head of a CSV file, in HDF5 paths and in scripts
 bool fits_a_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-';
 }
@@ -36,24 +35,55 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 }  // namespace
 
 std::vector<Complaint> ColumnChoice::complaints() const {
-  if (quantity.has_value() == history.has_value())
-    return {{"", quantity ? "both a quantity and a history" : "neither a quantity nor a history", "one of the two", ""}};
+  const int ways = quantity.has_value() + history.has_value() + quotient.has_value();
+  if (ways == 0) return {{"", "neither a quantity nor a history nor a quotient", "one of the three", ""}};
+  if (ways > 1)
+    return {{"", fmt::format("both a {} and a {}", quantity ? "quantity" : "history", quotient ? "quotient" : "history"),
+             "one of the two", ""}};
   std::vector<Complaint> found;
   const std::string column = column_name(*this);
-  if (column.empty() || !std::all_of(column.begin(), column.end(), fits_a_name))
-    found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", "letters, digits, _, + and - only", ""});
+  if (!is_column_name(column))
+    found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", column_letters, ""});
   if (quantity && needs_place(*quantity) && !at)
     found.push_back({"at", "missing", "the name of an observation point or node set",
                      fmt::format("{} is measured at a place", line_of(*quantity).word)});
   if (at && !(quantity && needs_place(*quantity)))
-    found.push_back(
-        {"at", *at, "no place", fmt::format("{} belongs to the whole body", quantity ? line_of(*quantity).word : "a history")});
+    found.push_back({"at", *at, "no place",
+                     fmt::format("{} belongs to the whole body", quantity  ? line_of(*quantity).word
+                                                                 : history ? "a history"
+                                                                           : "a quotient")});
   return found;
+}
+
+bool is_column_name(const std::string& name) { return !name.empty() && std::all_of(name.begin(), name.end(), fits_a_name); }
+
+std::vector<Complaint> quotient_complaints(const ColumnChoice& choice, const std::vector<ColumnChoice>& columns,
+                                           const std::vector<ColumnChoice>& further) {
+  if (!choice.quotient) return {};
+  std::vector<std::string> names, units, found_units;
+  for (const auto* list : {&columns, &further})
+    for (const ColumnChoice& c : *list)
+      if (!c.quotient) names.push_back(column_name(c)), units.push_back(unit_of(c));
+  std::vector<Complaint> complaints;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string& name = (*choice.quotient)[i];
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end())
+      found_units.push_back(units[static_cast<std::size_t>(found - names.begin())]);
+    else
+      complaints.push_back({fmt::format("quotient[{}]", i), fmt::format("there is no column \"{}\"", name),
+                            "one of " + known(names), did_you_mean(name, names)});
+  }
+  if (found_units.size() == 2 && found_units[0] != found_units[1])
+    complaints.push_back(
+        {"quotient", fmt::format("{} over {}", found_units[0], found_units[1]), "two columns of one unit", ""});
+  return complaints;
 }
 
 std::string column_name(const ColumnChoice& choice) {
   if (choice.name) return *choice.name;
   if (choice.history) return *choice.history;
+  if (choice.quotient) return (*choice.quotient)[0] + "_per_" + (*choice.quotient)[1];
   std::string name = line_of(*choice.quantity).word;
   if (choice.at) name += "_" + *choice.at;
   if (choice.family > 1) name += fmt::format("_{}", choice.family);
@@ -62,10 +92,12 @@ std::string column_name(const ColumnChoice& choice) {
 
 std::string unit_of(const ColumnChoice& choice) {
   if (choice.quantity) return line_of(*choice.quantity).unit;
+  if (choice.quotient) return "-";
   return choice.history->starts_with("penetration") ? "mm" : choice.history->starts_with("force") ? "N" : "-";
 }
 
 std::string label_of(const ColumnChoice& choice) {
+  if (choice.quotient) return literal((*choice.quotient)[0] + " / " + (*choice.quotient)[1]);
   return choice.quantity ? line_of(*choice.quantity).label : literal(*choice.history);
 }
 
@@ -87,7 +119,11 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
     Measure m;
     m.name = column_name(c);
     m.unit = unit_of(c), m.label = label_of(c);
-    m.quantity = c.quantity;
+    m.quantity = c.quantity, m.quotient = c.quotient;
+    if (c.quotient) {
+      out.measures.push_back(std::move(m));  // the config knows that its columns are there
+      continue;
+    }
     if (c.history) {
       m.history = *c.history;
       if (!has_history(m.history))
@@ -99,9 +135,16 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
         complain("quantity", fmt::format("{} of a solution without contact", line.word), "a quantity that needs no indenter",
                  "");
       const bool of_contact_law = *c.quantity >= Quantity::penetration && *c.quantity <= Quantity::complementarity;
-      if (of_contact_law && available.contact && !has_history(line.word))
-        complain("quantity", fmt::format("the solution has no history \"{}\"", line.word),
-                 "one of " + known(available.histories), "");
+      const bool of_energy = *c.quantity >= Quantity::energy && *c.quantity <= Quantity::balance;
+      const bool of_shapes = (of_energy && *c.quantity != Quantity::energy) || *c.quantity == Quantity::path;
+      if (of_shapes && !available.energy)
+        complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
+                 "a solution whose config this version can read", "");
+      const bool of_stored = *c.quantity == Quantity::energy || *c.quantity == Quantity::balance;
+      const std::string needed = of_stored ? "energy" : of_contact_law && available.contact ? line.word : "";
+      if (!needed.empty() && !has_history(needed))
+        complain("quantity", fmt::format("the solution has no history \"{}\"", needed), "one of " + known(available.histories),
+                 "");
       if (c.at && needs_place(*c.quantity)) {
         const auto set = body.mesh().node_sets.find(*c.at);
         if (set == body.mesh().node_sets.end() || set->second.empty())

@@ -57,12 +57,20 @@ double of_step(Quantity quantity, const StepState& s) {
       return s.iterations;
     case Quantity::residual:
       return s.residual;
+    case Quantity::work:
+      return s.sums.work;
+    case Quantity::dissipated:
+      return s.sums.dissipated;
+    case Quantity::balance:
+      return s.sums.balance;
     case Quantity::u_ind:
       return travel;
     case Quantity::u_ind_x:
     case Quantity::u_ind_y:
     case Quantity::u_ind_z:
       return s.u_ind[component_of(quantity, Quantity::u_ind_x)];
+    case Quantity::path:
+      return s.sums.path;
     case Quantity::force:
       return travel > 0 ? -s.force_ind.dot(s.u_ind) / travel : s.force_ind.norm();
     case Quantity::force_x:
@@ -76,7 +84,7 @@ double of_step(Quantity quantity, const StepState& s) {
     case Quantity::slip_nodes:
       return s.slip;
     default:
-      return history(line_of(quantity).word);  // penetration, cone, complementarity
+      return history(line_of(quantity).word);  // energy, penetration, cone, complementarity
   }
 }
 
@@ -140,6 +148,10 @@ std::vector<double> measured(const Body& body, const std::vector<Measure>& measu
   std::vector<double> values;
   std::optional<Extremes> all;
   for (const Measure& m : measures) {
+    if (m.quotient) {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     if (!m.quantity) {
       const auto found = state.histories.find(m.history);
       values.push_back(found == state.histories.end() ? 0 : found->second);
@@ -172,6 +184,13 @@ std::vector<double> measured(const Body& body, const std::vector<Measure>& measu
         break;
     }
   }
+  const auto named = [&](const std::string& name) {
+    const auto found = std::find_if(measures.begin(), measures.end(), [&](const Measure& m) { return m.name == name; });
+    return found == measures.end() ? 0 : values[static_cast<std::size_t>(found - measures.begin())];
+  };
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    if (const auto& pair = measures[i].quotient)
+      if (const double below = named((*pair)[1]); below != 0) values[i] = named((*pair)[0]) / below;
   for (double& value : values) value += 0.0;  // no -0 in tables
   return values;
 }

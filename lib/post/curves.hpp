@@ -2,6 +2,8 @@
 //   a state's u, reaction are (n) per node; force_ind is the force on the indenter
 //   u_ind   length of the indenter's displacement; force = -force_ind . u_ind/|u_ind|, positive where the body resists
 //           (at zero displacement, where there is no direction, the length of force_ind)
+//   work, dissipated, balance, path   see post/energy.hpp
+//   quotient  of two other columns of one unit, by name; not a number where the second is 0
 //   eps_xx  mean displacement of a set along x, over `length` (by default the mesh's extent in that direction)
 // A name that does not exist in the mesh or in the solution is a complaint with the key that holds it.
 #pragma once
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "post/energy.hpp"
 #include "post/fields.hpp"
 #include "post/quantity.hpp"
 
@@ -20,11 +23,14 @@ namespace langer {
 struct ColumnChoice {
   std::optional<Quantity> quantity;
   std::optional<std::string> history, at, name;
+  std::optional<std::array<std::string, 2>> quotient;
   std::optional<double> length;
   int family = 1;
   static void fields(auto& v) {
     v(&ColumnChoice::quantity, "quantity", unit::none, "what to measure");
     v(&ColumnChoice::history, "history", unit::none, "instead of a quantity: a number that the solver wrote for every step");
+    v(&ColumnChoice::quotient, "quotient", unit::none,
+      "instead of a quantity: names of two other columns, the first over the second");
     v(&ColumnChoice::at, "at", unit::none, "observation point or node set; needed by quantities of nodes, points and sets");
     v(&ColumnChoice::name, "name", unit::none,
       "name of the column without its unit; by default the quantity, and _ and the place");
@@ -35,6 +41,10 @@ struct ColumnChoice {
   std::vector<Complaint> complaints() const;
 };
 std::string column_name(const ColumnChoice& choice);  // without unit
+bool is_column_name(const std::string& name);         // may stand in CSV, HDF5 paths and scripts
+inline constexpr const char* column_letters = "letters, digits, _, + and - only";
+std::vector<Complaint> quotient_complaints(const ColumnChoice& choice, const std::vector<ColumnChoice>& columns,
+                                           const std::vector<ColumnChoice>& further);
 std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
@@ -43,6 +53,7 @@ struct Measure {
   std::string name, unit, label;
   std::optional<Quantity> quantity;
   std::string history;
+  std::optional<std::array<std::string, 2>> quotient;
   std::vector<int> nodes;
   int family = 0;  // from 0
   double length = 1;
@@ -51,6 +62,7 @@ struct Measure {
 // What there is to choose from, beside the mesh.
 struct Available {
   bool contact = false;
+  bool energy = true;                  // the indenters' shapes are known
   std::vector<std::string> histories;  // of the solver
 };
 
@@ -69,10 +81,11 @@ struct StepState {
   Vec3 u_ind = Vec3::Zero(), force_ind = Vec3::Zero();
   int stick = 0, slip = 0;                  // nodes of all contacts
   std::map<std::string, double> histories;  // what the unloaded state lacks is 0
+  PathSums sums;
 };
 StepState unloaded(const Mesh& mesh);
 
-// One value per measure; `gauss` gets what was missing of it.
+// One value per measure; a quotient names others of them. `gauss` gets what was missing of it.
 std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at, const StepState& state,
                              GaussValues& gauss);
 

@@ -136,9 +136,35 @@ Colour scale_colour(double position) {
   return {encoded(rgb[0]), encoded(rgb[1]), encoded(rgb[2])};
 }
 
+Colour signed_colour(double position) {
+  const double s = std::clamp(std::abs(position), 0.0, 1.0);
+  // hue and most chroma of either end within what a screen can show
+  const double h = (position < 0 ? 277 : 32) * std::numbers::pi / 180, C = (position < 0 ? 41 : 60) * s;
+  const auto rgb = linear_rgb(96 - 62 * s, C, h);
+  return {encoded(rgb[0]), encoded(rgb[1]), encoded(rgb[2])};
+}
+
 double lightness(const Colour& c) {
   const double Y = 0.2126729 * decoded(c.r) + 0.7151522 * decoded(c.g) + 0.0721750 * decoded(c.b);
   return Y > 216.0 / 24389 ? 116 * std::cbrt(Y) - 16 : Y * 24389 / 27;
+}
+
+std::vector<double> ticks(double low, double high, int wished) {
+  const double wide = (high - low) / wished;
+  const double decade = std::pow(10, std::floor(std::log10(wide)));
+  const double step = decade * (wide / decade > 5 ? 10 : wide / decade > 2 ? 5 : wide / decade > 1 ? 2 : 1);
+  std::vector<double> values;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push_back(k * step);
+  return values;
+}
+
+std::vector<std::string> tick_texts(const std::vector<double>& at) {
+  const double step = at.size() > 1 ? at[1] - at[0] : 1;
+  const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  std::vector<std::string> texts;
+  for (double value : at)
+    texts.push_back(digits > 5 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value + 0.0, digits));
+  return texts;
 }
 
 }  // namespace langer

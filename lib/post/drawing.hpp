@@ -45,6 +45,12 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name);
 // Colours of a scale from 0 (dark violet) to 1 (light yellow): lightness grows evenly, so that the scale reads in grey and for
 // colour-blind readers. Computed in CIE LCh: lightness, chroma and hue are simple functions of the position.
 Colour scale_colour(double position);
+// From -1 (blue) over 0 (almost white) to 1 (red): lightness falls evenly on both sides.
+Colour signed_colour(double position);
 double lightness(const Colour& colour);  // CIE L*, 0 to 100
+
+// Round numbers from low to high, about `wished` of them, and their texts with as many digits as the steps need.
+std::vector<double> ticks(double low, double high, int wished = 5);
+std::vector<std::string> tick_texts(const std::vector<double>& ticks);
 
 }  // namespace langer

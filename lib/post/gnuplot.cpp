@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::array colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 constexpr std::array markers{7, 5, 8, 10, 12, 6, 4};
+constexpr std::array open_markers{6, 4, 8, 10, 12};
 constexpr std::array dashes{1, 1, 2, 2, 4, 4, 5};  // of two curves that coincide both colours are seen
 constexpr int most_markers = 25;                   // on a line
 constexpr std::chrono::seconds longest{120};
@@ -77,14 +78,24 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
   if (plot.lines.size() == 1) s += "unset key\n";
   if (!plot.title.empty()) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
+  if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
   const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
   std::string draw = "plot ";
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     const PlotLine& line = plot.lines[i];
-    const std::size_t style = i % colours.size();
-    draw += fmt::format("{}{} using {}:{} with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {} title {}",
-                        i ? ", \\\n     " : "", gnuplot_string(line.csv), gnuplot_string(line.x), gnuplot_string(line.y),
-                        colours[style], dashes[style], markers[style], every, printed(line.legend));
+    const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
+    // lines beyond the last colour begin with other dashes
+    const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
+    const char* const rgb = colours[colour % colours.size()];
+    draw += fmt::format("{}{} using {}:{}", i ? ", \\\n     " : "", gnuplot_string(line.csv), gnuplot_string(line.x),
+                        gnuplot_string(line.y));
+    if (line.points)
+      draw += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
+                          open_markers[dash % open_markers.size()]);
+    else
+      draw += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
+                          markers[dash % markers.size()], every);
+    draw += fmt::format(" title {}", printed(line.legend));
   }
   for (const auto& [terminal, size, type] :
        {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})

@@ -13,13 +13,16 @@ struct PlotLine {
   std::string csv;   // file, relative to the script
   std::string x, y;  // heads of its columns
   std::string legend;
+  bool points = false;         // open markers instead of a line: a curve that lies on another stays visible
+  int colour = -1, dash = -1;  // numbers of its colour and of its dashes and marker; by default both differ from line to line
 };
 
 struct Plot {
   std::string title;             // may be empty
   std::string x_label, y_label;  // with units
   std::vector<PlotLine> lines;
-  int rows = 0;  // of the CSV files, where known: long curves get a marker on some of their points only
+  double x_step = 0;  // between the tics of x, where that matters
+  int rows = 0;       // of the CSV files, where known: long curves get a marker on some of their points only
 };
 
 // writes <name>.svg and <name>.png when run

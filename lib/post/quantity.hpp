@@ -17,8 +17,8 @@ enum class Of { step, indenter, nodes, point, set, body };
 
 // clang-format off
 enum class Quantity {
-  t, increment, newton_iterations, residual,
-  u_ind, u_ind_x, u_ind_y, u_ind_z, force, force_x, force_y, force_z,
+  t, increment, newton_iterations, residual, energy, work, dissipated, balance,
+  u_ind, u_ind_x, u_ind_y, u_ind_z, path, force, force_x, force_y, force_z,
   contact_nodes, stick_nodes, slip_nodes, penetration, cone, complementarity,
   u_x, u_y, u_z,
   sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_yz, sigma_xz, sigma_1, sigma_2, sigma_3,
@@ -44,10 +44,15 @@ inline constexpr auto quantity_lines = [] {
       {increment, "increment", "-", "increment of the path parameter", Of::step},
       {newton_iterations, "newton_iterations", "-", "iterations of the step", Of::step},
       {residual, "residual", "-", "relative residual", Of::step},
+      {energy, "energy", "N mm", "stored energy", Of::step},
+      {work, "work", "N mm", "work of the indenter and of imposed displacements", Of::step},
+      {dissipated, "dissipated", "N mm", "energy taken by friction", Of::step},
+      {balance, "balance", "-", "work neither stored nor dissipated, relative", Of::step},
       {u_ind, "u_ind", "mm", "indenter travel", Of::indenter},
       {u_ind_x, "u_ind_x", "mm", "indenter travel along x", Of::indenter},
       {u_ind_y, "u_ind_y", "mm", "indenter travel along y", Of::indenter},
       {u_ind_z, "u_ind_z", "mm", "indenter travel along z", Of::indenter},
+      {path, "path", "mm", "path of the indenter", Of::indenter},
       {force, "force", "N", "force resisting the indenter", Of::indenter},
       {force_x, "force_x", "N", "force on the indenter along x", Of::indenter},
       {force_y, "force_y", "N", "force on the indenter along y", Of::indenter},

@@ -87,15 +87,6 @@ double mean_depth(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
-std::vector<double> ticks(double low, double high) {
-  const double wide = (high - low) / 5;
-  const double decade = std::pow(10, std::floor(std::log10(wide)));
-  const double step = decade * (wide / decade > 5 ? 10 : wide / decade > 2 ? 5 : wide / decade > 1 ? 2 : 1);
-  std::vector<double> values;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push_back(k * step);
-  return values;
-}
-
 void add_colour_bar(Drawing& drawing, double title_room, double low, double high, const std::string& label) {
   constexpr int bands = 128;
   // label above, the axes below
@@ -109,13 +100,11 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
   drawing.marks.push_back(
       Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
   const std::vector<double> at = ticks(low, high);
-  const double step = at.size() > 1 ? at[1] - at[0] : 1;
-  const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-  for (double value : at) {
-    const double y = top + height * (high - value) / (high - low);
+  const std::vector<std::string> texts = tick_texts(at);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double y = top + height * (high - at[i]) / (high - low);
     drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
-    const std::string text = digits > 5 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value + 0.0, digits);
-    drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, text, 13});
+    drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, texts[i], 13});
   }
   drawing.marks.push_back(Label{{page_width - margin, top - 16}, label, 14, Label::Anchor::end});
 }

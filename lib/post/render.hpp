@@ -42,7 +42,7 @@ struct RenderChoice {
   static void fields(auto& v) {
     v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface", required);
     v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
-    v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), or t=0.5");
+    v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye", between(-360, 360));
     v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,

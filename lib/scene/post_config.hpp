@@ -9,6 +9,7 @@
 
 #include "post/curves.hpp"
 #include "post/figure.hpp"
+#include "post/map.hpp"
 #include "post/render.hpp"
 #include "post/steps.hpp"
 
@@ -17,16 +18,23 @@ namespace langer {
 struct PostConfig {
   StressAt stress = StressAt::nodal_average;
   std::vector<ColumnChoice> columns, further;
+  std::map<std::string, std::string> summary_at;
   std::vector<std::string> snapshots;
   std::map<std::string, FigureChoice> figures;
+  std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
   static void fields(auto& v) {
     v(&PostConfig::stress, "stress", unit::none, "how stress at a node is taken from the Gauss points around it");
     v(&PostConfig::columns, "columns", unit::none, "the table, curves.csv and curves.h5; one row per state", required);
     v(&PostConfig::further, "further", unit::none, "more curves, in curves.h5 and its summary only");
+    v(&PostConfig::summary_at, "summary_at", unit::none,
+      "the summary, for tables over a sweep, is the last row; under <column>_<name> it also has these states by name: a row of "
+      "the table, t=0.5 or u_ind=0.5, and the path must stop there");
     v(&PostConfig::snapshots, "snapshots", unit::none,
-      "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), or t=0.5");
+      "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&PostConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg and <name>.png");
+    v(&PostConfig::maps, "maps", unit::none,
+      "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");
     v(&PostConfig::render, "render", unit::none, "picture of the deformed body, render.svg and render.png");
   }
   std::vector<Complaint> complaints() const;
@@ -44,11 +52,29 @@ inline std::vector<Complaint> PostConfig::complaints() const {
   };
   once("columns", columns);
   once("further", further);
-  constexpr const char* steps = "last, a row of the table, or t=0.5";
+  constexpr const char* steps = "last, a row of the table, t=0.5 or u_ind=0.5";
   for (std::size_t i = 0; i < snapshots.size(); ++i)
     if (!parse_step(snapshots[i]))
       all.push_back({"snapshots[" + std::to_string(i) + "]", "\"" + snapshots[i] + "\"", steps, ""});
   if (render && !parse_step(render->step)) all.push_back({"render.step", "\"" + render->step + "\"", steps, ""});
+  for (const auto& [name, step] : summary_at) {
+    if (!parse_step(step)) all.push_back({"summary_at." + name, "\"" + step + "\"", steps, ""});
+    if (!is_column_name(name)) all.push_back({"summary_at." + name, "\"" + name + "\"", column_letters, ""});
+  }
+  for (const auto& [name, map] : maps) {
+    if (!is_column_name(name)) all.push_back({"maps." + name, "\"" + name + "\"", column_letters, ""});
+    if (!parse_step(map.step)) all.push_back({"maps." + name + ".step", "\"" + map.step + "\"", steps, ""});
+    if (name == "render" || figures.count(name))
+      all.push_back({"maps." + name, "the name of another picture", "another name", ""});
+    for (const char* end : {"_min", "_max"})
+      if (seen.count(name + end)) all.push_back({"maps." + name, "a column is called " + name + end, "another name", ""});
+  }
+  for (const auto& [key, choices] : {std::pair{"columns", &columns}, {"further", &further}})
+    for (std::size_t i = 0; i < choices->size(); ++i)
+      for (Complaint c : quotient_complaints((*choices)[i], columns, further)) {
+        c.key = std::string(key) + "[" + std::to_string(i) + "]." + c.key;
+        all.push_back(std::move(c));
+      }
   for (const auto& [name, figure] : figures) {
     if (name == "render") all.push_back({"figures.render", "the name of the picture of the body", "another name", ""});
     for (Complaint c : langer::complaints(figure, columns)) {

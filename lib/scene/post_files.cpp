@@ -121,30 +121,53 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   return out;
 }
 
-std::vector<double> picture_values(const Body& body, const StepState& state, const RenderChoice& choice, StressAt at) {
+std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at) {
   std::vector<double> values;
-  if (line_of(choice.field).of == Of::nodes) {
-    const int component = component_of(choice.field, Quantity::u_x);
+  if (line_of(field).of == Of::nodes) {
+    const int component = component_of(field, Quantity::u_x);
     for (const Vec3& u : state.u) values.push_back(u[component]);
     return values;
   }
   const GaussValues gauss = gauss_values(body, state.u);
   for (int node = 0; node < body.mesh().n_nodes(); ++node)
-    values.push_back(value_of(choice.field, node_values(body, node, gauss, at), choice.family - 1));
+    values.push_back(value_of(field, node_values(body, node, gauss, at), family - 1));
   return values;
 }
 
-std::optional<Ball> sphere_of(const SolutionHeader& header, const Vec3& u_ind) {
-  if (header.contact_nodes.empty()) return {};
+std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
+  std::vector<RigidContact> indenters;
+  if (header.contact_nodes.empty()) return indenters;
   try {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
-    for (const auto& [name, contact] : solve.contacts)
-      if (const Sphere* sphere = std::get_if<Sphere>(&contact.rigid))
-        return Ball{Vec3(sphere->centre[0], sphere->centre[1], sphere->centre[2]) + u_ind, sphere->radius};
+    for (const auto& [name, contact] : solve.contacts) {
+      // the triangles of a faceted surface lie in a file that may have gone
+      if (!header.contact_nodes.count(name) || std::holds_alternative<Facets>(contact.rigid)) return {};
+      RigidContact indenter{name, contact.rigid, contact.friction, header.contact_nodes.at(name), {}};
+      for (const WaypointConfig& w : contact.motion) indenter.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
+      indenters.push_back(std::move(indenter));
+    }
   } catch (const Failure&) {
-    // written by another version of solve: the picture does without the sphere
+    return {};  // written by another version of solve
   }
+  return indenters.size() == header.contact_nodes.size() ? indenters : std::vector<RigidContact>{};
+}
+
+std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind) {
+  for (const RigidContact& indenter : indenters)
+    if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))
+      return Ball{Vec3(sphere->centre[0], sphere->centre[1], sphere->centre[2]) + u_ind, sphere->radius};
   return {};
+}
+
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters) {
+  EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
+  for (const RigidContact& indenter : indenters) {
+    const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
+    state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero())
+                                                     : found->second.r);
+  }
+  if (const auto stored = record.scalars.find("energy"); stored != record.scalars.end()) state.stored = stored->second;
+  return state;
 }
 
 }  // namespace langer

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "post/curves.hpp"
+#include "post/energy.hpp"
 #include "post/render.hpp"
 #include "store/snapshot.hpp"
 #include "store/solution_file.hpp"
@@ -21,9 +22,13 @@ struct SnapshotFields {
 SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, StressAt at);
 
 // Field of a picture at each node.
-std::vector<double> picture_values(const Body& body, const StepState& state, const RenderChoice& choice, StressAt at);
+std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at);
 
-// The first sphere among the rigid indenters, as the solution's own config tells, moved by u_ind.
-std::optional<Ball> sphere_of(const SolutionHeader& header, const Vec3& u_ind);
+// The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read.
+std::vector<RigidContact> indenters_of(const SolutionHeader& header);
+// The first sphere among them, moved by u_ind.
+std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind);
+// The record as a state of an energy path; reactions in the order of the indenters.
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters);
 
 }  // namespace langer

@@ -1,5 +1,6 @@
 #include "store/curves_file.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -12,7 +13,10 @@ namespace langer {
 
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
-  return name + "_" + (unit == "1/MPa" ? "per_MPa" : unit);
+  std::string word;
+  for (char c : unit.starts_with("1/") ? unit.substr(1) : unit)
+    word += c == '/' ? (word.empty() ? "per_" : "_per_") : c == ' ' ? "_" : std::string(1, c);
+  return name + "_" + word;
 }
 
 std::string csv(const std::vector<Column>& columns) {
@@ -26,9 +30,70 @@ std::string csv(const std::vector<Column>& columns) {
   text += "\n";
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t c = 0; c < columns.size(); ++c)  // shortest digits that read back as the same number
-      text += fmt::format("{}{}", columns[c].values[i], c + 1 < columns.size() ? "," : "\n");
+      text += fmt::format("{}{}", std::isnan(columns[c].values[i]) ? "" : fmt::format("{}", columns[c].values[i]),
+                          c + 1 < columns.size() ? "," : "\n");
   return text;
 }
+
+std::vector<Column> columns_of(const SurfaceMap& map) {
+  std::vector<Column> columns{{"x", "mm", {}}, {"z", "mm", {}}, {map.name, map.unit, map.values}};
+  for (const auto& place : map.places)
+    for (std::size_t i = 0; i < 2; ++i) columns[i].values.push_back(place[i]);
+  return columns;
+}
+
+namespace {
+
+template <class To, class From, std::size_t n>
+std::vector<To> flat(const std::vector<std::array<From, n>>& rows) {
+  std::vector<To> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+template <class To, std::size_t n, class From>
+std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
+  std::vector<std::array<To, n>> rows(values.size() / n);
+  for (std::size_t i = 0; i < values.size(); ++i) rows[i / n][i % n] = static_cast<To>(values[i]);
+  return rows;
+}
+
+void write_map(const h5::Group& group, const SurfaceMap& map) {
+  const std::size_t n = map.places.size(), m = map.facets.size();
+  group.write_scalar("t", map.t, "-");
+  group.write<double>("places", {n, 2}, flat<double>(map.places), "mm");
+  group.write<double>("values", {n}, map.values, map.unit);
+  group.annotate("values", "label", map.label);
+  group.write<std::int64_t>("facets", {m, 4}, flat<std::int64_t>(map.facets));
+  group.write<double>("fibres", {map.fibres.size(), 2}, flat<double>(map.fibres), "-");
+  std::string names;
+  std::vector<std::array<double, 2>> points;
+  for (const auto& [name, at] : map.points) names += (names.empty() ? "" : " ") + name, points.push_back(at);
+  group.write<double>("points", {points.size(), 2}, flat<double>(points), "mm");
+  group.annotate("points", "names", names);
+}
+
+SurfaceMap read_map(const h5::Group& group, const std::string& name) {
+  SurfaceMap map{name, group.annotation("values", "label"), group.unit("values"), group.read_scalar("t"), {}, {}, {}, {}, {}};
+  map.values = group.read_finite("values", {h5::any});
+  const std::size_t n = map.values.size();
+  map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));
+  map.facets = rows_of<int, 4>(group.read<std::int64_t>("facets", {h5::any, 4}).values);
+  for (const auto& facet : map.facets)
+    for (int node : facet)
+      if (node < 0 || node >= static_cast<int>(n)) group.refuse("facets", fmt::format("node {}", node), "a node of the map");
+  map.fibres = rows_of<double, 2>(group.read_finite("fibres", {h5::any, 2}));
+  if (!map.fibres.empty() && map.fibres.size() != map.facets.size())
+    group.refuse("fibres", fmt::format("{} rows", map.fibres.size()), "one for each facet");
+  std::istringstream names(group.annotation("points", "names"));
+  const auto points = rows_of<double, 2>(group.read_finite("points", {h5::any, 2}));
+  std::string point;
+  for (const auto& at : points)
+    if (names >> point) map.points[point] = at;
+  return map;
+}
+
+}  // namespace
 
 void write_curves(const std::string& path, const Curves& all, const Identity& identity) {
   if (!all.columns.empty()) write_text_file(std::filesystem::path(path).replace_extension(".csv").string(), csv(all.columns));
@@ -48,6 +113,10 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
     order += (order.empty() ? "" : " ") + c.name;
   }
   columns.attribute("order", order);
+  if (!all.maps.empty()) {
+    const h5::Group maps = file.root().make_group("maps");
+    for (const SurfaceMap& map : all.maps) write_map(maps.make_group(map.name), map);
+  }
   write_summary(file.root(), all.summary);
   file.commit();
 }
@@ -70,6 +139,10 @@ CurvesFile read_curves(const std::string& path) {
     Column c{name, columns.unit(name), columns.read<double>(name, {rows}).values};
     rows = c.values.size();
     result.curves.columns.push_back(std::move(c));
+  }
+  if (file.root().has("maps")) {
+    const h5::Group maps = file.root().group("maps");
+    for (const std::string& name : maps.groups()) result.curves.maps.push_back(read_map(maps.group(name), name));
   }
   result.curves.summary = read_summary(file.root());
   return result;

@@ -9,7 +9,7 @@ run(0 ${solve} whole/solution.h5)
 set(kept 0)
 foreach(attempt RANGE 26)  # 0.10 s, 0.13 s, ... 0.88 s
   math(EXPR hundredths "10 + 3 * ${attempt}")
-  execute_process(COMMAND timeout -s KILL 0.${hundredths} ${solve} killed/solution.h5 WORKING_DIRECTORY ${folder} OUTPUT_QUIET ERROR_QUIET)
+  execute_process(COMMAND timeout --foreground -s KILL 0.${hundredths} ${solve} killed/solution.h5 WORKING_DIRECTORY ${folder} OUTPUT_QUIET ERROR_QUIET)
   if(EXISTS ${folder}/killed/solution.h5)
     break()
   endif()

@@ -1,0 +1,79 @@
+#include "post/energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace langer {
+
+EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts) : mesh_(mesh), contacts_(std::move(contacts)) {}
+
+void EnergyPath::add(State now) {
+  stored_.push_back(now.stored);
+  if (stored_.size() == 1) {
+    last_ = std::move(now);
+    return;
+  }
+  Interval step{now.t - last_.t, 0, 0, intervals_.size() > 0, 0, 0};
+  std::vector<Vec3> from_contact_0(now.u.size(), Vec3::Zero()), from_contact_1 = from_contact_0, rates;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const RigidContact& contact = contacts_[k];
+    const Vec3 c0 = indenter_displacement(contact, last_.t), c = indenter_displacement(contact, now.t), dc = c - c0;
+    rates.push_back(dc / step.dt);
+    if (k == 0) step.way = dc.norm();
+    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+      const int node = contact.nodes[i];
+      const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
+      from_contact_0[node] += r0, from_contact_1[node] += r1;
+      step.begin += r0.dot(dc), step.end += r1.dot(dc);
+      // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
+      const Vec3 v = now.u[node] - last_.u[node] - dc;
+      for (const auto& [r, x] :
+           {std::pair{r0, Vec3(mesh_.X[node] + last_.u[node] - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
+        if (r.isZero(0)) continue;
+        const Vec3 n = shape_at(contact.shape, x).normal;
+        step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < now.u.size(); ++i) {  // imposed displacements; supports do not move
+    const Vec3 du = now.u[i] - last_.u[i];
+    step.begin += (last_.reaction[i] - from_contact_0[i]).dot(du);
+    step.end += (now.reaction[i] - from_contact_1[i]).dot(du);
+  }
+  step.begin /= step.dt, step.end /= step.dt;
+  for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
+    step.goes_on = (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
+  intervals_.push_back(step);
+  rates_ = std::move(rates);
+  last_ = std::move(now);
+}
+
+std::vector<PathSums> EnergyPath::sums() const {
+  std::vector<PathSums> all(stored_.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < intervals_.size(); ++k) {
+    const Interval& here = intervals_[k];
+    const double slope = (here.end - here.begin) / here.dt;
+    // second divided differences with the states before and after
+    double bend = 0;
+    int neighbours = 0;
+    if (here.goes_on) {
+      const Interval& before = intervals_[k - 1];
+      bend += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
+    }
+    if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
+      const Interval& after = intervals_[k + 1];
+      bend += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
+    }
+    if (neighbours > 0) bend /= neighbours;
+    PathSums& sum = all[k + 1];
+    sum.path = all[k].path + here.way;
+    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * bend;
+    sum.dissipated = all[k].dissipated + here.dissipated;
+    largest = std::max(largest, std::abs(sum.work));
+    if (largest > 0) sum.balance = (sum.work - stored_[k + 1] - sum.dissipated) / largest;
+  }
+  return all;
+}
+
+}  // namespace langer

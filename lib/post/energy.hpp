@@ -1,0 +1,47 @@
+// Energy along the path of a solution: the work of what moves the body, and what friction takes of it.
+//   work        of the indenters and of imposed displacements, the integral of force over movement [N mm]: a parabola through
+//               each three neighbouring states of a straight piece of the path (trapezoids would err by the step squared)
+//   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]
+//   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
+//   path        length of the way that the first indenter has gone [mm]
+#pragma once
+
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "mesh/mesh.hpp"
+
+namespace langer {
+
+struct PathSums {
+  double path = 0, work = 0, dissipated = 0, balance = 0;
+};
+
+class EnergyPath {
+ public:
+  EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts);
+
+  struct State {
+    double t = 0;
+    std::vector<Vec3> u, reaction;     // (n) [mm], [N]
+    std::vector<std::vector<Vec3>> r;  // per contact and candidate: reaction on the body [N]
+    double stored = 0;                 // [N mm]
+  };
+  void add(State state);               // in the order of the path, from the unloaded one
+  std::vector<PathSums> sums() const;  // one for each state added
+
+ private:
+  struct Interval {
+    double dt, begin, end;  // power per t at its two ends [N mm]
+    bool goes_on;           // in the direction of the interval before
+    double way, dissipated;
+  };
+  const Mesh& mesh_;
+  std::vector<RigidContact> contacts_;
+  State last_;
+  std::vector<Interval> intervals_;
+  std::vector<double> stored_;
+  std::vector<Vec3> rates_;  // of the indenters in the last interval, per t
+};
+
+}  // namespace langer

@@ -1,0 +1,24 @@
+// The figures of a stage: their scripts are written beside its output and run; what went wrong is said at the end, each reason
+// once. A figure that cannot be drawn stops nothing.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace langer {
+
+struct Drawing;
+
+class Pictures {
+ public:
+  explicit Pictures(std::string folder) : folder_(std::move(folder)) {}
+  void draw(const std::string& name, const std::string& script);                // <name>.gp, which makes the pictures
+  void draw(const std::string& name, const Drawing& drawing);                   // <name>.svg at once, <name>.png by its script
+  const std::map<std::string, std::string>& failed() const { return failed_; }  // reason -> names
+
+ private:
+  std::string folder_;
+  std::map<std::string, std::string> failed_;
+};
+
+}  // namespace langer
