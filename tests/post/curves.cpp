@@ -41,7 +41,7 @@ struct Sample {
     s.histories = {{"penetration", 1e-11}, {"cone", 2e-9}, {"complementarity", 3e-9}, {"energy", 0.5}};
     return s;
   }();
-  Available available{true, {"complementarity", "cone", "energy", "penetration"}};
+  Available available{true, true, {"complementarity", "cone", "energy", "penetration"}};
 
   Measures look(const std::string& list) const { return look_up(choices(list), "columns", body, available); }
   std::vector<double> values(const std::string& list, StressAt at = StressAt::nodal_average) const {
