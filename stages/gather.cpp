@@ -35,18 +35,18 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
 
 SweepColumn differences(const Job<GatherConfig>& job, const Members& members, const std::string& name,
                         const std::vector<const SurfaceMap*>& maps) {
-  const auto& at = job.config.maps.at(name).compare_with;
-  const auto other = std::find_if(members.begin(), members.end(), [&](const SweepMember& m) { return m.at == at; });
+  const MapComparison& compare = *job.config.maps.at(name).compare;
+  const auto other = std::find_if(members.begin(), members.end(), [&](const SweepMember& m) { return m.at == compare.with; });
   if (other == members.end()) {
-    const std::string key = fmt::format("maps.{}.compare_with", name);
+    const std::string key = fmt::format("maps.{}.compare.with", name);
     std::vector<std::string> known;
     for (const SweepMember& m : members) known.push_back(fmt::format("[{}]", fmt::join(m.at, ", ")));
-    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no member is [{}]", fmt::join(at, ", ")),
+    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no member is [{}]", fmt::join(compare.with, ", ")),
                                       fmt::format("one of {}", fmt::join(known, ", ")), ""});
   }
+  const SurfaceMap& reference = *maps[static_cast<std::size_t>(other - members.begin())];
   SweepColumn column{name + "_difference", "percent", {}};
-  for (const SurfaceMap* map : maps)
-    column.values.push_back(100 * difference(*map, *maps[static_cast<std::size_t>(other - members.begin())]));
+  for (const SurfaceMap* map : maps) column.values.push_back(100 * difference(*map, reference, compare.beyond));
   return column;
 }
 
@@ -81,7 +81,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   Pictures pictures(std::filesystem::path(job.output).parent_path().string());
   for (const auto& [name, map] : config.maps) {
     const auto maps = maps_of(job, sweep, members, name);
-    if (!map.compare_with.empty()) sweep.columns.push_back(differences(job, members, name, maps));
+    if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
     std::vector<MapPanel> panels;
     for (std::size_t i = 0; i < maps.size(); ++i) panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
     pictures.draw(name, map_drawing(panels, map.style, map.columns));

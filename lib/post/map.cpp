@@ -113,9 +113,10 @@ std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place) {
   return {};
 }
 
-double difference(const SurfaceMap& a, const SurfaceMap& b) {
+double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond) {
   double most = 0, size = 0;
   for (std::size_t i = 0; i < b.places.size(); ++i) {
+    if (std::hypot(b.places[i][0], b.places[i][1]) < beyond) continue;
     size = std::max(size, std::abs(b.values[i]));
     if (const auto value = value_at(a, b.places[i])) most = std::max(most, std::abs(*value - b.values[i]));
   }

@@ -57,8 +57,8 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
 // value at a place by bilinear interpolation; nothing outside the map
 std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place);
 
-// largest |a - b| over the nodes of b, relative to the largest |b|; nodes outside a do not count
-double difference(const SurfaceMap& a, const SurfaceMap& b);
+// largest |a - b| relative to the largest |b|, over the nodes of b that lie in a and not nearer to x = z = 0 than `beyond`
+double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond = 0);
 
 struct MapPanel {
   std::string title;

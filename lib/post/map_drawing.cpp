@@ -134,7 +134,7 @@ class Painter {
   }
   void edges(const SurfaceMap& map) {
     for (const auto& facet : map.facets)
-      for (int k = 0; k < 4; ++k) line(map.places[facet[k]], map.places[facet[(k + 1) % 4]], 0.4, 0.55);
+      for (int k = 0; k < 4; ++k) line(map.places[facet[k]], map.places[facet[(k + 1) % 4]], 0.35, 0.4);
   }
   // short lines on a raster, each in the direction of the facet that lies nearest
   void fibres(const SurfaceMap& map) {

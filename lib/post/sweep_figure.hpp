@@ -39,18 +39,27 @@ struct SweepFigure {
   std::vector<Complaint> complaints() const;
 };
 
+struct MapComparison {
+  std::vector<std::string> with;
+  double beyond = 0;
+  static void fields(auto& v) {
+    v(&MapComparison::with, "with", unit::none, "values on the axes of the member that the others are compared with", required);
+    v(&MapComparison::beyond, "beyond", unit::mm, "nodes nearer to x = z = 0 do not count, as under an indenter", at_least(0));
+  }
+};
+
 struct SweepMap {
   int columns = 3;
   std::string member;
-  std::vector<std::string> compare_with;
+  std::optional<MapComparison> compare;
   MapStyle style;
   static void fields(auto& v) {
     v(&SweepMap::columns, "columns", unit::none, "panels side by side", between(1, 20));
     v(&SweepMap::member, "member", unit::none,
       "above each panel; {} stands for the member's value on the axes; by default the value and its unit");
-    v(&SweepMap::compare_with, "compare_with", unit::none,
-      "values on the axes of one member: the table gets <map>_difference, the largest difference of each member's map from "
-      "that one's, relative to the largest value there");
+    v(&SweepMap::compare, "compare", unit::none,
+      "the table gets <map>_difference: the largest difference of each member's map from one member's, relative to the largest "
+      "value there");
     v(&SweepMap::style, "style", unit::none, "how it is drawn");
   }
 };

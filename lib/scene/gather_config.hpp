@@ -53,8 +53,8 @@ struct GatherConfig {
         all.push_back({"figures." + name, "the name " + name, "another name: letters, digits, _, + and - only",
                        maps.count(name) ? "a map has it" : ""});
     for (const auto& [name, map] : maps)
-      if (!map.compare_with.empty() && map.compare_with.size() != axes.size() && !axes.empty())
-        all.push_back({"maps." + name + ".compare_with", "found " + std::to_string(map.compare_with.size()) + " values",
+      if (map.compare && map.compare->with.size() != axes.size() && !axes.empty())
+        all.push_back({"maps." + name + ".compare.with", "found " + std::to_string(map.compare->with.size()) + " values",
                        "one for each of the " + std::to_string(axes.size()) + " axes", ""});
     if (members.empty() && !axes.empty())
       all.push_back({"axes", "there are axes and no members", "members with their values", ""});
