@@ -1,5 +1,8 @@
 // langer-post: curves, snapshots and figures of a solution.
 //   langer-post indentation.yaml --solution solution.h5 -o curves.h5
+#include <set>
+
+#include "material/ellipticity.hpp"
 #include "scene/pictures.hpp"
 #include "scene/post_config.hpp"
 #include "scene/post_files.hpp"
@@ -26,6 +29,12 @@ struct Solution {
     StepRecord rest;
     rest.u.assign(body.mesh().X.size(), Vec3::Zero());
     rest.reaction = rest.u;
+    double stiffness = std::numeric_limits<double>::infinity();
+    std::set<int> seen;  // bodies: at rest the direction of the fibres does not matter
+    for (int e = 0; e < body.mesh().n_cells(); ++e)
+      if (seen.insert(body.mesh().body.empty() ? 0 : body.mesh().body[e]).second)
+        stiffness = std::min(stiffness, smallest_shear_stiffness(body.material(e), Mat3::Identity(), body.fibres(e)).value);
+    rest.scalars["shear_stiffness_min"] = stiffness;
     return rest;
   }
 };

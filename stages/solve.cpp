@@ -4,8 +4,8 @@
 
 #include "assembly/equilibrium.hpp"
 #include "scene/progress.hpp"
-#include "scene/range_watch.hpp"
 #include "scene/scene.hpp"
+#include "scene/stability_watch.hpp"
 #include "scene/step_record.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
@@ -37,7 +37,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   Statics statics(body, scene.contacts, options);
   SolutionWriter file(job.output, header_of(body, scene, job.identity));
   Progress progress(job.quiet, body, scene);
-  RangeWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
+  StabilityWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
+  std::string unstable;  // what ended the path, where it was that
 
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
@@ -45,6 +46,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     const BodyState earlier = before ? state_of(*before, scene) : statics.accepted();  // at rest
     statics.restore(state_of(*last, scene), &earlier);
     increment = last->scalars.at("next_increment");
+    watch.resume(*last);
     progress.resumed(file.n_steps(), last->t);
   }
   const PathReport path = load_path(
@@ -55,16 +57,30 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         if (!report.converged()) progress.failed(t, report);
         return report;
       },
-      [&](double, double taken, double next, const SolveReport& report) {
+      [&](double t, double taken, double next, const SolveReport& report) {
         statics.accept();
-        const StepRecord record = step_record(statics, body, taken, next, report);
+        StepRecord record = step_record(statics, body, taken, next, report);
+        const bool end = t >= 1 - 1e-10;
+        if (config.stability == StabilityCheck::each_step || (config.stability == StabilityCheck::last && end)) {
+          const StabilityReport stability = watch.look(body, statics);
+          watch.keep(stability);
+          if (config.stability == StabilityCheck::each_step) watch.add_to(record, stability);
+          const std::string words = in_words(stability);
+          if (!words.empty() && config.on_unstable == OnUnstable::stop) {
+            unstable = fmt::format("unstable at t = {:.6g}: {}", t, words);
+            return false;
+          }
+        }
         file.append(record);
         progress.accepted(record, report);
-        watch.look(body, statics.accepted());
         return true;
       });
   if (!job.quiet)
-    for (const std::string& line : watch.warnings(body, statics.accepted())) job.say("warning: {}", line);
+    for (const std::string& line : watch.warnings()) job.say("warning: {}", line);
+  if (!unstable.empty())
+    throw Failure(Exit::not_converged,
+                  Error{{}, "", unstable, "a stable state (on_unstable: stop)",
+                        fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", file.n_steps(), job.output)});
   if (!path.complete)
     throw Failure(
         Exit::not_converged,
@@ -82,6 +98,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   progress.finished(path, statics);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
+  if (config.stability != StabilityCheck::off)
+    for (const Summary& s : watch.summary()) summary.push_back(s);
   return summary;
 }
 

@@ -21,6 +21,7 @@ struct Acoustic {
   Mat6 c;  // spatial, rows and columns 11 22 33 12 23 13
   Mat3 sigma;
 
+  bool finite() const { return c.allFinite() && sigma.allFinite(); }
   ShearStiffness at(const Vec3& n) const {
     // (m n) in strain order: Q = B^T c B with B m = the engineering components of sym(m n)
     Eigen::Matrix<double, 6, 3> B;
@@ -46,6 +47,12 @@ Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
   return T * D * T.transpose() / J;
 }
 
+Acoustic acoustic_at(const Material& material, const Mat3& F, std::span<const Vec3> a) {
+  const double J = F.determinant();
+  const Response r = isochoric(material, right_cauchy_green(F), a);
+  return {push_forward(F, r.D, J), cauchy(F, r.S, J)};
+}
+
 bool lower(const ShearStiffness& x, const ShearStiffness& y) { return x.value < y.value; }
 
 // The best of eight normals at distance `reach` and of the bottom of the paraboloid through them.
@@ -68,20 +75,27 @@ ShearStiffness best_nearby(const Acoustic& acoustic, const ShearStiffness& place
 
 }  // namespace
 
+Vec3 wave_normal(int i, int n) {
+  const double z = (i + 0.5) / n, angle = i * std::numbers::pi * (3 - std::sqrt(5.)), s = std::sqrt(1 - z * z);
+  return {s * std::cos(angle), s * std::sin(angle), z};
+}
+
+double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a, int n) {
+  const Acoustic acoustic = acoustic_at(material, F, a);
+  if (!acoustic.finite()) return std::numeric_limits<double>::quiet_NaN();
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n; ++i) least = std::min(least, acoustic.at(wave_normal(i, n)).value);
+  return least;
+}
+
 ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a) {
-  const double J = F.determinant();
-  const Response r = isochoric(material, right_cauchy_green(F), a);
-  const Acoustic acoustic{push_forward(F, r.D, J), cauchy(F, r.S, J)};
-  if (!acoustic.c.allFinite() || !acoustic.sigma.allFinite())
-    return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitX(), Vec3::UnitY()};
+  const Acoustic acoustic = acoustic_at(material, F, a);
+  if (!acoustic.finite()) return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitX(), Vec3::UnitY()};
 
   // an even grid on the half sphere, then downhill from its best places
   constexpr int grid = 400, best = 6;
   std::vector<ShearStiffness> found;
-  for (int i = 0; i < grid; ++i) {
-    const double z = (i + 0.5) / grid, angle = i * std::numbers::pi * (3 - std::sqrt(5.)), s = std::sqrt(1 - z * z);
-    found.push_back(acoustic.at(Vec3(s * std::cos(angle), s * std::sin(angle), z)));
-  }
+  for (int i = 0; i < grid; ++i) found.push_back(acoustic.at(wave_normal(i, grid)));
   const auto [least, greatest] = std::minmax_element(found.begin(), found.end(), lower);
   const double enough = 1e-2 * (greatest->value - least->value);  // of decrease per reach^2: rounding must not be followed
   std::partial_sort(found.begin(), found.begin() + best, found.end(), lower);

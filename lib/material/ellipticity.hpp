@@ -19,4 +19,10 @@ struct ShearStiffness {
 // F with det F > 0; a volume change counts as 1/J in c and sigma
 ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a);
 
+// the smallest over n wave normals only: from above [MPa]
+double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a, int n);
+
+// i-th of n normals spread evenly over the half sphere
+Vec3 wave_normal(int i, int n);
+
 }  // namespace langer

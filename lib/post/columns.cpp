@@ -141,7 +141,8 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
                  "a solution whose config this version can read", "");
       const bool of_stored = *c.quantity == Quantity::energy || *c.quantity == Quantity::balance;
-      const std::string needed = of_stored ? "energy" : of_contact_law && available.contact ? line.word : "";
+      const bool of_stability = *c.quantity >= Quantity::negative_eigenvalues && *c.quantity <= Quantity::driving_force;
+      const std::string needed = of_stored ? "energy" : of_stability || (of_contact_law && available.contact) ? line.word : "";
       if (!needed.empty() && !has_history(needed))
         complain("quantity", fmt::format("the solution has no history \"{}\"", needed), "one of " + known(available.histories),
                  "");

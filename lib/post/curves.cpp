@@ -84,7 +84,7 @@ double of_step(Quantity quantity, const StepState& s) {
     case Quantity::slip_nodes:
       return s.slip;
     default:
-      return history(line_of(quantity).word);  // energy, penetration, cone, complementarity
+      return history(line_of(quantity).word);  // stability, energy, penetration, cone, complementarity
   }
 }
 

@@ -17,7 +17,8 @@ enum class Of { step, indenter, nodes, point, set, body };
 
 // clang-format off
 enum class Quantity {
-  t, increment, newton_iterations, residual, energy, work, dissipated, balance,
+  t, increment, newton_iterations, residual,
+  negative_eigenvalues, shear_stiffness_min, unstable_volume, outside_fit, driving_force, energy, work, dissipated, balance,
   u_ind, u_ind_x, u_ind_y, u_ind_z, path, force, force_x, force_y, force_z,
   contact_nodes, stick_nodes, slip_nodes, penetration, cone, complementarity,
   u_x, u_y, u_z,
@@ -44,6 +45,11 @@ inline constexpr auto quantity_lines = [] {
       {increment, "increment", "-", "increment of the path parameter", Of::step},
       {newton_iterations, "newton_iterations", "-", "iterations of the step", Of::step},
       {residual, "residual", "-", "relative residual", Of::step},
+      {negative_eigenvalues, "negative_eigenvalues", "-", "negative eigenvalues of the constrained tangent", Of::step},
+      {shear_stiffness_min, "shear_stiffness_min", "MPa", "smallest shear stiffness", Of::step},
+      {unstable_volume, "unstable_volume", "-", "share of the volume without strong ellipticity", Of::step},
+      {outside_fit, "outside_fit", "-", "share of the volume beyond the fitted tests", Of::step},
+      {driving_force, "driving_force", "N mm", "work per unit of the path", Of::step},
       {energy, "energy", "N mm", "stored energy", Of::step},
       {work, "work", "N mm", "work of the indenter and of imposed displacements", Of::step},
       {dissipated, "dissipated", "N mm", "energy taken by friction", Of::step},

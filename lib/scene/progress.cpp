@@ -25,6 +25,13 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (contact_) fmt::print(stderr, "  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
   fmt::print(stderr, "  {} iterations  residual {:.1e}  J_min {:.4f}", report.iterations, record.residual,
              record.scalars.at("J_min"));
+  if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
+    const double negative = record.scalars.at("negative_eigenvalues");
+    fmt::print(stderr, "  stiffness {:.3g} MPa", stiffness->second);
+    if (negative > 0) fmt::print(stderr, "  UNSTABLE: {:.0f} negative eigenvalues", negative);
+    if (negative < 0) fmt::print(stderr, "  UNSTABLE: singular tangent");
+    if (!(stiffness->second >= 0)) fmt::print(stderr, "  MATERIAL UNSTABLE");
+  }
   if (contact_) {
     int stick = 0, slip = 0;
     for (const auto& [name, contact] : record.contacts)

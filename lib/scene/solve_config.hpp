@@ -86,6 +86,12 @@ struct ContactConfig {
   }
 };
 
+// When the stability of what was found is looked at, and what happens then.
+enum class StabilityCheck { each_step, last, off };
+constexpr auto names(StabilityCheck) { return std::array{"each_step", "last", "off"}; }
+enum class OnUnstable { warn, stop };
+constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
+
 struct BodyConfig {
   std::optional<Material> material;
   std::vector<double> fibre_angles;
@@ -108,6 +114,8 @@ struct SolveConfig {
   std::map<std::string, ContactConfig> contacts;
   LoadPathOptions path;
   std::variant<NewtonOptions, KinsolOptions> solver;
+  StabilityCheck stability = StabilityCheck::each_step;
+  OnUnstable on_unstable = OnUnstable::warn;
   int threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
@@ -122,11 +130,18 @@ struct SolveConfig {
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
+    v(&SolveConfig::stability, "stability", unit::none,
+      "when to look at the signs of the constrained tangent and at strong ellipticity in all Gauss points");
+    v(&SolveConfig::on_unstable, "on_unstable", unit::none,
+      "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
     v(&SolveConfig::threads, "threads", unit::none, "threads of assembly and factorization", between(1, 256));
   }
   std::vector<Complaint> complaints() const {
-    if (!loads.empty() || !contacts.empty()) return {};
-    return {{"", "nothing moves", "loads or contacts", ""}};
+    std::vector<Complaint> found;
+    if (loads.empty() && contacts.empty()) found.push_back({"", "nothing moves", "loads or contacts", ""});
+    if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
+      found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
+    return found;
   }
 };
 

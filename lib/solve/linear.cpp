@@ -220,6 +220,40 @@ MatX LinearSolver::compliance(const MatX& B) const {
   return W;
 }
 
+std::optional<MatX> LinearSolver::schur() const {
+  const State& s = *state_;
+  if (!s.trailing || s.indefinite) return std::nullopt;
+  const MatX L = s.trailing_factor();
+  MatX ordered = MatX::Zero(L.rows(), L.rows());
+  ordered.selfadjointView<Eigen::Lower>().rankUpdate(L);
+  MatX S(L.rows(), L.rows());
+  for (Eigen::Index i = 0; i < S.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      S(s.trailing_order[i], s.trailing_order[j]) = S(s.trailing_order[j], s.trailing_order[i]) = ordered(i, j);
+  return S;
+}
+
+int LinearSolver::negative_pivots(const std::vector<double>& values) {
+  State& s = *state_;
+  const NoNestedThreads guard;
+  std::copy(values.begin(), values.end(), static_cast<double*>(s.A->x));
+  const auto way = s.common.supernodal;
+  const auto ordering = s.common.method[0].ordering;
+  const auto final_ll = s.common.final_ll;
+  s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0, s.common.method[0].ordering = CHOLMOD_GIVEN;
+  s.common.status = CHOLMOD_OK;
+  cholmod_factor* D = cholmod_analyze_p(s.A, static_cast<int*>(s.L->Perm), nullptr, 0, &s.common);
+  int negative = -1;
+  if (D && cholmod_factorize(s.A, D, &s.common) && D->minor >= D->n && !D->is_ll) {
+    negative = 0;
+    for (std::size_t i = 0; i < D->n; ++i) negative += static_cast<double*>(D->x)[static_cast<int*>(D->p)[i]] < 0;
+  }
+  if (D) cholmod_free_factor(&D, &s.common);
+  s.common.supernodal = way, s.common.final_ll = final_ll, s.common.method[0].ordering = ordering;
+  if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  return negative;
+}
+
 LinearSolver::Size LinearSolver::size() const {
   return {state_->common.lnz, state_->common.fl, static_cast<double>(state_->common.memory_usage)};
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ class LinearSolver {
 
   // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`
   MatX compliance(const MatX& B) const;
+
+  // Schur complement of the rows of `last`, in their order; nothing where the last factor does not hold it
+  std::optional<MatX> schur() const;
+  // Negative pivots of a simplicial L D L^T: as many as there are negative eigenvalues. -1 where a pivot is zero.
+  // Slower than a factor; the factor that solve() uses stays.
+  int negative_pivots(const std::vector<double>& values);
 
   struct Size {
     double factor_nonzeros = 0, factor_flops = 0, peak_bytes = 0;

@@ -135,8 +135,10 @@ bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibr
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
   ++cost_.factorizations;
+  factored_at_ = u_, factor_ = Factor::whole;
   if (!supported_ && linear_->factorize(equilibrium_.K())) return true;
   ++n_indefinite_;
+  factor_ = Factor::supported;
   if (!last_.empty()) {
     const Pattern& pattern = equilibrium_.pattern();
     double diagonal = 0;  // a column starts with its diagonal
@@ -151,6 +153,7 @@ bool Statics::factorize() {
     supported_ = false;
   }
   ++n_unstable_;  // the body gives way even with every candidate held
+  factor_ = Factor::indefinite;
   return linear_->factorize_indefinite(equilibrium_.K());
 }
 
@@ -317,7 +320,10 @@ Problem Statics::problem() {
     supported_ = false;
     ++cost_.factorizations;
     const Stopwatch watch(cost_.factor);
-    return linear_->factorize(equilibrium_.K()) || (++n_indefinite_, linear_->factorize_indefinite(equilibrium_.K()));
+    factored_at_ = u, factor_ = Factor::whole;
+    if (linear_->factorize(equilibrium_.K())) return true;
+    ++n_indefinite_, factor_ = Factor::indefinite;
+    return linear_->factorize_indefinite(equilibrium_.K());
   };
   p.solve = [this](const VecX& rhs) {
     const Stopwatch watch(cost_.solve);

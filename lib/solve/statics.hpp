@@ -23,6 +23,15 @@ struct BodyState {
   std::vector<std::vector<Vec3>> r;  // per contact, per candidate: reaction on the body [N]
 };
 
+// Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
+// movements of the free dofs that keep closed contacts closed and sticking ones where they are. Slipping ones may glide; what
+// friction adds there is not symmetric and left out. Imposed displacements and the indenter stand still.
+//   negative  directions in which the body gives way: the equilibrium is unstable; -1: the tangent is singular to the last digit
+//   neutral   directions that nothing resists (below 1e-8 of the stiffest); counted with contact only
+struct Signature {
+  int negative = 0, neutral = 0;
+};
+
 struct StaticsOptions {
   int threads = 1;
   double gap_tolerance = 1e-10;  // [mm]
@@ -45,6 +54,9 @@ class Statics {
   const BodyState& accepted() const { return now_; }
   std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
+  // Of the accepted state, right after accept(). The last factor serves where it was made within a thousandth of the step's
+  // movement from there; otherwise K is factorized once more.
+  Signature signature();
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
   int n_indefinite() const { return n_indefinite_; }
@@ -81,6 +93,8 @@ class Statics {
   VecX u_start_;                               // state that the increment's slip is measured from
   bool supported_ = false;                     // the factor is of K + gamma on the candidates' diagonal
   double gamma_ = 0;                           // [N/mm]
+  enum class Factor { none, whole, supported, indefinite } factor_ = Factor::none;
+  VecX factored_at_;  // u of the tangent that was factorized last
   int n_indefinite_ = 0, n_unstable_ = 0;
   Cost cost_;
 };

@@ -23,13 +23,14 @@ bool among(const std::array<const char*, n>& names, const std::string& name) {
 inline bool is_static(const std::string& name) { return among(static_cells, name) || name.starts_with("fibre_"); }
 
 inline std::string unit_of(const std::string& name) {
-  for (const char* word : {"von_mises", "pressure", "sigma", "stress"})
+  for (const char* word : {"von_mises", "pressure", "sigma", "stress", "shear_stiffness"})
     if (name.starts_with(word)) return "MPa";
-  for (const char* word : {"penetration", "gap", "u_"})
+  for (const char* word : {"penetration", "gap", "u_", "weakest_x", "weakest_y", "weakest_z"})
     if (name.starts_with(word)) return "mm";
   for (const char* word : {"force", "reaction"})
     if (name.starts_with(word)) return "N";
-  if (name.starts_with("energy")) return "N mm";
+  for (const char* word : {"energy", "driving_force"})
+    if (name.starts_with(word)) return "N mm";
   return "-";
 }
 

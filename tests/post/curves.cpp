@@ -38,10 +38,13 @@ struct Sample {
     }
     s.t = 0.25, s.increment = 0.05, s.iterations = 4, s.residual = 1e-10;
     s.stick = 3, s.slip = 2;
-    s.histories = {{"penetration", 1e-11}, {"cone", 2e-9}, {"complementarity", 3e-9}, {"energy", 0.5}};
+    s.histories = {{"penetration", 1e-11}, {"cone", 2e-9}, {"complementarity", 3e-9}, {"energy", 0.5},
+                   {"negative_eigenvalues", 1}, {"shear_stiffness_min", -0.2}, {"unstable_volume", 0.1},
+                   {"outside_fit", 0.3}, {"driving_force", 7}};
     return s;
   }();
-  Available available{true, true, {"complementarity", "cone", "energy", "penetration"}};
+  Available available{true, true, {"complementarity", "cone", "driving_force", "energy", "negative_eigenvalues", "outside_fit",
+                                   "penetration", "shear_stiffness_min", "unstable_volume"}};
 
   Measures look(const std::string& list) const { return look_up(choices(list), "columns", body, available); }
   std::vector<double> values(const std::string& list, StressAt at = StressAt::nodal_average) const {

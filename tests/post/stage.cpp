@@ -52,7 +52,8 @@ StepRecord step(const SolutionHeader& h, double t) {
     r.u.emplace_back(0.1 * t * X[0], -0.05 * t * X[1], -0.04 * t * X[2]);
     r.reaction.emplace_back(X[0] == 3 ? t : 0, 0, 0);
   }
-  r.scalars = {{"penetration", 1e-12}, {"cone", 0}, {"complementarity", 1e-11}, {"energy", t * t}};
+  r.scalars = {{"penetration", 1e-12}, {"cone", 0}, {"complementarity", 1e-11}, {"energy", t * t},
+               {"negative_eigenvalues", 0}, {"shear_stiffness_min", 0.3 - 0.1 * t}};
   r.u_ind = Vec3(0, -0.1 * t, 0), r.force_ind = Vec3(0, 2 * t, 0);
   r.contacts["ball"] = {{{0, -t, 0}, {0, -t, 0}, {0, 0, 0}}, {1, 2, 0}, {0, 0, 0.1}};
   return r;

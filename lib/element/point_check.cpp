@@ -1,0 +1,131 @@
+#include "element/point_check.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "material/ellipticity.hpp"
+#include "tensor/kinematics.hpp"
+
+namespace langer {
+
+namespace {
+
+using P = Packet;
+using Row = Eigen::Array<double, P::lanes, 1>;
+
+P root(const P& x) {
+  P y;
+  Eigen::Map<Row, Eigen::Aligned64>(reinterpret_cast<double*>(&y.v)) =
+      Eigen::Map<const Row, Eigen::Aligned64>(reinterpret_cast<const double*>(&x.v)).max(0.0).sqrt();
+  return y;
+}
+
+// Weights that contract a symmetric tensor (11 22 33 12 23 13) with n n, s n and t n.
+struct Normal {
+  double nn[6], sn[6], tn[6];
+};
+
+template <std::size_t n>
+std::array<Normal, n> grid() {
+  std::array<Normal, n> out;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 v = wave_normal(static_cast<int>(i), static_cast<int>(n)), s = v.unitOrthogonal(), t = v.cross(s);
+    for (int p = 0; p < 6; ++p) {
+      const int k = voigt_i[p], l = voigt_j[p];
+      const auto weight = [&](const Vec3& x) { return p < 3 ? x[k] * v[k] : x[k] * v[l] + x[l] * v[k]; };
+      out[i].nn[p] = weight(v), out[i].sn[p] = weight(s), out[i].tn[p] = weight(t);
+    }
+  }
+  return out;
+}
+
+P contract(const double* weight, const P* h) {
+  P x = weight[0] * h[0];
+  for (int p = 1; p < 6; ++p) x += weight[p] * h[p];
+  return x;
+}
+
+struct Term {
+  P h[6], four_ddW;
+};
+
+// the terms of a law in packet form; B gets sum 2 W' h
+int terms(const Material& material, const P* F, const P& J, std::span<const Vec3> a, Term* out, P* B) {
+  const P m = 1.0 / (cbrt(J) * cbrt(J));
+  Term& matrix = out[0];
+  for (int p = 0; p < 6; ++p) {
+    const int i = voigt_i[p], j = voigt_j[p];
+    matrix.h[p] = m * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
+  }
+  const P I1_bar = matrix.h[0] + matrix.h[1] + matrix.h[2];
+  P dW, ddW;
+  for (const MatrixTerm& term : material.matrix)
+    std::visit(
+        [&](const auto& t) {
+          if constexpr (t.of == Invariant::I1_bar) {
+            const Energy<P> e = t(I1_bar);
+            dW += e.dW, ddW += e.ddW;
+          }
+        },
+        term);
+  matrix.four_ddW = 4.0 * ddW;
+  for (int p = 0; p < 6; ++p) B[p] = 2.0 * dW * matrix.h[p];
+  int n = 1;
+  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
+    const Fibre& fibre = material.fibres[k];
+    Term& term = out[n++];
+    P f[3];
+    for (int i = 0; i < 3; ++i) f[i] = F[3 * i] * a[k][0] + F[3 * i + 1] * a[k][1] + F[3 * i + 2] * a[k][2];
+    for (int p = 0; p < 6; ++p)
+      term.h[p] = fibre.kappa * matrix.h[p] + (1 - 3 * fibre.kappa) * m * f[voigt_i[p]] * f[voigt_j[p]];
+    const P I4_bar = term.h[0] + term.h[1] + term.h[2];
+    const Energy<P> e = fibre.hgo(I4_bar);
+    const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
+    const P test = fibre.tension_switch == FibreSwitch::off  ? P(1.0)
+                   : fibre.tension_switch == FibreSwitch::I4 ? I4_bar / m - from
+                                                             : I4_bar - from;
+    term.four_ddW = 4.0 * where_not_negative(test, e.ddW);
+    const P two_dW = 2.0 * where_not_negative(test, e.dW);
+    for (int p = 0; p < 6; ++p) B[p] += two_dW * term.h[p];
+  }
+  return n;
+}
+
+}  // namespace
+
+void check_points(const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
+                  PointCheck& out) {
+  P F[9], J;
+  for (int g = 0; g < 8; ++g) {
+    const Mat3 H = u.transpose() * geometry.dN_dX[g];
+    out.F[g] = Mat3::Identity() + H;
+    out.J[g] = 1 + volume_change(H);
+    J.set(g, out.J[g]);
+    for (int i = 0; i < 9; ++i) F[i].set(g, out.F[g](i / 3, i % 3));
+  }
+  if (!packet_form(material)) {
+    for (int g = 0; g < 8; ++g) out.stiffness[g] = sampled_shear_stiffness(material, out.F[g], a, 48);
+    return;
+  }
+  static const auto normals = grid<96>();
+  Term law[5];
+  P B[6], least = std::numeric_limits<double>::infinity();
+  const int n = terms(material, F, J, a, law, B);
+  for (const Normal& normal : normals) {
+    P aa, ab, bb;
+    for (int k = 0; k < n; ++k) {
+      const P s = contract(normal.sn, law[k].h), t = contract(normal.tn, law[k].h);
+      aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;
+    }
+    const P half = 0.5 * (aa - bb);
+    const P value = contract(normal.nn, B) + 0.5 * (aa + bb) - root(half * half + ab * ab);
+    least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
+  }
+  least = least / J;
+  for (int g = 0; g < 8; ++g) out.stiffness[g] = least[g];
+}
+
+}  // namespace langer
