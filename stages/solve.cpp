@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include "assembly/equilibrium.hpp"
+#include "mesh/quality.hpp"
 #include "scene/progress.hpp"
 #include "scene/scene.hpp"
 #include "scene/stability_watch.hpp"
 #include "scene/step_record.hpp"
+#include "solve/free_motions.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "stage.hpp"
@@ -21,9 +23,28 @@ SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& sol
   return newton(problem, u, std::get<NewtonOptions>(solver));
 }
 
+// Meshes may come from elsewhere than langer-mesh.
+void refuse_bad(const Mesh& mesh, const std::string& file) {
+  const auto refuse = [&](std::string found, const char* expected) {
+    throw Failure(Exit::input, Error{{file}, "", std::move(found), expected, ""});
+  };
+  const Quality q = quality(mesh);
+  if (!(q.least_jacobian > 0))
+    refuse(fmt::format("cell {} is folded or flat: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})", q.at_cell, q.least_jacobian,
+                       q.at[0], q.at[1], q.at[2]),
+           "a positive Jacobian everywhere");
+  if (const auto pair = coincident_nodes(mesh, 1e-9 * q.shortest_edge)) {
+    const Vec3& X = mesh.X[static_cast<std::size_t>((*pair)[0])];
+    refuse(fmt::format("nodes {} and {} are both at ({:.6g}, {:.6g}, {:.6g}) mm: the body is torn there", (*pair)[0], (*pair)[1], X[0],
+                       X[1], X[2]),
+           "each place once");
+  }
+}
+
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const SolveConfig& config = job.config;
   const Mesh mesh = read_mesh(job.input("mesh")).mesh;
+  refuse_bad(mesh, job.input("mesh"));
   const std::optional<Material> material =
       job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
   const Scene scene = make_scene(config, mesh, material, job.where);
@@ -37,6 +58,10 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   Statics statics(body, scene.contacts, options);
   SolutionWriter file(job.output, header_of(body, scene, job.identity));
   Progress progress(job.quiet, body, scene);
+  const std::string held_by_contact = free_motions(mesh, scene.dofs);
+  if (!held_by_contact.empty() && scene.contacts.empty())
+    throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
+  if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
   StabilityWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   std::string unstable;  // what ended the path, where it was that
 
@@ -89,7 +114,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
             "",
             fmt::format("stopped at t = {:.6g} after {} steps: {}{}; smallest increment reached", path.t, file.n_steps(),
                         path.why,
-                        statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : ""),
+                        (statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : "") +
+                            (held_by_contact.empty() ? "" : "; " + held_by_contact)),
             "",
             fmt::format(
                 "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace langer {
 
@@ -78,10 +79,13 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const Vec3& n = shape.normal;
     const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
     const Vec3 x_t = v - v.dot(n) * n;
+    // a sphere of 1e5 mm knows its gap to 1e-11 mm: what is below the rounding of the positions is no gap
+    const double curved = shape.bend.norm(), far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
+    const double seen = std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far ? g : 0;
     const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
     // frictionless: only the normal part does work against the law
-    const double power = contact.mu > 0 ? r[i].dot(x_t) + r_n * (g + contact.mu * slip) : r_n * g;
+    const double power = contact.mu > 0 ? r[i].dot(x_t) + r_n * (seen + contact.mu * slip) : r_n * seen;
     defect.complementarity = std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
     const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
     defect.status.push_back(sticks ? ContactStatus::stick : ContactStatus::slip);

@@ -2,7 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <cstdint>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -58,6 +61,35 @@ Quality quality(const Mesh& mesh) {
     q.shortest_edge = std::min(q.shortest_edge, shortest), q.longest_edge = std::max(q.longest_edge, longest);
   }
   return q;
+}
+
+std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double closer_than) {
+  const double edge = 16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
+  using Cell = std::array<std::int64_t, 3>;
+  const auto hash = [](const Cell& c) {
+    return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+  };
+  std::unordered_multimap<std::size_t, int> nodes_of;
+  nodes_of.reserve(static_cast<std::size_t>(mesh.n_nodes()));
+  for (int i = 0; i < mesh.n_nodes(); ++i) {
+    const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
+    Cell low, high;
+    for (int k = 0; k < 3; ++k) {
+      low[k] = static_cast<std::int64_t>(std::floor((X[k] - closer_than) / edge));
+      high[k] = static_cast<std::int64_t>(std::floor((X[k] + closer_than) / edge));
+    }
+    for (std::int64_t a = low[0]; a <= high[0]; ++a)
+      for (std::int64_t b = low[1]; b <= high[1]; ++b)
+        for (std::int64_t c = low[2]; c <= high[2]; ++c) {
+          const auto [from, to] = nodes_of.equal_range(hash({a, b, c}));
+          for (auto it = from; it != to; ++it)
+            if ((mesh.X[static_cast<std::size_t>(it->second)] - X).norm() <= closer_than) return std::array{it->second, i};
+        }
+    Cell own;
+    for (int k = 0; k < 3; ++k) own[k] = static_cast<std::int64_t>(std::floor(X[k] / edge));
+    nodes_of.emplace(hash(own), i);
+  }
+  return std::nullopt;
 }
 
 void refuse_folded(const Quality& q, const std::string& key) {

@@ -4,6 +4,8 @@
 //   aspect            longest edge of a cell over its shortest
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "mesh/mesh.hpp"
@@ -22,6 +24,9 @@ struct Quality {
 
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi);
 Quality quality(const Mesh& mesh);
+
+// two nodes at one place, where the mesh is torn without a gap; nothing where there are none
+std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double closer_than);
 
 // throws Failure(config), `key` naming the part of the config that the mesh came from
 void refuse_folded(const Quality& quality, const std::string& key);

@@ -27,6 +27,13 @@ double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) 
   return most;
 }
 
+// its volume should not change visibly at stresses of the order of its shear modulus
+bool nearly_incompressible(const Material& material) {
+  double mu = 0;
+  for (const MatrixTerm& term : material.matrix) mu += shear_modulus(term);
+  return material.volume.quadratic.bulk_modulus() > 1000 * std::abs(mu);
+}
+
 std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -75,6 +82,10 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const auto a = body.fibres(e);
     check_points(body.material(e), body.geometry(e), a, body.element_displacements(state.u, e), points);
+    double cell_volume = 0;
+    for (int g = 0; g < 8; ++g) cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
+    if (nearly_incompressible(body.material(e)) && std::abs(cell_volume - 1) > report.volume_change)
+      report.volume_change = std::abs(cell_volume - 1), report.volume_place = gauss_position(body.mesh(), e, 0);
     for (int g = 0; g < 8; ++g) {
       const double w = body.geometry(e).w[g], s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
       volume += w;
@@ -123,6 +134,7 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
+  s["volume_change"] = r.volume_change;
   s["unstable_volume"] = r.lost;
   if (r.fibre_max > 0) s["isochoric_fibre_stretch_min"] = r.fibre_min, s["isochoric_fibre_stretch_max"] = r.fibre_max;
   if (study_.range) s["outside_fit"] = r.outside;
@@ -148,6 +160,7 @@ void StabilityWatch::keep(const StabilityReport& r) {
   if (r.equilibrium_unstable()) most_negative_ = std::max(most_negative_, std::abs(r.signature.negative));
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
+  if (r.volume_change > volume_change_) volume_change_ = r.volume_change, volume_place_ = r.volume_place;
   outside_.add(r.t, r.outside > 0);
   falling_.add(r.t, r.falling);
 }
@@ -167,6 +180,10 @@ std::vector<std::string> StabilityWatch::warnings() const {
     lines.push_back(fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (smallest shear "
                                 "stiffness {:.3g} MPa near {}): the solution depends on the mesh there",
                                 material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));
+  if (volume_change_ > 0.02)
+    lines.push_back(fmt::format("a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
+                                "come near the bulk modulus; look at c2 and at the strains there",
+                                text(volume_place_), percent(volume_change_)));
   if (!falling_.of.empty())
     lines.push_back(fmt::format("the driving force falls at {}: held by displacements these states may be stable, under the same "
                                 "forces as dead loads they are not",

@@ -26,6 +26,8 @@ struct StabilityReport {
   double stiffness = 0;                                 // smallest, in the whole body [MPa]
   int cell = -1;                                        // where; reference position of the Gauss point [mm]
   Vec3 place = Vec3::Zero();
+  double volume_change = 0;                             // largest of a cell that its material resists: |V / V0 - 1|
+  Vec3 volume_place = Vec3::Zero();
   double lost = 0;                                      // share of the volume with a negative one
   double fibre_min = std::numeric_limits<double>::infinity(), fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
   double outside = 0, farthest = 0;                     // of the fitted range: share of the volume, largest excess (1: at its end)
@@ -62,6 +64,8 @@ class StabilityWatch {
   StudyRecord study_;
   double force_before_ = 0, t_before_ = -1;
   StabilityReport last_;
+  double volume_change_ = 0;
+  Vec3 volume_place_ = Vec3::Zero();
   int most_negative_ = 0, steps_unstable_ = 0;
   Spans equilibrium_, material_, outside_, falling_;
 };

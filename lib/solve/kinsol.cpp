@@ -158,7 +158,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     report.residual = now.residual, report.reference = now.reference;
     report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible, "an element is turned inside out or a force is not finite");
+      return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
     const bool balanced = now.residual <= report.tolerance;
     if (round > 0 && balanced && now.others) return stop(Outcome::converged, "");
     if (round == options.rounds)
@@ -169,7 +169,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     if (!take_step(problem, x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
-    if (!then.admissible) return stop(Outcome::inadmissible, "an element is turned inside out");
+    if (!then.admissible) return stop(Outcome::inadmissible, then.missing);
     Round inner{.problem = problem, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(problem.free.size()))};
     inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);

@@ -42,6 +42,9 @@ struct LinearSolver::State {
   void* symbolic = nullptr;
   void* numeric = nullptr;
   bool indefinite = false;
+  std::vector<int> props;  // rows with springs in the factor; empty in most
+  MatX prop_moves;         // (n, props): K^-1 of a unit force on each prop, springs included
+  Eigen::PartialPivLU<MatX> prop_share;
 
   ~State() {
     if (numeric) umfpack_di_free_numeric(&numeric);
@@ -53,6 +56,8 @@ struct LinearSolver::State {
 
   void analyse();
   void order_last();
+  bool cholesky();  // of A as it is
+  VecX whole(const VecX& b) const;  // by the CHOLMOD factor, props included
   bool factorize_indefinite();
   MatX trailing_factor() const;
 };
@@ -111,11 +116,60 @@ bool LinearSolver::factorize(const std::vector<double>& values) {
   State& s = *state_;
   const NoNestedThreads guard;
   std::copy(values.begin(), values.end(), static_cast<double*>(s.A->x));
-  s.common.status = CHOLMOD_OK;
-  cholmod_factorize(s.A, s.L, &s.common);
-  if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   s.indefinite = false;
-  return s.common.status != CHOLMOD_NOT_POSDEF && s.L->minor >= s.L->n;
+  s.props.clear();
+  return s.cholesky();
+}
+
+bool LinearSolver::State::cholesky() {
+  common.status = CHOLMOD_OK;
+  cholmod_factorize(A, L, &common);
+  if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  return common.status != CHOLMOD_NOT_POSDEF && L->minor >= L->n;
+}
+
+bool LinearSolver::factorize_propped(const std::vector<double>& values, int most) {
+  State& s = *state_;
+  const NoNestedThreads guard;
+  const int* column_start = static_cast<int*>(s.A->p);
+  double* x = static_cast<double*>(s.A->x);
+  std::copy(values.begin(), values.end(), x);
+  s.indefinite = false;
+  s.props.clear();
+  double mean = 0;  // a column starts with its diagonal
+  for (std::size_t row = 0; row < s.A->nrow; ++row) mean += std::abs(values[column_start[row]]) / static_cast<double>(s.A->nrow);
+  std::vector<double> stiffness;
+  for (int attempt = 0; !s.cholesky(); ++attempt) {
+    const int row = static_cast<int*>(s.L->Perm)[s.L->minor];
+    if (attempt == most) {
+      s.props.clear();
+      return false;
+    }
+    // after an earlier pivot near zero a later one may be as low as any number: then its prop is made stiffer
+    const auto known = std::find(s.props.begin(), s.props.end(), row);
+    double more = 100 * std::max(mean, std::abs(values[column_start[row]]));
+    if (known == s.props.end()) {
+      s.props.push_back(row), stiffness.push_back(more);
+    } else {
+      double& k = stiffness[static_cast<std::size_t>(known - s.props.begin())];
+      more = 9 * k, k += more;
+    }
+    x[column_start[row]] += more;
+  }
+  const int q = static_cast<int>(s.props.size());
+  if (q == 0) return true;
+  // (K + E k E^T - E k E^T)^-1 = Z + Z E (1/k - E^T Z E)^-1 E^T Z
+  MatX share = MatX::Zero(q, q);
+  s.prop_moves.resize(s.A->nrow, q);
+  for (int i = 0; i < q; ++i) s.prop_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.props[i]));
+  for (int i = 0; i < q; ++i) {
+    share(i, i) = 1 / stiffness[i];
+    for (int j = 0; j < q; ++j) share(i, j) -= s.prop_moves(s.props[i], j);
+  }
+  s.prop_share.compute(share);
+  if (s.prop_share.rcond() > 1e-14) return true;
+  s.props.clear();
+  return false;
 }
 
 bool LinearSolver::factorize_indefinite(const std::vector<double>& values) {
@@ -169,16 +223,25 @@ VecX LinearSolver::solve(const VecX& b) const {
                      control, nullptr);
     return x;
   }
+  x = s.whole(b);
+  if (s.props.empty()) return x;
+  VecX at(s.props.size());
+  for (std::size_t i = 0; i < s.props.size(); ++i) at[i] = x[s.props[i]];
+  return x + s.prop_moves * s.prop_share.solve(at);
+}
+
+VecX LinearSolver::State::whole(const VecX& b) const {
+  VecX x(b.size());
   cholmod_dense rhs{};
   rhs.nrow = rhs.d = rhs.nzmax = b.size();
   rhs.ncol = 1;
   rhs.x = const_cast<double*>(b.data());
   rhs.xtype = CHOLMOD_REAL;
   rhs.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* y = cholmod_solve(CHOLMOD_A, s.L, &rhs, &s.common);
+  cholmod_dense* y = cholmod_solve(CHOLMOD_A, L, &rhs, const_cast<cholmod_common*>(&common));
   if (!y) throw std::bad_alloc();
   std::memcpy(x.data(), y->x, sizeof(double) * b.size());
-  cholmod_free_dense(&y, &s.common);
+  cholmod_free_dense(&y, const_cast<cholmod_common*>(&common));
   return x;
 }
 
@@ -206,7 +269,16 @@ MatX LinearSolver::compliance(const MatX& B) const {
     s.trailing_factor().triangularView<Eigen::Lower>().solveInPlace(Y);
     MatX W = MatX::Zero(B.cols(), B.cols());
     W.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose());
-    return W.selfadjointView<Eigen::Lower>();
+    W = MatX(W.selfadjointView<Eigen::Lower>());
+    if (s.props.empty()) return W;
+    MatX moves(B.cols(), s.props.size());  // of the contacts by the props
+    for (std::size_t k = 0; k < s.props.size(); ++k) {
+      VecX picked(s.last.size());
+      for (std::size_t i = 0; i < s.last.size(); ++i) picked[i] = s.prop_moves(s.last[i], k);
+      moves.col(k) = B.transpose() * picked;
+    }
+    W += moves * s.prop_share.solve(MatX(moves.transpose()));
+    return 0.5 * (W + W.transpose());
   }
   MatX W(B.cols(), B.cols());
   VecX rhs = VecX::Zero(s.L->n);
@@ -222,7 +294,7 @@ MatX LinearSolver::compliance(const MatX& B) const {
 
 std::optional<MatX> LinearSolver::schur() const {
   const State& s = *state_;
-  if (!s.trailing || s.indefinite) return std::nullopt;
+  if (!s.trailing || s.indefinite || !s.props.empty()) return std::nullopt;
   const MatX L = s.trailing_factor();
   MatX ordered = MatX::Zero(L.rows(), L.rows());
   ordered.selfadjointView<Eigen::Lower>().rankUpdate(L);

@@ -10,7 +10,7 @@ namespace langer {
 bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport& report) {
   const std::optional<VecX> dx = problem.correction();
   if (!dx || !dx->allFinite()) {
-    report.outcome = Outcome::singular, report.why = "the tangent is singular";
+    report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body gives way in many directions at once";
     return false;
   }
   const double longest = dx->lpNorm<Eigen::Infinity>();
@@ -37,7 +37,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     report.residual = now.residual, report.reference = now.reference;
     report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible, "an element is turned inside out or a force is not finite");
+      return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
     const bool balanced = now.residual <= report.tolerance;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     if (report.iterations == options.iterations)

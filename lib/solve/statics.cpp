@@ -104,7 +104,13 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   Assessment out;
   const VecX du = remaining_prescribed(u);
   out.admissible = equilibrium_.assemble(u, with_tangent, &du);
-  if (!out.admissible) return out;
+  if (!out.admissible) {
+    out.missing = equilibrium_.J_min() > 0
+                      ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 709, or the start "
+                        "of the step is too far away"
+                      : "an element is turned inside out";
+    return out;
+  }
   out.residual = free_residual().norm();
   double reference = 0;
   for (const Prescribed& p : equilibrium_.dofs().prescribed) reference += std::pow(equilibrium_.f_int()[p.dof], 2);
@@ -131,7 +137,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
 // K by Cholesky; where it is not positive definite, K with springs on the candidates, which contact_forces() takes out
-// again exactly; where that is not either, K as it is by UMFPACK.
+// again exactly; where that is not either, with props in the body, or without contact as it is by UMFPACK.
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
   ++cost_.factorizations;
@@ -149,10 +155,14 @@ bool Statics::factorize() {
       std::vector<double> K = equilibrium_.K();
       for (int row : last_) K[pattern.column_start[row]] += gamma_;
       if (linear_->factorize(K)) return supported_ = true;
+      if (stiffer < 1000) continue;
+      // The body itself gives way. In a few directions props help; where they are many, the increment was too long: K there
+      // says nothing, and the same point comes within reach by shorter ones.
+      factor_ = Factor::indefinite, ++n_unstable_;
+      return supported_ = linear_->factorize_propped(K);
     }
-    supported_ = false;
   }
-  ++n_unstable_;  // the body gives way even with every candidate held
+  ++n_unstable_;
   factor_ = Factor::indefinite;
   return linear_->factorize_indefinite(equilibrium_.K());
 }

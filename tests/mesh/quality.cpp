@@ -1,5 +1,7 @@
 #include "mesh/quality.hpp"
 
+#include "support/block.hpp"
+
 #include <doctest/doctest.h>
 
 #include "base/error.hpp"
@@ -57,4 +59,18 @@ TEST_CASE("a folded, a flat or an inverted cell is refused with its number, plac
   CHECK(words.find("mm^3 at (") != std::string::npos);
   CHECK(refusal(one_cell([](const Vec3& x) { return Vec3(x[0], x[1], 0); })) != "");
   CHECK(refusal(one_cell([](const Vec3& x) { return Vec3(x[0], x[1], -x[2]); })) != "");
+}
+
+TEST_CASE("two nodes at one place are found, however the rounding falls, and neighbours are not taken for them") {
+  for (double shift : {0.0, 1e-12, 3e-9, 0.1234567}) {
+    CAPTURE(shift);
+    Mesh mesh = test::cube(3);
+    for (Vec3& X : mesh.X) X.array() += shift;
+    CHECK_FALSE(coincident_nodes(mesh, 1e-9));
+    mesh.X.push_back(mesh.X[17] + Vec3(2e-10, -1e-10, 3e-10));
+    const auto pair = coincident_nodes(mesh, 1e-9);
+    REQUIRE(pair);
+    CHECK((*pair)[0] == 17);
+    CHECK((*pair)[1] == mesh.n_nodes() - 1);
+  }
 }

@@ -1,0 +1,64 @@
+# Rungs of the ladder that are refusals: what a mesh or a scene cannot be is said by name, with its place.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(project ${WORK}/project)
+function(refused text yaml)
+  file(WRITE ${project}/m.yaml "${yaml}")
+  run(2 ${BIN}/langer-mesh m.yaml -o m.h5 --quiet)
+  expect_said("${text}")
+  if(EXISTS ${project}/m.h5)
+    message(FATAL_ERROR "a refused mesh was written")
+  endif()
+endfunction()
+set(block "geometry: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n")
+set(corner "{of: top, within: {box: {from: [0, 1, 0], to: [0.2, 1, 0.2]}}}")
+# zero thickness, negative, huge
+foreach(size 0 -1 1e9)
+  refused("m.yaml:1:30: geometry.block.size[1]: found ${size}; expected a number >= 0.001 and <= 1000000 in mm"
+    "geometry: {block: {size: [1, ${size}, 1], divisions: [1, 1, 1]}}\n")
+endforeach()
+# an empty set, a set named twice, a set with the name of a side or of a point
+refused("m.yaml:3:3: sets.a: no node of the mesh is in this set; expected at least one"
+  "${block}sets:\n  a: {of: top, within: {box: {from: [0.1, 1, 0.1], to: [0.2, 1, 0.2]}}}\n")
+refused("m.yaml:4:3: the key \"a\" was already given at line 3" "${block}sets:\n  a: ${corner}\n  a: ${corner}\n")
+refused("sets.top: found the name of a side" "${block}sets:\n  top: ${corner}\n")
+refused("sets.a: found the name of a point" "${block}points: {a: [0, 1, 0]}\nsets:\n  a: ${corner}\n")
+
+# scenes: nothing of the set is there, two values for one place, nothing held
+file(WRITE ${project}/m.yaml "${block}sets:\n  corner: ${corner}\n")
+run(0 ${BIN}/langer-mesh m.yaml -o m.h5 --quiet)
+set(material "material: {include: configs/material/abdomen_hgo_yeoh.yaml}\n")
+function(solve_says code text yaml)
+  file(WRITE ${project}/s.yaml "${material}${yaml}")
+  run(${code} ${BIN}/langer-solve s.yaml --mesh m.h5 -o s.h5 ${ARGN})
+  expect_said("${text}")
+endfunction()
+solve_says(2 "supports[0].on: found \"botom\"; expected a node set of the mesh" "supports:
+  - {on: botom, hold: [x]}
+loads:
+  - {on: top, displacement: {y: 0.1}}
+")
+solve_says(2 "asks for y = 0.1 mm at a node that supports[0] sets to 0 mm" "supports:
+  - {on: x_min, hold: [y]}
+loads:
+  - {on: top, displacement: {y: 0.1}}
+")
+# nothing holds it along z: no unique equilibrium
+solve_says(2 "the supports leave the body free to move along (0, 0, 1)" "supports:
+  - {on: x_min, hold: [x, y]}
+loads:
+  - {on: x_max, displacement: {x: 0.1, y: 0}}
+")
+# a frictionless sphere on a body that may turn about its axis: solved, or refused with the free motion named
+file(WRITE ${project}/s.yaml "${material}supports:
+  - {on: bottom, hold: [y]}
+contacts:
+  sphere: {on: top, rigid: {sphere: {radius: 2, centre: [0.5, 3, 0.5]}}, motion: [{t: 1, to: [0, -0.1, 0]}]}
+")
+execute_process(COMMAND ${BIN}/langer-solve s.yaml --mesh m.h5 -o s.h5 WORKING_DIRECTORY ${project} RESULT_VARIABLE code
+  OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 60)
+expect_said("the supports leave the body 3 rigid motions (2 along, 1 about an axis)")
+if(NOT code EQUAL 0 AND NOT code EQUAL 4)
+  message(FATAL_ERROR "ended with ${code}:\n${said}")
+endif()
+message("a block free to spin: exit ${code}")
