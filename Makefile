@@ -13,7 +13,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run test bench clean help
+.PHONY: all deps configure build plan run test bench ladder clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -54,6 +54,14 @@ bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
 
+# the section "Ladder" of docs/reliability.md from a run of pipelines/extremes.yaml
+ladder:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
+	@awk -v run=runs/extremes -f docs/ladder.awk docs/ladder.csv > runs/extremes/ladder.md; passed=$$?; \
+	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- ladder:/ { print; printf "\n%s\n", table; skip = 1 } \
+	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
+	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
+
 clean:
 	rm -rf $(build)
 
@@ -67,4 +75,5 @@ help:
 	@echo "         STRICT=1             rebuilt programs make their results again"
 	@echo "make test                     set up, build, run every test"
 	@echo "make bench                    time the solver"
+	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make clean                    remove $(build); results in runs/ stay"

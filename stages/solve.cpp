@@ -64,6 +64,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
   StabilityWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   std::string unstable;  // what ended the path, where it was that
+  std::string last_said;  // of the last state's stability
 
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
@@ -72,6 +73,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     statics.restore(state_of(*last, scene), &earlier);
     increment = last->scalars.at("next_increment");
     watch.resume(*last);
+    if (const auto found = last->scalars.find("shear_stiffness_min"); found != last->scalars.end() && found->second < 0)
+      last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), last->t);
   }
   const PathReport path = load_path(
@@ -91,6 +94,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
           watch.keep(stability);
           if (config.stability == StabilityCheck::each_step) watch.add_to(record, stability);
           const std::string words = in_words(stability);
+          last_said = words;
           if (!words.empty() && config.on_unstable == OnUnstable::stop) {
             unstable = fmt::format("unstable at t = {:.6g}: {}", t, words);
             return false;
@@ -115,6 +119,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
             fmt::format("stopped at t = {:.6g} after {} steps: {}{}; smallest increment reached", path.t, file.n_steps(),
                         path.why,
                         (statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : "") +
+                            (last_said.empty() ? "" : "; at the last state " + last_said) +
                             (held_by_contact.empty() ? "" : "; " + held_by_contact)),
             "",
             fmt::format(
