@@ -38,6 +38,13 @@ print("# SYNTHETIC, not measured: made by synthetic_biaxial.py from an incompres
 print(f"# a1 = {a1} MPa, a2 = {a2} MPa, a3 = {a3} MPa, c1 = {c1} MPa, c2 = {c2}, alpha = {alpha} degrees from x towards z")
 print(f"# plus normal noise with a standard deviation of {deviation:.6g} MPa (1 % of the largest stress), seed {seed}.")
 print("# Five planar biaxial protocols; stretches, and nominal stresses in MPa.")
+print("# ---")
+print("# kind: biaxial")
+print("# columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}")
+print("# strain: stretch")
+print("# stress: nominal")
+print("# split: protocol            # one test for each")
+print("# ---")
 print("protocol,lambda_x,lambda_z,P_x_MPa,P_z_MPa")
 for name, lx, lz, px, pz in rows:
     print(f"{name},{lx:.6f},{lz:.6f},{px + generator.gauss(0, deviation):.6f},{pz + generator.gauss(0, deviation):.6f}")

@@ -152,10 +152,17 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
   }
 }
 
+// A config that takes keys from the files it names: static void complete(Tree&), before it is read.
+template <class T>
+concept Completing = requires(Tree& tree) {
+  T::complete(tree);
+};
+
 // Throws one Failure(config) with everything that is wrong.
 template <Listed Config>
 Loaded<Config> read_config(Tree tree) {
   Findings f;
+  if constexpr (Completing<Config>) Config::complete(tree);
   Config config{};
   if (tree.kind == Tree::Kind::map || tree.kind == Tree::Kind::null)
     read_struct(tree, "", config, f);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "config/writer.hpp"
+#include "scene/specimen.hpp"
 
 namespace langer {
 
@@ -23,6 +24,14 @@ std::vector<Complaint> FitData::complaints() const {
                    "columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}"});
   if (!columns && (!split.empty() || !where.empty()))
     all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
+  const std::pair<const char*, bool> of_columns[] = {{"stress", stress.has_value()},
+                                                     {"strain", strain.has_value()},
+                                                     {"stress_unit", stress_unit.has_value()},
+                                                     {"strain_unit", strain_unit.has_value()}};
+  for (const auto& [key, given] : of_columns)
+    if (given && !columns)
+      all.push_back({key, "found without `columns`", "the columns of deformation and stress",
+                     "without them the names of the file's columns tell measure and unit"});
   if (columns && biaxial && columns->strain_z.empty())
     all.push_back({"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes", ""});
   if (columns && !biaxial && !columns->strain_z.empty())
@@ -30,6 +39,12 @@ std::vector<Complaint> FitData::complaints() const {
   if (columns && !columns->stress_z.empty() && (kind == TestKind::uniaxial || kind == TestKind::simple_shear))
     all.push_back({"columns.stress_z", "found in a test without stress along z", "equibiaxial, biaxial or pure_shear", ""});
   return all;
+}
+
+void FitConfig::complete(Tree& tree) {
+  for (auto& entry : tree.map)
+    if (entry.key == "data")
+      for (Tree& item : entry.value.list) add_what_the_file_says(item);
 }
 
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start) {
@@ -138,11 +153,13 @@ std::vector<Test> measured_tests(const FitConfig& config) {
     TestFormat format;
     Test& like = format.like;
     like.name = data.name.empty() ? std::filesystem::path(data.file.path).stem().string() : data.name;
-    like.kind = data.kind, like.measure = data.stress, like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
+    like.kind = data.kind, like.measure = data.stress.value_or(StressMeasure::cauchy);
+    like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
     like.weight = data.standard_deviation ? 1 / *data.standard_deviation : data.weight.value_or(1);
     std::vector<Test> found;
     if (data.columns) {
-      format.strain = data.strain, format.strain_unit = data.strain_unit, format.stress_unit = data.stress_unit;
+      format.strain = data.strain.value_or(StrainMeasure::engineering);
+      format.strain_unit = data.strain_unit.value_or(StrainUnit::fraction), format.stress_unit = data.stress_unit;
       format.strain_x = data.columns->strain_x, format.strain_z = data.columns->strain_z;
       format.stress_x = data.columns->stress_x, format.stress_z = data.columns->stress_z;
       format.where = data.where, format.split = data.split;

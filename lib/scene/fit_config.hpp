@@ -1,5 +1,6 @@
 // What the fit stage's YAML may say.
-//   data:       [{file: ../../data/curve.csv, strain_to: 0.6}]       one test, or several of any kind, fitted together
+//   data:       [{file: ../../data/curve.csv, strain_to: 0.6}]       one test, or several of any kind, fitted together;
+//               what the file says of itself (scene/specimen.hpp) need not stand here, what stands here wins
 //   law:        a material; its numbers are the start values, those not named under `parameters` stay as they are
 //   bounds:     admissible
 //   parameters: [{key: matrix.yeoh.a1}, {key: "fibres[0].alpha", lower: 0, upper: 90}, ...]
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/input_path.hpp"
+#include "config/tree.hpp"
 #include "fit/fit.hpp"
 #include "scene/study_config.hpp"
 
@@ -31,26 +33,28 @@ struct FitData {
   std::string name;
   TestKind kind = TestKind::uniaxial;
   std::optional<FitColumns> columns;
-  StressMeasure stress = StressMeasure::cauchy;
-  StrainMeasure strain = StrainMeasure::engineering;
+  std::optional<StressMeasure> stress;
+  std::optional<StrainMeasure> strain;
   std::optional<StressUnit> stress_unit;
-  StrainUnit strain_unit = StrainUnit::fraction;
+  std::optional<StrainUnit> strain_unit;
   OffAxisShear shear = OffAxisShear::held;
   double fibre_angle = 0;
   std::optional<double> weight, standard_deviation, strain_from, strain_to;
   std::map<std::string, std::string> where;
   std::string split;
   static void fields(auto& v) {
-    v(&FitData::file, "file", unit::none, "measured test, CSV", required);
+    v(&FitData::file, "file", unit::none,
+      "measured test, CSV; keys of this list may stand in its header between lines `# ---`, or in a YAML file of its name",
+      required);
     v(&FitData::name, "name", unit::none, "of the test; by default that of the file");
     v(&FitData::kind, "kind", unit::none, "what the test imposes");
     v(&FitData::columns, "columns", unit::none,
       "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
       "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), for uniaxial, equibiaxial and pure shear tests");
-    v(&FitData::stress, "stress", unit::none, "measure of the stress in `columns`");
-    v(&FitData::strain, "strain", unit::none, "measure of the deformation in `columns`");
+    v(&FitData::stress, "stress", unit::none, "measure of the stress in `columns`; cauchy by default");
+    v(&FitData::strain, "strain", unit::none, "measure of the deformation in `columns`; engineering by default");
     v(&FitData::stress_unit, "stress_unit", unit::none, "where the column's name does not end in _MPa, _kPa or _Pa");
-    v(&FitData::strain_unit, "strain_unit", unit::none, "of the deformation in `columns`");
+    v(&FitData::strain_unit, "strain_unit", unit::none, "of the deformation in `columns`; fraction by default");
     v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
     v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
     v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);
@@ -104,9 +108,11 @@ struct FitConfig {
       between(1, 100000));
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
     v(&FitConfig::check, "check", unit::none, "a second answer by another method; disagreement is a warning");
-    v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
+    v(&FitConfig::study, "study", unit::none,
+      "what the data tell about the parameters, and where the law is stable; {} for all");
   }
   std::vector<Complaint> complaints() const;
+  static void complete(Tree& tree);  // what the measured files say of themselves
 };
 
 // the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it must be admissible;
