@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "fit/csv_table.hpp"
@@ -36,7 +34,6 @@ std::optional<Meaning> meaning(const std::string& name) {
 struct Columns {
   int deformation = -1, stress = -1;
   Meaning of_deformation, of_stress;
-  std::size_t count = 0;
 };
 
 constexpr const char* expected_columns =
@@ -45,7 +42,6 @@ constexpr const char* expected_columns =
 
 Columns read_columns(const std::vector<CsvCell>& header, const Place& place) {
   Columns c;
-  c.count = header.size();
   std::string found;
   for (std::size_t i = 0; i < header.size(); ++i) {
     found += (i ? ", " : "") + header[i].text;
@@ -68,69 +64,44 @@ Columns read_columns(const std::vector<CsvCell>& header, const Place& place) {
 
 }  // namespace
 
-Curve parse_curve(const std::string& text, const std::string& shown_name) {
+Curve curve_of(const CsvTable& table) {
   constexpr std::size_t most_errors = 10;
   Curve curve;
-  std::optional<Columns> columns;
+  const auto few = [&] {
+    return Failure(Exit::input, {{table.name, 0, 0}, "", fmt::format("found {} points", curve.size()), "two at least", ""});
+  };
+  if (table.header.cells.empty()) throw few();
+  const Columns columns = read_columns(table.header.cells, {table.name, table.header.line, 1});
+  curve.measure = columns.of_stress.measure;
   std::vector<Error> errors;
-  std::istringstream in(text);
-  int line_number = 0;
-  for (std::string line; std::getline(in, line) && errors.size() < most_errors;) {
-    ++line_number;
-    if (line_number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    if (line.ends_with('\r')) line.pop_back();
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] == '#') continue;
-    const std::vector<CsvCell> row = csv_cells(line);
-    if (!columns) {
-      columns = read_columns(row, {shown_name, line_number, 1});
-      curve.measure = columns->of_stress.measure;
-      continue;
-    }
-    if (row.size() != columns->count) {
-      errors.push_back({{shown_name, line_number, 1},
-                        "",
-                        fmt::format("found {} cells", row.size()),
-                        fmt::format("{}, as in the line that names the columns", columns->count),
-                        ""});
-      continue;
-    }
+  for (const CsvRow& row : table.rows) {
+    const auto say = [&](const CsvCell& cell, std::string found, std::string expected) {
+      if (errors.size() < most_errors)
+        errors.push_back({{table.name, row.line, cell.column}, "", std::move(found), std::move(expected), ""});
+    };
     const auto value = [&](int column, const Meaning& m) {
-      const CsvCell& cell = row[static_cast<std::size_t>(column)];
+      const CsvCell& cell = row.cells[static_cast<std::size_t>(column)];
       const auto x = csv_number(cell.text);
       if (x && std::isfinite(*x)) return m.factor * *x + m.offset;
-      errors.push_back({{shown_name, line_number, cell.column},
-                        "",
-                        cell.text.empty() ? "found nothing" : "found " + cell.text,
-                        "a finite number",
-                        ""});
+      say(cell, cell.text.empty() ? "found nothing" : "found " + cell.text, "a finite number");
       return 0.;
     };
-    const std::size_t before = errors.size();
-    const double strain = value(columns->deformation, columns->of_deformation);
-    const double stress = value(columns->stress, columns->of_stress);
-    if (errors.size() == before && !(strain > -1))
-      errors.push_back({{shown_name, line_number, row[static_cast<std::size_t>(columns->deformation)].column},
-                        "",
-                        fmt::format("found the stretch {}", 1 + strain),
-                        "a stretch > 0",
-                        ""});
+    const double strain = value(columns.deformation, columns.of_deformation);
+    const double stress = value(columns.stress, columns.of_stress);
+    if (!(strain > -1))
+      say(row.cells[static_cast<std::size_t>(columns.deformation)], fmt::format("found the stretch {}", 1 + strain),
+          "a stretch > 0");
     curve.strain.push_back(strain);
     curve.stress.push_back(stress);
   }
   if (!errors.empty()) throw Failure(Exit::input, errors);
-  if (curve.size() < 2)
-    throw Failure(Exit::input, {{shown_name, 0, 0}, "", fmt::format("found {} points", curve.size()), "two at least", ""});
+  if (curve.size() < 2) throw few();
   return curve;
 }
 
-Curve read_curve(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw Failure(Exit::input, {{path, 0, 0}, "", "cannot be read, or is empty", "a CSV file with a measured curve", ""});
-  return parse_curve(text.str(), path);
-}
+Curve parse_curve(const std::string& text, const std::string& shown_name) { return curve_of(parse_table(text, shown_name)); }
+
+Curve read_curve(const std::string& path) { return curve_of(read_table(path)); }
 
 Curve between_strains(const Curve& curve, double strain_from, double strain_to) {
   Curve part;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/csv_table.hpp"
 #include "material/uniaxial.hpp"
 
 namespace langer {
@@ -21,6 +22,7 @@ struct Curve {
   std::size_t size() const { return strain.size(); }
 };
 
+Curve curve_of(const CsvTable& table);                                            // throws Failure(input)
 Curve read_curve(const std::string& path);                                        // throws Failure(input)
 Curve parse_curve(const std::string& text, const std::string& shown_name);        // for tests
 Curve between_strains(const Curve& curve, double strain_from, double strain_to);  // both ends included

@@ -12,12 +12,23 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
+// whether a change of the parameter by its size is not felt in first order
+bool without_first_effect(const LeastSquares& q, const MatX& J, Eigen::Index i) {
+  return J.col(i).norm() * q.typical[i] < 1e-6 * q.size;
+}
+
 double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
   const VecX g = J.transpose() * r;
   double worst = 0;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     const double norm = J.col(i).norm();
     if (norm == 0) continue;
+    if (without_first_effect(q, J, i)) {
+      const double t = q.typical[i];
+      const double moved = std::min(std::max(p[i] - g[i] * t * t / (q.size * q.size), q.lower[i]), q.upper[i]) - p[i];
+      worst = std::max(worst, std::abs(moved) / t);
+      continue;
+    }
     const double moved = std::min(std::max(p[i] - g[i] / (norm * norm), q.lower[i]), q.upper[i]) - p[i];
     worst = std::max(worst, norm * std::abs(moved) / q.size);
   }
@@ -25,15 +36,59 @@ double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const M
 }
 
 // the damped linear problem in the box: min |J d + r|^2 + mu |D d|^2
-VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D, double mu) {
+// curvature: of the residual, beyond J^T J
+VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D, const VecX& curvature,
+                 double mu) {
   const Eigen::Index m = J.rows(), n = J.cols();
   // in units of D, so that a stiff and a soft parameter count alike
   MatX A(m + n, n);
   A.topRows(m) = J * D.cwiseInverse().asDiagonal();
-  A.bottomRows(n) = std::sqrt(mu) * MatX::Identity(n, n);
+  A.bottomRows(n) = (mu + curvature.array() / D.array().square()).sqrt().matrix().asDiagonal();
   VecX b = VecX::Zero(m + n);
   b.head(m) = -r;
   return bounded_linear(A, b, D.cwiseProduct(q.lower - p), D.cwiseProduct(q.upper - p)).cwiseQuotient(D);
+}
+
+// r . d2r/dp_i^2 where it is positive: what Gauss and Newton leave out
+VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
+  VecX curvature = VecX::Zero(p.size()), moved = p, above, below;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) continue;
+    const double h = std::min({1e-3 * std::max(std::abs(p[i]), q.typical[i]), p[i] - q.lower[i], q.upper[i] - p[i]});
+    if (!(h > 0)) continue;
+    moved[i] = p[i] + h;
+    const bool up = q.residual(moved, above) && above.allFinite();
+    moved[i] = p[i] - h;
+    const bool down = q.residual(moved, below) && below.allFinite();
+    moved[i] = p[i];
+    if (up && down) curvature[i] = std::max(0., r.dot(above - 2 * r + below) / (h * h));
+  }
+  return curvature;
+}
+
+// A place to go on from, along a parameter without first effect; p itself if there is none: beside p where the cost is lower,
+// or anywhere in the box where it is the same and other parameters have become free to lower it.
+VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
+  const double rounding = 1e-13 * q.size * q.size;
+  VecX best = p, moved = p, other, level = p;
+  MatX J_other;
+  double most = rounding;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    if (!without_first_effect(q, J, i)) continue;
+    const auto gain_at = [&](double x) {
+      moved[i] = std::min(std::max(x, q.lower[i]), q.upper[i]);
+      return q.residual(moved, other) && other.allFinite() ? 0.5 * (r - other).dot(r + other) : -q.size * q.size;
+    };
+    for (double part : {1e-3, -1e-3, 1e-2, -1e-2, 1e-1, -1e-1})
+      if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most) most = gained, best = moved;
+    const double width = q.upper[i] - q.lower[i];
+    for (int k = 1; k < 8 && std::isfinite(width) && level == p; ++k)
+      if (std::abs(gain_at(q.lower[i] + k * width / 8)) <= rounding && jacobian(q, moved, J_other) &&
+          kkt_residual(q, moved, other, J_other) > 1e-6)
+        level = moved;
+    moved[i] = p[i];
+  }
+  return best == p ? level : best;
 }
 
 }  // namespace
@@ -104,27 +159,41 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
     return s;
   }
   s.cost = 0.5 * s.r.squaredNorm();
-  VecX D = VecX::Zero(s.p.size());
+  VecX D = VecX::Zero(s.p.size()), curvature = D;
   double mu = 1e-3, growth = 2;
+  constexpr int slow = 25;  // iterations after which a search is
+  int asides = 0;
+  const auto moved_aside = [&] {
+    if (++asides > 10) return false;
+    const VecX p = aside(q, s.p, s.r, s.J);
+    VecX r;
+    MatX J;
+    if (p == s.p || !q.residual(p, r) || !jacobian(q, p, J)) return false;
+    s.p = p, s.r = r, s.J = J, s.cost = 0.5 * r.squaredNorm();
+    D.setZero(), mu = 1e-3, growth = 2;
+    return true;
+  };
   for (s.iterations = 0; s.iterations < options.iterations; ++s.iterations) {
     s.kkt = kkt_residual(q, s.p, s.r, s.J);
     if (s.kkt <= options.kkt) {
+      if (moved_aside()) continue;
       s.converged = true, s.why = "optimal";
       break;
     }
     D = D.cwiseMax(s.J.colwise().norm().transpose());
     for (Eigen::Index i = 0; i < D.size(); ++i)
       if (D[i] == 0) D[i] = 1 / std::max(q.typical[i], eps);
+    if (s.iterations >= slow) curvature = residual_curvature(q, s.p, s.r);
 
     bool accepted = false;
     while (!accepted && mu < 1e12) {
-      const VecX d = damped_step(q, s.p, s.r, s.J, D, mu);
+      const VecX d = damped_step(q, s.p, s.r, s.J, D, curvature, mu);
       const VecX p = (s.p + d).cwiseMax(q.lower).cwiseMin(q.upper);
       VecX r;
       const bool exists = q.residual(p, r) && r.allFinite();
       //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
       const VecX Jd = s.J * d;
-      const double predicted = -s.r.dot(Jd) - 0.5 * Jd.squaredNorm();
+      const double predicted = -s.r.dot(Jd) - 0.5 * Jd.squaredNorm() - 0.5 * curvature.dot(d.cwiseAbs2());
       //   |r_old|^2 - |r_new|^2 = (r_old - r_new).(r_old + r_new), which keeps its digits near the optimum
       const double gained = exists ? 0.5 * (s.r - r).dot(s.r + r) : -1;
       if (exists && predicted > 0 && gained > 0) {
@@ -142,6 +211,7 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
       mu = std::max(mu, 1e-15) * growth, growth *= 2;
     }
     if (!accepted) {
+      if (moved_aside()) continue;
       s.converged = s.kkt <= good_enough;
       s.why = s.converged ? "optimal within rounding" : "no step lowers the cost";
       break;

@@ -5,6 +5,10 @@
 //   size       size of the residuals that counts as one: the norm of the data. kkt is relative to it.
 // kkt = max over parameters of |J_i| |P(p_i - g_i/|J_i|^2) - p_i| / size, with g = J^T r, J_i a column, P the projection on
 // the box: without bounds it is |g_i| / (|J_i| size), the cosine of the unexplained part with what p_i can explain.
+// A parameter may have no first effect, |J_i| typical_i < 1e-6 size, as a fibre angle has where a test is symmetric: there the
+// gradient itself counts, |g_i| typical_i / size^2, and the search goes on if a step to either side lowers the cost, or if it
+// changes nothing and lets others lower it (dispersed fibres have no angle).
+// Near such a place the curvature of the residual decides, not J: where a search gets slow its diagonal is added to J^T J.
 #pragma once
 
 #include <functional>

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.hpp"
@@ -222,4 +223,25 @@ TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
     CHECK(x[i].value == y[i].value);
     CHECK(x[i].high == y[i].high);
   }
+}
+
+TEST_CASE("profiles and bootstrap tell how far they are, growing to the whole, on any number of threads") {
+  const FitProblem q = exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
+                             {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});
+  const auto maker = [&] { return least_squares_problem(q); };
+  std::vector<double> told;
+  const auto listen = [&](double part) { told.push_back(part); };
+  BootstrapOptions draws;
+  draws.samples = 10, draws.threads = 3, draws.progress = listen;
+  bootstrap(maker, vec({0.05, 0.10}), 0.005, draws);
+  CHECK(told.size() == 10);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.back() == 1);
+  told.clear();
+  ProfileOptions options;
+  options.threads = 2, options.progress = listen;
+  profiles(maker, vec({0.05, 0.10}), vec({0.002, 0.004}), 0.005, options);
+  CHECK(told.size() == 4);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.back() == 1);
 }

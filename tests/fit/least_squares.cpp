@@ -214,3 +214,34 @@ TEST_CASE("the covariance of a straight line is the textbook's, and covers the t
   // binomial: 3 standard deviations are 1.5 percent
   CHECK(std::abs(covered / double(trials) - 0.95) <= 0.015);
 }
+
+TEST_CASE("A start where a parameter has no first effect is no optimum unless both sides are higher") {
+  LeastSquares q;  // r = (p^2 - 1, 0.1 p^2): at p = 0 flat and a maximum of the cost, least at p^2 = 1/1.01
+  q.residual = [](const VecX& p, VecX& r) {
+    r = vec({p[0] * p[0] - 1, 0.1 * p[0] * p[0]});
+    return true;
+  };
+  q.start = vec({0}), q.lower = vec({-5}), q.upper = vec({5}), q.typical = vec({1}), q.size = 1;
+  const auto s = least_squares(q);
+  CHECK(s.converged);
+  CHECK(s.kkt <= 1e-8);
+  CHECK(std::abs(s.p[0]) == doctest::Approx(std::sqrt(1 / 1.01)).epsilon(1e-9));
+  // at a bound there is one side only
+  q.lower = vec({0});
+  CHECK(least_squares(q).p[0] == doctest::Approx(std::sqrt(1 / 1.01)).epsilon(1e-9));
+
+  // here the flat place is the optimum: reached from far, where J^T J alone tells nothing of the curvature
+  q.residual = [](const VecX& p, VecX& r) {
+    r = vec({2 - std::cos(p[0]) + p[1], 1 + 0.3 * p[1]});
+    return true;
+  };
+  q.lower = vec({-1, -0.5}), q.upper = vec({2, 5}), q.typical = vec({1, 1}), q.size = 2;
+  for (const VecX& start : {vec({0, 0}), vec({1.2, 2}), vec({-0.9, -0.2})}) {
+    q.start = start;
+    const auto flat = least_squares(q);
+    CHECK(flat.converged);
+    CHECK(flat.kkt <= 1e-8);
+    CHECK(std::abs(flat.p[0]) <= 1e-6);
+    CHECK(flat.p[1] == -0.5);
+  }
+}
