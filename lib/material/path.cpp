@@ -2,57 +2,39 @@
 
 #include <cmath>
 
-#include "tensor/kinematics.hpp"
-#include "tensor/stress.hpp"
+#include "material/states.hpp"
 
 namespace langer {
 
 namespace {
 
-// every fibre along x: the lateral stretches of a pull are equal by symmetry
-bool axial(const Material& material) {
-  for (const Fibre& fibre : material.fibres)
-    if (fibre.alpha_deg != 0) return false;
-  return true;
+TestKind kind(Path path) {
+  switch (path) {
+    case Path::uniaxial:
+      return TestKind::uniaxial;
+    case Path::equibiaxial:
+      return TestKind::equibiaxial;
+    case Path::pure_shear:
+      return TestKind::pure_shear;
+    case Path::simple_shear:
+      break;
+  }
+  return TestKind::simple_shear;
 }
 
 }  // namespace
 
 PathState on_path(const Material& material, Path path, double amount) {
+  const TestKind test = kind(path);
+  const bool slides = test == TestKind::simple_shear;
+  const PlaneState state = plane_state(material, fibre_directions(material), test, slides ? amount : 1 + amount);
   PathState s;
-  const double l = 1 + amount;
-  if (path != Path::simple_shear && !(l > 0)) return s;
-  switch (path) {
-    case Path::uniaxial:
-      if (axial(material)) {
-        s.F = Vec3(l, 1 / std::sqrt(l), 1 / std::sqrt(l)).asDiagonal();
-      } else {
-        const Uniaxial u = uniaxial_incompressible(material, l);
-        if (!u.converged) return s;
-        s.F = u.stretch.asDiagonal();
-      }
-      break;
-    case Path::equibiaxial:
-      s.F = Vec3(l, 1 / (l * l), l).asDiagonal();
-      break;
-    case Path::pure_shear:
-      s.F = Vec3(l, 1 / l, 1).asDiagonal();
-      break;
-    case Path::simple_shear:
-      s.F(0, 2) = amount;
-      break;
-  }
-  const Response r = isochoric(material, right_cauchy_green(s.F), fibre_directions(material), false);
-  const Mat3 sigma = cauchy(s.F, r.S, 1.);
-  s.W = r.W;
-  if (path == Path::simple_shear) {
-    s.cauchy = s.nominal = s.work = sigma(0, 2);
-  } else {
-    s.cauchy = sigma(0, 0) - sigma(1, 1);
-    s.nominal = s.cauchy / l;
-    s.work = path == Path::equibiaxial ? 0.5 * (s.cauchy + sigma(2, 2) - sigma(1, 1)) / l : s.nominal;
-  }
-  s.exists = std::isfinite(s.W) && std::isfinite(s.cauchy);
+  if (!state.converged) return s;
+  const auto nominal = measured_stress(state, test, StressMeasure::nominal);
+  s.exists = true, s.F = state.F, s.W = state.W;
+  s.cauchy = measured_stress(state, test, StressMeasure::cauchy)[0];
+  s.nominal = nominal[0];
+  s.work = path == Path::equibiaxial ? 0.5 * (nominal[0] + nominal[1]) : nominal[0];
   return s;
 }
 

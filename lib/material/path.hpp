@@ -1,9 +1,6 @@
-// Homogeneous tests of a thin sheet of incompressible material in the x-z plane, in which the fibres lie; y is its thickness.
-//   uniaxial      pulled along x, faces y and z free, shear held (material/uniaxial.hpp)
-//   equibiaxial   pulled along x and z alike          F = diag(l, 1/l^2, l)
-//   pure_shear    pulled along x, z held              F = diag(l, 1/l, 1)
-//   simple_shear  F = I + g e_x e_z
-//   amount  engineering strain l - 1, or g;  stresses in MPa
+// The tests that stability and sensitivity look along: states of material/states.hpp with one amount each, shear held.
+//   uniaxial, equibiaxial, pure_shear   amount = engineering strain l - 1;   simple_shear   amount = g
+//   stresses in MPa
 // A fibre at 0 degrees lies along x; `turned` gives the same sheet cut at another angle.
 #pragma once
 

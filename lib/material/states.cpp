@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -97,6 +98,11 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   return s->scale == 0 || steepness(*s) <= acceptable;
 }
 
+// every fibre along x: width and thickness of a pull are equal by symmetry
+bool axial(std::span<const Vec3> a) {
+  return std::all_of(a.begin(), a.end(), [](const Vec3& one) { return one[1] == 0 && one[2] == 0; });
+}
+
 }  // namespace
 
 PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind, double first, double second,
@@ -108,9 +114,10 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
   PlaneState state;
   if (!(lambda_x > 0) || !(lambda_z > 0) || !std::isfinite(lambda_x * lambda_z) || !std::isfinite(first)) return state;
   Vec2 q(std::log(lambda_z), slides ? first : 0);
-  const bool free_width = kind == TestKind::uniaxial, free_shear = shear == OffAxisShear::free && !slides && !a.empty();
+  const bool off_axis = !axial(a), free_width = kind == TestKind::uniaxial && off_axis;
+  const bool free_shear = shear == OffAxisShear::free && !slides && off_axis;
   Vec6 S;
-  if (free_width && (free_shear || !a.empty())) {
+  if (free_width) {
     if (!solve({material, a, lambda_x, true, free_shear}, q, S, state.W)) return state;
     state.F = gradient(lambda_x, std::exp(q[0]), q[1]);
   } else if (free_shear) {
