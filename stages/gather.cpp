@@ -2,10 +2,12 @@
 // figures and maps of all members.
 #include "post/gather.hpp"
 #include "post/gnuplot.hpp"
+#include "scene/design_tables.hpp"
 #include "scene/gather_config.hpp"
 #include "scene/pictures.hpp"
 #include "scene/sweep_file.hpp"
 #include "stage.hpp"
+#include "store/material_file.hpp"
 #include "store/seal.hpp"
 
 namespace langer {
@@ -33,6 +35,25 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
   return found;
 }
 
+// What figures may draw of a member: the columns and maps of curves.h5; of a fit strain, measured stress, model and error.
+Curves curves_in(const std::string& file) {
+  const std::string schema = read_origin(file).schema;
+  if (schema == curves_schema.name) return read_curves(file).curves;
+  Curves curves;
+  if (schema != material_schema.name) return curves;
+  const std::optional<FitRecord> fit = read_material(file).fit;
+  if (!fit) return curves;
+  double largest = 0;
+  for (double s : fit->stress) largest = std::max(largest, std::abs(s));
+  std::vector<double> error;
+  for (std::size_t i = 0; i < fit->model.size(); ++i) error.push_back(100 * (fit->model[i] - fit->stress[i]) / largest);
+  curves.columns = {{"strain", "-", fit->strain},
+                    {"measured", "MPa", fit->stress},
+                    {"model", "MPa", fit->model},
+                    {"error", "percent", error}};
+  return curves;
+}
+
 SweepColumn differences(const Job<GatherConfig>& job, const Members& members, const std::string& name,
                         const std::vector<const SurfaceMap*>& maps) {
   const MapComparison& compare = *job.config.maps.at(name).compare;
@@ -48,6 +69,31 @@ SweepColumn differences(const Job<GatherConfig>& job, const Members& members, co
   SweepColumn column{name + "_difference", "percent", {}};
   for (const SurfaceMap* map : maps) column.values.push_back(100 * difference(*map, reference, compare.beyond));
   return column;
+}
+
+// The effects of a design on each column, with the values of its points as columns of the table.
+std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design, Sweep& sweep,
+                                          Pictures& pictures) {
+  const std::vector<VecX> points = design_points(design);
+  if (sweep.members.size() != points.size())
+    throw Failure(Exit::config, Error{job.where("axes[0].design"), "axes[0].design",
+                                      fmt::format("{} members for {} points", sweep.members.size(), points.size()),
+                                      "one member for each point, in their order", ""});
+  std::vector<QuantityEffects> effects;
+  for (const SweepColumn& c : sweep.columns) {
+    effects.push_back(effects_of(design, c.name, c.unit, c.values));
+    for (const std::string& line : effects_lines(design, effects.back())) job.say("{}", line);
+    if (!design.figures) continue;
+    if (design.one_at_a_time || design.morris) pictures.draw("effects_" + c.name, bars(effects_bars(design, effects.back())));
+    if (design.sobol) pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back())));
+  }
+  for (std::size_t j = design.parameters.size(); j-- > 0;) {
+    SweepColumn column{short_name(design.parameters[j]), design.parameters[j].unit, {}};
+    for (const VecX& p : points) column.values.push_back(p[static_cast<Eigen::Index>(j)]);
+    sweep.columns.insert(sweep.columns.begin(), std::move(column));
+  }
+  write_text_file(job.beside("effects.csv"), effects_csv(design, effects));
+  return effects;
 }
 
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
@@ -70,15 +116,15 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
                                        "a file with a summary",
                                        "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
     if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
-    if (drawn) {
-      const bool has_curves = read_origin(files[i]).schema == curves_schema.name;
-      members.push_back({member.at, member.summary, has_curves ? read_curves(files[i]).curves : Curves{}});
-    }
+    if (drawn) members.push_back({member.at, member.summary, curves_in(files[i])});
     inputs.push_back(std::move(member));
   }
   Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
 
   Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  std::vector<QuantityEffects> effects;
+  const Design* design = config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
+  if (design) effects = effects_over(job, *design, sweep, pictures);
   for (const auto& [name, map] : config.maps) {
     const auto maps = maps_of(job, sweep, members, name);
     if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
@@ -93,7 +139,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     pictures.draw(name, gnuplot_script(data.plot, name));
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
-  write_sweep(job.output, job.beside("table.csv"), sweep, job.identity);
+  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity);
   job.say("{} rows, {} columns, {} figures", sweep.members.size(), sweep.axes.size() + sweep.columns.size(),
           config.figures.size() + config.maps.size());
   return {};

@@ -66,7 +66,8 @@ class Expansion {
           for (std::size_t i = 0; i < axis.points.size(); ++i) folders[member_folder(axis, i)] = axis.name;
           continue;
         }
-        const bool agree = std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(), (*same)->points.end(),
+        const bool agree = to_text(axis.design) == to_text((*same)->design) &&
+                           std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(), (*same)->points.end(),
                                       [](const AxisPoint& a, const AxisPoint& b) { return a.label == b.label; });
         if (!agree)
           f_.say(axis.place, fmt::format("nodes.{}.sweep.{}", n.name, axis.name),
@@ -260,6 +261,7 @@ class Expansion {
       Tree one;
       one.kind = Tree::Kind::map;
       one.map = {{"name", text_tree(axis->name)}, {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
+      if (axis->design.kind == Tree::Kind::map) one.map.push_back({"design", axis->design});
       axis_list.list.push_back(one);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {

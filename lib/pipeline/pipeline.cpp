@@ -7,6 +7,7 @@
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
+#include "scene/design.hpp"
 
 namespace langer::pipeline {
 
@@ -184,13 +185,16 @@ class Reading {
             point.settings = settings(value, here);
           a.points.push_back(std::move(point));
         }
+    } else if (const Tree* design = tree.find("design")) {
+      known_keys(tree, path, {"design"});
+      points_of(*design, path + ".design", a);
     } else {
-      known_keys(tree, path, {"key", "keys", "values", "unit", "variants"});
+      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design"});
       if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
       std::vector<std::string> keys;
       for (const char* word : {"key", "keys"})
         if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
-      if (keys.empty()) f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants");
+      if (keys.empty()) f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, or design");
       for (const std::string& key : keys)
         if (split_path(key).empty())
           f.say(tree.place, path, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
@@ -198,6 +202,29 @@ class Reading {
     }
     check_points(a, path);
     return a;
+  }
+
+  void points_of(const Tree& tree, const std::string& path, Axis& a) {
+    constexpr std::size_t most = 10'000;
+    Design design;
+    const std::size_t before = f.errors.size();
+    read_value(tree, path, Member{}, design, f);
+    if (f.errors.size() > before) return a.points.push_back({"1", {}, {}});  // enough is said
+    const std::vector<VecX> points = design_points(design);
+    if (points.size() > most)
+      return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most",
+                   "fewer trajectories or samples");
+    a.numbers = true;
+    a.design = to_tree(design);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      AxisPoint point{std::to_string(i + 1), {}, {}};
+      for (std::size_t j = 0; j < design.parameters.size(); ++j) {
+        Tree value = plain_tree(number_text(points[i][static_cast<Eigen::Index>(j)]));
+        value.place = tree.place;
+        point.settings.push_back({design.parameters[j].key, value});
+      }
+      a.points.push_back(std::move(point));
+    }
   }
 
   void values(const Tree& tree, const std::string& path, const std::vector<std::string>& keys, Axis& a) {

@@ -10,6 +10,8 @@
 //     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
 //     table: {stage: gather, curves: post, over: [code, alpha]}
 //
+// An axis may also be a design of experiments: {design: {parameters: [{key, lower, upper}], morris: {trajectories: 6}}}; its
+// points are numbered, and the node that gathers over it tells effects (scene/design.hpp).
 // A variant is a map of settings, or the path of a config in place of the node's. A port takes a node's name, one member of it
 // ({node: fit, law: HGO-Yeoh}) or a file.
 // `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to the working directory. An axis
@@ -38,6 +40,7 @@ struct Axis {
   std::string name, unit;
   bool numbers = false;  // all labels are numbers
   std::vector<AxisPoint> points;
+  Tree design;  // canonical, where the axis is one
   Place place;
 };
 

@@ -21,6 +21,9 @@ std::vector<Complaint> SweepFigure::complaints() const {
   for (std::size_t i = 0; i < markers.size(); ++i)
     if (std::find(y.begin(), y.end(), markers[i]) == y.end())
       found.push_back({fmt::format("markers[{}]", i), markers[i], "one of y: " + list_words(y), ""});
+  for (std::size_t i = 0; i < once.size(); ++i)
+    if (std::find(y.begin(), y.end(), once[i]) == y.end())
+      found.push_back({fmt::format("once[{}]", i), once[i], "one of y: " + list_words(y), ""});
   return found;
 }
 
@@ -107,12 +110,14 @@ class Drawer {
   std::string legend(std::size_t i, const std::string& member) const {
     const std::string name = figure_.legends.empty() ? literal(figure_.y[i]) : figure_.legends[i];
     if (member.empty()) return name;
-    return figure_.y.size() == 1 && figure_.legends.empty() ? member : name + ", " + member;
+    const bool alone = figure_.y.size() == figure_.once.size() + 1;  // of those drawn for each member
+    return alone && figure_.legends.empty() ? member : name + ", " + member;
   }
   // several y of several members: colours are the y, dashes the members
   void add_line(const std::string& x, const std::string& y, std::size_t i, std::size_t member, const std::string& member_name) {
     PlotLine line{file_, x, y, legend(i, member_name)};
-    if (figure_.y.size() > 1 && !member_name.empty()) line.colour = static_cast<int>(i), line.dash = static_cast<int>(member);
+    if (figure_.y.size() > figure_.once.size() + 1 && !member_name.empty())
+      line.colour = static_cast<int>(i), line.dash = static_cast<int>(member);
     line.points = std::find(figure_.markers.begin(), figure_.markers.end(), figure_.y[i]) != figure_.markers.end();
     data_.plot.lines.push_back(line);
   }
@@ -166,9 +171,12 @@ class Drawer {
       data_.plot.rows = std::max(data_.plot.rows, static_cast<int>(x.values.size()));
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
         const Column& y = column(m, fmt::format("y[{}]", i), figure_.y[i]);
+        const bool once = std::find(figure_.once.begin(), figure_.once.end(), figure_.y[i]) != figure_.once.end();
+        if (once && k > 0) continue;
         take_unit(i, y.unit);
         const std::string y_head = table_.add(csv_name(y.name + ending, y.unit), y.values);
-        add_line(x_head, y_head, i, k, m.at.empty() ? ending.substr(1) : literal(member_text(figure_.member, axes_, m.at)));
+        const std::string name = m.at.empty() ? ending.substr(1) : literal(member_text(figure_.member, axes_, m.at));
+        add_line(x_head, y_head, i, k, once ? "" : name);
       }
     }
   }

@@ -20,7 +20,7 @@ namespace langer {
 
 struct SweepFigure {
   std::string x;
-  std::vector<std::string> y, legends, markers;
+  std::vector<std::string> y, legends, markers, once;
   std::string title, member;
   std::optional<std::string> x_label, y_label;
   static void fields(auto& v) {
@@ -30,6 +30,8 @@ struct SweepFigure {
     v(&SweepFigure::legends, "legends", unit::none, "one for each y; by default the names");
     v(&SweepFigure::markers, "markers", unit::none,
       "those of y that are drawn as open markers without a line, to be seen on curves that they coincide with");
+    v(&SweepFigure::once, "once", unit::none,
+      "those of y that are the same for every member, such as what was measured: drawn for the first");
     v(&SweepFigure::member, "member", unit::none,
       "in legends: what a member is called, {} stands for its value on the axes; by default the value and its unit");
     v(&SweepFigure::title, "title", unit::none, "above the figure");

@@ -7,14 +7,17 @@
 
 #include "base/fields.hpp"
 #include "post/sweep_figure.hpp"
+#include "scene/design.hpp"
 
 namespace langer {
 
 struct GatherAxis {
   std::string name, unit = "-";
+  std::optional<Design> design;
   static void fields(auto& v) {
     v(&GatherAxis::name, "name", unit::none, "name of the column", required);
     v(&GatherAxis::unit, "unit", unit::none, "unit of the values; - for words and pure numbers");
+    v(&GatherAxis::design, "design", unit::none, "the values number the points of this design: effects are told");
   }
 };
 
@@ -48,6 +51,10 @@ struct GatherConfig {
       if (members[i].at.size() != axes.size())
         all.push_back({"members[" + std::to_string(i) + "].at", "found " + std::to_string(members[i].at.size()) + " values",
                        "one for each of the " + std::to_string(axes.size()) + " axes", ""});
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      if (axes[i].design && axes.size() > 1)
+        all.push_back({"axes[" + std::to_string(i) + "].design", "a design beside other axes", "the design as the only axis",
+                       "gather it alone: name one member of the other axes, or give each its own pipeline"});
     for (const auto& [name, figure] : figures)
       if (maps.count(name) || name == "table" || !is_column_name(name))
         all.push_back({"figures." + name, "the name " + name, "another name: letters, digits, _, + and - only",

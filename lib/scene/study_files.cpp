@@ -107,7 +107,7 @@ std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const std:
   Bars b;
   for (const Zone& z : r.zones) b.groups.push_back(fmt::format("strain {:g} to {:g}", z.from, z.to));
   for (const RankedNumber& p : r.parameters) b.series.push_back(p.name);
-  b.title = "one at a time: mu* over the range", b.y_label = "MPa";
+  b.title = "effect of each parameter over its range, one at a time", b.y_label = "μ* (MPa)";
   b.values = over_range(r, zone_means(r.effects.mu_star, r.strain, r.zones));
   pictures.draw("effects_by_zone", bars(b));
   const auto draw = [&](const std::string& name, const std::string& title, const std::string& unit, const Estimate& e) {
@@ -115,8 +115,8 @@ std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const std:
     pictures.draw(name, bars(b));
   };
   if (r.morris) {
-    draw("morris_by_zone", "Morris trajectories: mu* with 95 % intervals", "MPa", r.morris->group_mu_star);
-    draw("morris_sigma_by_zone", "Morris trajectories: sigma, curvature and interaction", "MPa", r.morris->group_sigma);
+    draw("morris_by_zone", "Morris trajectories: μ* with 95 % intervals", "μ* (MPa)", r.morris->group_mu_star);
+    draw("morris_sigma_by_zone", "Morris trajectories: σ, curvature and interaction", "σ (MPa)", r.morris->group_sigma);
   }
   if (r.sobol) {
     draw("sobol_by_zone", "Sobol: total share of the variance with 95 % intervals", "share", r.sobol->group_total);

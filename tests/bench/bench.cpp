@@ -1,5 +1,5 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
-//   langer-bench [case ...]     cases: assembly, indentation, solvers; only when named: paper, grading, sobol
+//   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol; only when named: paper, grading
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -13,6 +13,8 @@
 #include "support/laws.hpp"
 
 using namespace langer;
+
+void measure_fit();  // fit.cpp
 
 namespace {
 
@@ -136,6 +138,7 @@ int main(int argc, char** argv) {
     scene.step = 0.1, scene.depth = 1;
     measure("the same to 1 mm in steps of 0.1 mm", scene, skin);
   }
+  if (wanted("fit")) measure_fit();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper")) measure("the paper's 100 steps of 0.01 mm", paper_block(), skin);
   if (asked.count("grading")) {

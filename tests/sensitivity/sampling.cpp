@@ -1,6 +1,7 @@
 // Morris and Sobol on functions whose effects and shares are known in closed form.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,4 +157,23 @@ TEST_CASE("Results do not depend on the number of threads, and points without a 
   CHECK(m.trajectories + m.without_curve == 50);
   CHECK(equal(m.mu_star.low, n.mu_star.low));
   CHECK(equal(m.sigma.value, n.sigma.value));
+}
+
+TEST_CASE("Sobol and Morris tell how far they are, growing to the whole, on any number of threads") {
+  const auto phi = [](const VecX& p, VecX& y) {
+    y = p;
+    return true;
+  };
+  std::vector<double> told;
+  SamplingOptions options;
+  options.threads = 3, options.progress = [&](double part) { told.push_back(part); };
+  sobol(same(phi), vec({0, 0}), vec({1, 1}), 640, options);
+  CHECK(told.size() > 9);  // in tenths at least
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.back() == 1);
+  told.clear();
+  morris(same(phi), vec({0, 0}), vec({1, 1}), 20, 4, options);
+  CHECK(told.size() == 20);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.back() == 1);
 }
