@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "assembly/equilibrium.hpp"
+#include "base/stopwatch.hpp"
 #include "mesh/quality.hpp"
+#include "scene/dry_run.hpp"
 #include "scene/progress.hpp"
 #include "scene/scene.hpp"
 #include "scene/stability_watch.hpp"
@@ -50,12 +52,14 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const Scene scene = make_scene(config, mesh, material, job.where);
   Equilibrium body(mesh, scene.materials, config.formulation, scene.dofs, config.threads, Kernel::packets, scene.fibres);
   const FibreJump jump = largest_jump(mesh, [&](int e) { return body.fibres(e); });
-  if (jump.cell >= 0)
+  if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   StaticsOptions options;
   options.threads = config.threads;
   Statics statics(body, scene.contacts, options);
+  if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
+  need_memory(statics, config.threads);
   SolutionWriter file(job.output, header_of(body, scene, job.identity));
   Progress progress(job.quiet, body, scene);
   const std::string held_by_contact = free_motions(mesh, scene.dofs);
@@ -66,6 +70,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   std::string unstable;  // what ended the path, where it was that
   std::string last_said;  // of the last state's stability
 
+  double files = 0;  // CPU seconds
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
     const auto before = file.before_resumed();
@@ -100,7 +105,10 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
             return false;
           }
         }
-        file.append(record);
+        {
+          const Stopwatch writing(files);
+          file.append(record);
+        }
         progress.accepted(record, report);
         return true;
       });
@@ -126,7 +134,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
                 "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",
                 file.n_steps(), job.output)});
   file.finish();
-  progress.finished(path, statics);
+  progress.finished(path, statics, files);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 
@@ -28,6 +29,7 @@ struct Job {
   Identity identity;
   bool quiet = false;
   bool json = false;
+  bool dry_run = false;  // only with stages that foretell
 
   bool has(const std::string& port) const { return inputs.count(port) > 0; }
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
@@ -39,6 +41,12 @@ struct Job {
   }
 };
 
+// Out of memory, OpenBLAS's own threads may try for ever to get theirs, and exit() would wait for them.
+[[noreturn]] inline void leave_at_once(Exit code) {
+  std::fflush(nullptr);
+  std::_Exit(static_cast<int>(code));
+}
+
 // Runs the body and turns what it throws into a message and an exit code.
 int guarded(const std::string& program, auto&& body) {
   try {
@@ -48,6 +56,7 @@ int guarded(const std::string& program, auto&& body) {
     return static_cast<int>(failure.code());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: out of memory\n", program);
+    leave_at_once(Exit::bug);
   } catch (const std::exception& e) {
     fmt::print(stderr, "{} {} ({}): {}\n  this is a bug, please report it with the command and its files\n", program, version,
                revision, e.what());
@@ -101,9 +110,12 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     option->type_name("FILE")->allow_extra_args(false)->required(port.required);
     if (!port.several) option->expected(1);
   }
-  app.add_option("-o,--output", job.output, fmt::format("main output file, for example {}", spec.output))
-      ->required()
-      ->type_name("FILE");
+  auto* output = app.add_option("-o,--output", job.output, fmt::format("main output file, for example {}", spec.output));
+  output->type_name("FILE");
+  if (spec.foretells)
+    app.add_flag("--dry-run", job.dry_run, "say which parts the scene has, its sizes, memory and time; solve nothing");
+  else
+    output->required();
   app.add_option("--set", settings, "replace a value of the config; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -121,6 +133,10 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     }
     int code = 0;
     if (!parsed(app, argc, argv, code)) return code;
+    if (job.output.empty() && !job.dry_run) {
+      fmt::print(stderr, "{}: --output is required\n  hint: {} --help\n", program, program);
+      return static_cast<int>(Exit::config);
+    }
     std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
     for (const auto& [port, files] : job.inputs)
       for (const std::string& file : files) need_file(file);
@@ -132,7 +148,7 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     auto loaded = read_config<Config>(std::move(tree));
     job.config = std::move(loaded.config);
     job.where = std::move(loaded.where);
-    need_output(job.output, config_file, job.inputs);
+    if (!job.dry_run) need_output(job.output, config_file, job.inputs);
     job.identity = identity_of(name, job.config, job.where, job.inputs, command_line(argc, argv));
     const std::vector<Summary> results = body(std::as_const(job));
     if (job.json) fmt::print("{}", json_text(job.identity, results));

@@ -156,6 +156,56 @@ void snap(const LocalProblem& problem, VecX& r) {
         project_on_cone(problem.mu[i] == 0 ? Vec3(r[3 * i], 0, 0) : Vec3(r.segment<3>(3 * i)), problem.mu[i]).r;
 }
 
+// Sweeps and Newton steps in turn, until the natural map is small or the budget is spent; r gets the best seen.
+void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const LocalOptions& options, LocalReport& report) {
+  VecX best = r;
+  double least = residual_of(problem, rho, r, nullptr);
+  const auto judge = [&] {
+    if (!r.allFinite()) r = best;  // an indefinite W lets the sweeps run away
+    const double residual = residual_of(problem, rho, r, nullptr);
+    if (residual < least) least = residual, best = r;
+    return residual;
+  };
+  int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the patience they need
+  int sweeps = 0, newton_steps = 0;
+  while (least > options.tolerance && sweeps < options.sweeps) {
+    for (int s = 0; s < round; ++s, ++sweeps) sweep(problem, rho, r);
+    if (judge() <= options.tolerance) break;
+    double last = least;
+    VecX before_newton = r;
+    for (int s = 0; s < 12 && newton_steps < options.newton_steps; ++s) {
+      ++newton_steps;
+      if (!newton_step(problem, rho, r)) break;
+      last = judge();
+      if (last <= options.tolerance) break;
+    }
+    if (least <= options.tolerance || least < 1e-12) break;  // the rest is rounding
+    if (!(last < 1e-3)) r = before_newton;
+    round *= 2;
+  }
+  report.sweeps += sweeps, report.newton_steps += newton_steps;
+  r = best;
+}
+
+// Where W is singular in the directions that stick, Newton's matrix is too, and wanders. Proximal points cure that: the
+// answer of  W + e, q - e r  from the last r, again and again, is one of W and q when r no longer moves.
+void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const LocalOptions& options, LocalReport& report) {
+  const double largest = problem.W.diagonal().maxCoeff();
+  LocalOptions each = options;
+  each.sweeps = 400, each.newton_steps = 40;
+  VecX best = r;
+  double least = residual_of(problem, rho, r, nullptr);
+  for (double e = 1e-3 * largest; e > 1e-9 * largest && least > options.tolerance; e *= 0.5) {
+    LocalProblem near = problem;
+    near.W.diagonal().array() += e;
+    near.q -= e * r;
+    alternate(near, step_lengths(near), r, each, report);
+    const double residual = residual_of(problem, rho, r, nullptr);
+    if (residual < least) least = residual, best = r;
+  }
+  r = best;
+}
+
 }  // namespace
 
 double natural_map(const LocalProblem& problem, const VecX& r, std::vector<ContactStatus>* status) {
@@ -166,36 +216,15 @@ LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions
   LocalReport report;
   const VecX rho = step_lengths(problem);
   if (r.size() != problem.q.size() || !r.allFinite()) r = VecX::Zero(problem.q.size());
-  VecX best = r;
+  constexpr double enough = 1e-11;
+  alternate(problem, rho, r, options, report);
+  if (residual_of(problem, rho, r, nullptr) > std::max(options.tolerance, enough)) approach(problem, rho, r, options, report);
   report.residual = residual_of(problem, rho, r, nullptr);
-  const auto judge = [&] {
-    if (!r.allFinite()) r = best;  // an indefinite W lets the sweeps run away
-    const double residual = residual_of(problem, rho, r, nullptr);
-    if (residual < report.residual) report.residual = residual, best = r;
-    return residual;
-  };
-  int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the patience they need
-  while (report.residual > options.tolerance && report.sweeps < options.sweeps) {
-    for (int s = 0; s < round; ++s, ++report.sweeps) sweep(problem, rho, r);
-    if (judge() <= options.tolerance) break;
-    double last = report.residual;
-    VecX before_newton = r;
-    for (int s = 0; s < 12 && report.newton_steps < options.newton_steps; ++s) {
-      ++report.newton_steps;
-      if (!newton_step(problem, rho, r)) break;
-      last = judge();
-      if (last <= options.tolerance) break;
-    }
-    if (report.residual <= options.tolerance || report.residual < 1e-12) break;  // the rest is rounding
-    if (!(last < 1e-3)) r = before_newton;
-    round *= 2;
-  }
-  r = best;
   VecX snapped = r;
   snap(problem, snapped);
   if (residual_of(problem, rho, snapped, nullptr) <= std::max(report.residual, options.tolerance)) r = snapped;
   report.residual = residual_of(problem, rho, r, &report.status);
-  report.converged = report.residual <= std::max(options.tolerance, 1e-11);
+  report.converged = report.residual <= std::max(options.tolerance, enough);
   return report;
 }
 

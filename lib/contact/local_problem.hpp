@@ -3,7 +3,7 @@
 //   W   (3k, 3k) compliance [mm/N], positive semidefinite, may be slightly unsymmetric (curved indenter)
 //   q   (3k) relative position without reaction [mm];  r (3k) reactions [N], start value in and answer out
 // Block Gauss-Seidel with the cone projection and one rho per contact; when it slows down, semismooth Newton steps
-// (Alart-Curnier form) finish. Neither is trusted: the answer is judged by the natural map.
+// (Alart-Curnier form) finish, and proximal points where W is singular. None is trusted: the answer is judged by the natural map.
 #pragma once
 
 #include <vector>

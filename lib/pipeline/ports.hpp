@@ -21,6 +21,7 @@ struct StageSpec {
   const char* sentence;  // first line of --help
   std::vector<Port> inputs;
   const char* output;  // name of the main output file in the node's folder
+  bool foretells = false;  // knows --dry-run
 
   const Port* port(const std::string& name) const;
 };

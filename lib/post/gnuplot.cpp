@@ -78,6 +78,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
   if (plot.lines.size() == 1) s += "unset key\n";
   if (!plot.title.empty()) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
+  if (plot.logarithmic) s += "set logscale xy\n";
   if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
   const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
   std::string draw = "plot ";

@@ -21,6 +21,7 @@ struct Plot {
   std::string title;             // may be empty
   std::string x_label, y_label;  // with units
   std::vector<PlotLine> lines;
+  bool logarithmic = false;      // both axes
   double x_step = 0;  // between the tics of x, where that matters
   int rows = 0;       // of the CSV files, where known: long curves get a marker on some of their points only
 };

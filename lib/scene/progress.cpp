@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/memory.hpp"
+
 namespace langer {
 
 Progress::Progress(bool quiet, const Equilibrium& body, const Scene& scene) : quiet_(quiet), contact_(!scene.contacts.empty()) {
@@ -46,12 +50,17 @@ void Progress::failed(double t, const SolveReport& report) const {
   if (!quiet_) fmt::print(stderr, "solve: no equilibrium found at t = {:.6g}: {}; the increment is halved\n", t, report.why);
 }
 
-void Progress::finished(const PathReport& path, const Statics& statics) const {
+void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   if (quiet_) return;
   const Statics::Cost& cost = statics.cost();
+  fmt::print(stderr, "solve: {} steps, {} iterations, {} cuts; {:.0f} MB\n", path.steps, path.iterations, path.cuts,
+             1e-6 * peak_bytes());
   fmt::print(stderr,
-             "solve: {} steps, {} iterations, {} cuts; CPU s: assembly {:.2f}, factor {:.2f}, solve {:.2f}, contact {:.2f}\n",
-             path.steps, path.iterations, path.cuts, cost.assembly, cost.factor, cost.solve, cost.contact);
+             "solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
+             "files {:.2f}\n",
+             cost.analysis, cost.assembly, cost.factor,
+             1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9),
+             cost.solve, cost.contact, files);
   if (statics.n_indefinite() > 0)
     fmt::print(
         stderr,

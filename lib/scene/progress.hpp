@@ -13,7 +13,7 @@ class Progress {
   void resumed(int steps, double t) const;
   void accepted(const StepRecord& record, const SolveReport& report);
   void failed(double t, const SolveReport& report) const;
-  void finished(const PathReport& path, const Statics& statics) const;
+  void finished(const PathReport& path, const Statics& statics, double files) const;  // files: CPU seconds of writing
 
  private:
   bool quiet_;

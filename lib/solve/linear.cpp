@@ -327,7 +327,11 @@ int LinearSolver::negative_pivots(const std::vector<double>& values) {
 }
 
 LinearSolver::Size LinearSolver::size() const {
-  return {state_->common.lnz, state_->common.fl, static_cast<double>(state_->common.memory_usage)};
+  const State& s = *state_;
+  const double nonzeros = static_cast<double>(s.A->nzmax), block = static_cast<double>(s.last.size());
+  // supernodes with their workspace; K permuted, twice; the candidates' trailing block and their compliance
+  const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros + 3 * 8.0 * block * block;
+  return {nonzeros, s.common.lnz, bytes, s.common.fl};
 }
 
 }  // namespace langer

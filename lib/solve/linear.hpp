@@ -38,9 +38,12 @@ class LinearSolver {
   int negative_pivots(const std::vector<double>& values);
 
   struct Size {
-    double factor_nonzeros = 0, factor_flops = 0, peak_bytes = 0;
+    double nonzeros = 0;         // of K, one triangle
+    double factor_nonzeros = 0;  // of its Cholesky factor
+    double factor_bytes = 0;     // what factorizing will take, beside what the analysis holds already
+    double flops = 0;            // of one factorization
   };
-  Size size() const;
+  Size size() const;  // known from the analysis
 
  private:
   struct State;

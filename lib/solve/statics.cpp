@@ -3,28 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "base/stopwatch.hpp"
 #include "contact/supported_problem.hpp"
 
 namespace langer {
-
-namespace {
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total), start_(cpu_seconds()) {}
-  ~Stopwatch() { total_ += cpu_seconds() - start_; }
-
- private:
-  double& total_;
-  double start_;
-};
-}  // namespace
 
 Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options)
     : equilibrium_(equilibrium), contacts_(std::move(contacts)), options_(options) {
@@ -39,7 +22,10 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
             last_.push_back(dofs.equation[dof]);
           }
   }
-  linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
+  {
+    const Stopwatch watch(cost_.analysis);
+    linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
+  }
   now_.u = VecX::Zero(dofs.n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   before_ = now_;

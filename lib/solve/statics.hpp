@@ -62,7 +62,7 @@ class Statics {
   int n_indefinite() const { return n_indefinite_; }
   int n_unstable() const { return n_unstable_; }
   struct Cost {
-    double assembly = 0, factor = 0, solve = 0, contact = 0;  // CPU seconds
+    double analysis = 0, assembly = 0, factor = 0, solve = 0, contact = 0;  // CPU seconds
     long factorizations = 0, sweeps = 0;
   };
   const Cost& cost() const { return cost_; }

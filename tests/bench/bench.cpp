@@ -1,14 +1,19 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
-//   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol; only when named: paper, grading
+//   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
+//                               only when named: paper, depths, grading, growth
 #include <fmt/format.h>
-#include <sys/resource.h>
 
+#include <array>
 #include <chrono>
 #include <set>
 #include <string>
 
+#include "base/memory.hpp"
+#include "base/stopwatch.hpp"
+#include "bench/growth.hpp"
 #include "material/path.hpp"
 #include "sensitivity/sobol.hpp"
+#include "solve/forecast.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -17,19 +22,6 @@ using namespace langer;
 void measure_fit();  // fit.cpp
 
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return t.tv_sec + 1e-6 * t.tv_usec; };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024.0;
-}
 
 void measure(const std::string& name, const test::Indentation& scene, const Material& material) {
   const double cpu = cpu_seconds();
@@ -45,9 +37,12 @@ void measure(const std::string& name, const test::Indentation& scene, const Mate
   fmt::print(
       "  {} steps, {} iterations ({:.2f} per step), {:.1f} s CPU, {:.1f} s wall, {:.3f} s CPU per iteration, {:.0f} MB\n",
       result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), seconds, wall,
-      seconds / std::max(1, result.path.iterations), peak_megabytes());
-  fmt::print("  CPU s per iteration: assembly {:.3f}, factor {:.3f}, solve {:.3f}, contact {:.3f}\n", cost.assembly / n,
-             cost.factor / n, cost.solve / n, cost.contact / n);
+      seconds / std::max(1, result.path.iterations), 1e-6 * peak_bytes());
+  const double rate = multiplication_rate();
+  fmt::print("  CPU s per iteration: assembly {:.3f}, factor {:.3f}, solve {:.3f}, contact {:.3f}; analysis, once, {:.2f}\n",
+             cost.assembly / n, cost.factor / n, cost.solve / n, cost.contact / n, cost.analysis);
+  fmt::print("  factor {:.1f} GFLOP/s ({:.2f} GFLOP each), beside {:.1f} of a matrix product (DGEMM)\n",
+             1e-9 * result.size.flops * n / cost.factor, 1e-9 * result.size.flops, 1e-9 * rate);
   std::fflush(stdout);
 }
 
@@ -82,6 +77,25 @@ void measure_sobol(const Material& skin) {
       s.curves, strain.size(), cpu_seconds() - cpu,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), s.total.value(3, 9),
       0.5 * (s.total.high(3, 9) - s.total.low(3, 9)));
+}
+
+// Isotropic and frictionless: the force at six depths against a reference made with other elements (axisymmetric Q2P1).
+void measure_depths() {
+  constexpr std::array depths{0.1, 0.2, 0.3, 0.5, 0.7, 1.0}, reference{0.1668, 0.511, 1.0095, 2.507, 4.842, 10.76};
+  fmt::print("isotropic, frictionless, quarter model: force [N] at six depths, deviation from the reference\n");
+  for (const auto& [n, h, ny] : {std::tuple{20, 0.13, 9}, {32, 0.075, 14}, {44, 0.05, 18}}) {
+    test::Indentation scene;
+    scene.quarter = true, scene.nx = scene.nz = 2 * n, scene.h = h, scene.ny = ny, scene.mu = 0, scene.reach = 2.3;
+    const double cpu = cpu_seconds();
+    const auto result = scene.run(test::table1(0, 1e-6, 0));
+    fmt::print("  {} x {} x {}, finest {} mm, {:.0f} s CPU:", n, ny, n, h, cpu_seconds() - cpu);
+    for (const auto& step : result.steps)
+      for (std::size_t i = 0; i < depths.size(); ++i)
+        if (std::abs(step.depth - depths[i]) < 1e-9)
+          fmt::print("  {:.4g} ({:+.2f} %)", 4 * step.force, 100 * (4 * step.force / reference[i] - 1));
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
 }
 
 // elements per second, one thread, with the tangent
@@ -141,6 +155,8 @@ int main(int argc, char** argv) {
   if (wanted("fit")) measure_fit();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper")) measure("the paper's 100 steps of 0.01 mm", paper_block(), skin);
+  if (asked.count("depths")) measure_depths();
+  if (asked.count("growth")) measure_growth(skin);
   if (asked.count("grading")) {
     test::Indentation scene;
     scene.nx = scene.nz = 36, scene.ny = 12, scene.h = 0.2;

@@ -80,3 +80,16 @@ TEST_CASE("friction raises the force by 5 to 12 %, and the sign of c1 turns the 
   const auto negative = scene.run(test::table1(0, 1e-5)), positive = scene.run(test::table1(0, 1e-5, 0.317));
   CHECK((negative.u_y(r, 0) - negative.u_y(0, r)) * (positive.u_y(r, 0) - positive.u_y(0, r)) < 0);
 }
+
+TEST_CASE("threads change nothing beyond 1e-12") {
+  test::Indentation scene;
+  scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 0.5;
+  const auto one = scene.run(test::table1(60, 1e-6));
+  for (int threads : {2, 3}) {
+    scene.threads = threads;
+    const auto more = scene.run(test::table1(60, 1e-6));
+    REQUIRE(more.path.complete);
+    CHECK((more.u - one.u).lpNorm<Eigen::Infinity>() <= 1e-12);
+    CHECK(std::abs(more.steps.back().force - one.steps.back().force) <= 1e-12 * one.steps.back().force);
+  }
+}

@@ -27,6 +27,7 @@ struct Indentation {
   bool loose_base = false;  // the bottom may glide in x
   NewtonOptions newton;
   std::optional<KinsolOptions> kinsol;  // in place of newton
+  std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
 
   struct Step {
     double depth, force;
@@ -40,6 +41,7 @@ struct Indentation {
     std::vector<Step> steps;
     int n_indefinite = 0;
     Statics::Cost cost;
+    LinearSolver::Size size;
     double J_min = 1;
     double u_y(double x, double z) const {  // at the top node there
       for (int i : mesh.node_sets.at("y_max"))
@@ -70,6 +72,7 @@ struct Indentation {
     Statics statics(body, {contact}, options);
     LoadPathOptions path;
     path.first = path.largest = step / depth;
+    if (before) before(body, statics.linear(), path);
     result.path = load_path(
         path, 0, {}, {},
         [&](double t) {
@@ -86,7 +89,7 @@ struct Indentation {
         });
     result.u = statics.accepted().u;
     result.n_indefinite = statics.n_indefinite();
-    result.cost = statics.cost();
+    result.cost = statics.cost(), result.size = statics.linear().size();
     result.J_min = body.J_min();
     return result;
   }

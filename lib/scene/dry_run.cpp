@@ -1,0 +1,77 @@
+#include "scene/dry_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/memory.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string amount(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes) : fmt::format("{:.1f} GB", 1e-9 * bytes);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+void need_memory(const Statics& statics, int threads) {
+  // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it cannot have it
+  constexpr double blas = 135e6;
+  const double factor = statics.linear().size().factor_bytes, mapped = factor + blas * threads;
+  const bool fits = factor <= free_memory() && mapped <= free_address();
+  if (fits) return;
+  const double wanted = factor <= free_memory() ? mapped : factor, free = std::min(free_memory(), free_address());
+  throw Failure(Exit::config, Error{{},
+                                    "",
+                                    fmt::format("this run needs {} more than the {} it holds already, to factorize its tangent; {} are free",
+                                                amount(wanted), amount(resident_bytes()), amount(free)),
+                                    "",
+                                    "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
+}
+
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, bool quiet) {
+  const double free = std::min(free_memory(), free_address());
+  const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, !scene.contacts.empty());
+  if (!quiet) {
+    const auto line = [](const char* part, const std::string& says) { fmt::print(stderr, "  {:<12}{}\n", part, says); };
+    fmt::print(stderr, "solve: dry run, nothing is solved or written\n");
+    line("body", fmt::format("{} hexahedra, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().n_nodes(),
+                             body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
+    std::size_t families = 0;
+    for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
+    line("fibres", families == 0 ? "off, not in the material" : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
+                                                                           scene.fibres.empty() ? "" : ", directions from a field"));
+    if (scene.contacts.empty()) line("contact", "off, not in the scene");
+    for (const RigidContact& c : scene.contacts)
+      line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
+                                  c.mu > 0 ? fmt::format("friction {:g}", c.mu) : "no friction"));
+    line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
+    line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
+                                1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
+    line("path", fmt::format("{} steps if none is cut back, about {:.0f} iterations", f.steps, f.iterations));
+    line("memory", fmt::format("{}; {} are free{}", amount(f.bytes), amount(free),
+                               f.size.factor_bytes > free ? ": this will not fit" : ""));
+    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}",
+                             duration(f.seconds()), f.per_iteration(), f.assembly, f.factor, f.solving));
+  }
+  return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},
+          {"hexahedra", static_cast<double>(body.mesh().n_cells()), "-"},
+          {"steps", static_cast<double>(f.steps), "-"},
+          {"iterations", std::round(f.iterations), "-"},
+          {"memory", 1e-6 * f.bytes, "MB"},
+          {"memory_free", 1e-6 * free, "MB"},
+          {"cpu", f.seconds(), "s"},
+          {"cpu_iteration", f.per_iteration(), "s"}};
+}
+
+}  // namespace langer

@@ -1,0 +1,19 @@
+// What a solve would take, before it: for --dry-run, and to refuse a run that will not fit in memory.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "solve/forecast.hpp"
+#include "solve/statics.hpp"
+#include "store/provenance.hpp"
+
+namespace langer {
+
+// Throws Failure(config) where the factor of the tangent exceeds the memory that is free or allowed.
+void need_memory(const Statics& statics, int threads);
+
+// Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, bool quiet);
+
+}  // namespace langer

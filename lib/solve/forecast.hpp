@@ -1,0 +1,31 @@
+// What a run will take, told before it: memory from the analysis of its own tangent, time from its own operation counts
+// and from how fast this machine multiplies matrices and assembles this body.
+#pragma once
+
+#include "assembly/equilibrium.hpp"
+#include "solve/linear.hpp"
+#include "solve/load_path.hpp"
+
+namespace langer {
+
+struct Forecast {
+  LinearSolver::Size size;
+  double bytes = 0;                              // largest memory of the whole run
+  double assembly = 0, factor = 0, solving = 0;  // CPU seconds per iteration, one thread
+  int steps = 0;                                 // if none is cut back
+  double iterations = 0;                         // about
+  double per_iteration() const { return assembly + factor + solving; }
+  double seconds() const { return iterations * per_iteration(); }
+};
+
+// bytes alone, without timing anything
+double forecast_bytes(const LinearSolver& linear);
+
+// Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
+// contact: two solutions per iteration, and more iterations
+Forecast forecast(Equilibrium& body, const LinearSolver& linear, const LoadPathOptions& path, const std::vector<double>& stops,
+                  bool contact);
+
+double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
+
+}  // namespace langer
