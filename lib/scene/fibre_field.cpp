@@ -6,12 +6,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 
 #include "config/formula.hpp"
 #include "element/reference.hpp"
 #include "fit/csv_table.hpp"
+#include "store/h5.hpp"
 
 namespace langer {
 
@@ -25,7 +27,18 @@ Vec3 cell_centre(const Mesh& mesh, int e) {
   return centre;
 }
 
-Directions read_directions(const PointField& field) {
+namespace {
+
+using Six = std::array<double, 6>;  // place and direction
+
+void add_point(Directions& points, const Six& v, const Place& where, const std::string& key) {
+  const Vec3 a(v[3], v[4], v[5]);
+  if (!(a.stableNorm() > 1e-12)) throw Failure(Exit::input, Error{where, key, "a direction of no length", "a vector", ""});
+  points.x.emplace_back(v[0], v[1], v[2]);
+  points.a.push_back(a.stableNormalized());
+}
+
+Directions from_csv(const PointField& field) {
   const CsvTable table = read_table(field.file.path);
   const auto refuse = [&](int line, int column, const std::string& key, const std::string& found, const std::string& expected) {
     throw Failure(Exit::input, Error{{table.name, line, column}, key, found, expected, ""});
@@ -40,7 +53,7 @@ Directions read_directions(const PointField& field) {
   }
   Directions points;
   for (const CsvRow& row : table.rows) {
-    std::array<double, 6> value{};
+    Six value{};
     for (int i = 0; i < 6; ++i) {
       const CsvCell& cell = row.cells[at[i]];
       const auto number = csv_number(cell.text);
@@ -48,12 +61,36 @@ Directions read_directions(const PointField& field) {
         refuse(row.line, cell.column, field.columns[i], "found \"" + cell.text + "\"", "a finite number");
       value[i] = *number;
     }
-    const Vec3 a(value[3], value[4], value[5]);
-    if (!(a.stableNorm() > 1e-12)) refuse(row.line, 1, field.columns[3], "a direction of no length", "a vector");
-    points.x.emplace_back(value[0], value[1], value[2]);
-    points.a.push_back(a.stableNormalized());
+    add_point(points, value, {table.name, row.line, 1}, field.columns[3]);
   }
-  if (points.x.empty()) refuse(table.header.line, 1, "", "found no points", "at least one row");
+  return points;
+}
+
+// one dataset of n numbers for each column
+Directions from_hdf5(const PointField& field) {
+  const h5::File file = h5::File::open(field.file.path);
+  std::array<std::vector<double>, 6> column;
+  for (int i = 0; i < 6; ++i) {
+    column[i] = file.root().read_finite(field.columns[i], {h5::any});
+    if (column[i].size() != column[0].size())
+      throw Failure(Exit::input, Error{{field.file.path, 0, 0}, field.columns[i], fmt::format("found {} numbers", column[i].size()),
+                                       fmt::format("{}, as {} has", column[0].size(), field.columns[0]), ""});
+  }
+  Directions points;
+  for (std::size_t k = 0; k < column[0].size(); ++k) {
+    Six value{};
+    for (int i = 0; i < 6; ++i) value[i] = column[i][k];
+    add_point(points, value, {field.file.path, 0, 0}, fmt::format("{}[{}]", field.columns[3], k));
+  }
+  return points;
+}
+
+}  // namespace
+
+Directions read_directions(const PointField& field) {
+  const std::string type = std::filesystem::path(field.file.path).extension().string();
+  Directions points = type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
+  if (points.x.empty()) throw Failure(Exit::input, Error{{field.file.path, 0, 0}, "", "found no points", "at least one row", ""});
   return points;
 }
 

@@ -39,8 +39,8 @@ struct PointField {
   Between method = Between::nearest;
   double power = 2;
   static void fields(auto& v) {
-    v(&PointField::file, "file", unit::none, "CSV file of points [mm] and directions", required);
-    v(&PointField::columns, "columns", unit::none, "names of its columns: the three of the place, the three of the direction");
+    v(&PointField::file, "file", unit::none, "CSV or HDF5 file of points [mm] and directions", required);
+    v(&PointField::columns, "columns", unit::none, "names of its columns (HDF5: datasets of n numbers): the three of the place, the three of the direction");
     v(&PointField::method, "method", unit::none, "what a cell between the points gets");
     v(&PointField::power, "power", unit::none, "of the distance, for inverse_distance", positive);
   }
@@ -51,7 +51,7 @@ using FibreField = std::variant<FormulaField, PointField>;
 struct Directions {
   std::vector<Vec3> x, a;  // places [mm], unit directions
 };
-Directions read_directions(const PointField& field);  // throws Failure(input) with file, line and column
+Directions read_directions(const PointField& field);  // throws Failure(input) with file, line and column, or dataset
 
 // unit direction there, or zero where the points agree on none (two main axes of the same weight)
 Vec3 direction_at(const Directions& points, const Vec3& x, Between method, double power);

@@ -5,8 +5,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
+#include "store/h5.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
 
@@ -63,4 +66,38 @@ TEST_CASE("directions between points do not depend on the points' signs, and opp
   CHECK(direction_at(points, {0.9, 0, 0}, Between::nearest, 2) == Vec3(1, 0, 0));
   points.a[1] = Vec3(0, 0, 1);
   CHECK(direction_at(points, middle, Between::inverse_distance, 2) == Vec3::Zero());
+}
+
+TEST_CASE("the same points from a CSV file and from an HDF5 file; datasets of unequal length are refused by name") {
+  const auto folder = std::filesystem::temp_directory_path() / "langer_fibre_points";
+  std::filesystem::create_directories(folder);
+  const std::string csv = (folder / "points.csv").string(), h5_file = (folder / "points.h5").string();
+  std::ofstream(csv) << "x,y,z,a_x,a_y,a_z\n0,0,0,1,0,0\n2,0,0,3,0,4\n";
+  const auto write = [&](std::size_t n_last) {
+    h5::File file = h5::File::create(h5_file);
+    const std::vector<std::vector<double>> columns{{0, 2}, {0, 0}, {0, 0}, {1, 3}, {0, 0}, {0, 4}};
+    const char* const names[] = {"x", "y", "z", "a_x", "a_y", "a_z"};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::size_t n = i == 5 ? n_last : 2;
+      file.root().write<double>(names[i], {n}, std::span<const double>(columns[i]).first(n));
+    }
+    file.commit();
+  };
+  write(2);
+  PointField field;
+  field.file.path = csv;
+  const Directions a = read_directions(field);
+  field.file.path = h5_file;
+  const Directions b = read_directions(field);
+  CHECK(a.x == b.x);
+  CHECK(a.a == b.a);
+  CHECK((b.a[1] - Vec3(0.6, 0, 0.8)).norm() < 1e-15);
+  write(1);
+  try {
+    read_directions(field);
+    FAIL("accepted");
+  } catch (const Failure& e) {
+    CHECK(std::string(e.what()).find("a_z") != std::string::npos);
+  }
+  std::filesystem::remove_all(folder);
 }

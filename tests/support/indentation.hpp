@@ -19,6 +19,7 @@ struct Indentation {
   double radius = 2.5;
   std::optional<Indenter> shape;  // in place of the sphere
   double reach = 2.6;             // candidates within this radius
+  std::vector<Waypoint> motion;   // in place of straight down to `depth`
   double step = 0.1;              // [mm]
   Formulation formulation = Formulation::mean_dilatation;
   int threads = 1;
@@ -28,6 +29,7 @@ struct Indentation {
   NewtonOptions newton;
   std::optional<KinsolOptions> kinsol;  // in place of newton
   std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
+  std::function<void(const Statics&, const Equilibrium&)> after;                          // told after each step
 
   struct Step {
     double depth, force;
@@ -63,7 +65,8 @@ struct Indentation {
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
     RigidContact contact{
-        "sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, {{1, Vec3(0, -depth, 0)}}};
+        "sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, motion};
+    if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
     Equilibrium body(result.mesh, {material}, formulation, number_dofs(result.mesh.n_nodes(), held).dofs, threads);
@@ -73,8 +76,10 @@ struct Indentation {
     LoadPathOptions path;
     path.first = path.largest = step / depth;
     if (before) before(body, statics.linear(), path);
+    std::vector<double> stops;
+    for (const Waypoint& w : contact.motion) stops.push_back(w.t);
     result.path = load_path(
-        path, 0, {}, {},
+        path, 0, {}, stops,
         [&](double t) {
           statics.begin(t);
           return kinsol ? langer::kinsol(statics.problem(), statics.trial(), *kinsol)
@@ -82,6 +87,7 @@ struct Indentation {
         },
         [&](double t, double, double, const SolveReport& report) {
           statics.accept();
+          if (after) after(statics, body);
           const ContactDefect defect = statics.defects()[0];
           result.steps.push_back({t * depth, -defect.force[1], report.iterations, defect});
           if (seen) seen(result.steps.back());
