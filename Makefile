@@ -6,7 +6,9 @@ PIPELINE ?= pipelines/indentation.yaml
 JOBS     ?= $(shell nproc)
 LAUNCH   ?=
 
-build   := build
+# SANITIZE=1 and TRAPS=1 build in folders of their own
+build   := build$(if $(SANITIZE),-sanitize)$(if $(TRAPS),-traps)
+options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON)
 run      = runs/$(basename $(notdir $(PIPELINE)))
 programs := $(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp))
 packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \
@@ -34,7 +36,7 @@ deps:
 	$$sudo apt-get update -qq && $$sudo env DEBIAN_FRONTEND=noninteractive $$install
 
 configure: deps
-	@[ -f $(build)/CMakeCache.txt ] || cmake -S . -B $(build) -G Ninja -DCMAKE_BUILD_TYPE=Release
+	@[ -f $(build)/CMakeCache.txt ] || cmake -S . -B $(build) -G Ninja -DCMAKE_BUILD_TYPE=Release $(options)
 
 build: configure
 	@cmake --build $(build) --parallel $(JOBS) --target $(programs)
@@ -74,6 +76,8 @@ help:
 	@echo "         LAUNCH=\"srun -n1\"    put before every command"
 	@echo "         STRICT=1             rebuilt programs make their results again"
 	@echo "make test                     set up, build, run every test"
+	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"
+	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
 	@echo "make bench                    time the solver"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make clean                    remove $(build); results in runs/ stay"

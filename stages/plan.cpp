@@ -16,10 +16,9 @@ int main(int argc, char** argv) {
     int code = 0;
     if (!parsed(app, argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
-    const PlanReport report = plan(pipeline, folder, bin);
+    const PlanReport report = plan(pipeline, folder, bin, command_line(argc, argv));
     if (!quiet)
-      fmt::print(stderr, "plan: {}: {} nodes, {} steps, {} configs new or changed\n", report.folder, report.nodes, report.steps,
-                 report.changed);
+      say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder, report.nodes, report.steps, report.changed);
     return static_cast<int>(Exit::ok);
   });
 }

@@ -56,7 +56,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   StaticsOptions options;
-  options.threads = config.threads;
+  options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);
   if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
   need_memory(statics, config.threads);
@@ -82,9 +82,11 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
       last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), last->t);
   }
+  const Interruptible at_the_end_of_a_step;
   const PathReport path = load_path(
       config.path, statics.accepted().t, increment, scene.stops,
       [&](double t) {
+        if (interrupted()) return SolveReport{};  // not converged
         statics.begin(t);
         const SolveReport report = equilibrium_by(config.solver, statics.problem(), statics.trial());
         if (!report.converged()) progress.failed(t, report);
@@ -110,7 +112,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
           file.append(record);
         }
         progress.accepted(record, report);
-        return true;
+        return !interrupted();
       });
   if (!job.quiet)
     for (const std::string& line : watch.warnings()) job.say("warning: {}", line);
@@ -118,6 +120,14 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     throw Failure(Exit::not_converged,
                   Error{{}, "", unstable, "a stable state (on_unstable: stop)",
                         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", file.n_steps(), job.output)});
+  if (!path.complete && interrupted())
+    throw Failure(exit_code_of(interrupted()),
+                  Error{{},
+                        "",
+                        fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()), path.t,
+                                    file.n_steps()),
+                        "",
+                        fmt::format("kept: {}.part (the next run continues from there)", job.output)});
   if (!path.complete)
     throw Failure(
         Exit::not_converged,

@@ -6,17 +6,27 @@
 // stdout is for data (--json, --describe); stderr for everything said to the person who waits.
 #pragma once
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/interrupt.hpp"
+#include "base/say.hpp"
+#include "base/traps.hpp"
 #include "base/version.hpp"
 #include "pipeline/ports.hpp"
 #include "pipeline/run_files.hpp"
+#include "store/lock.hpp"
 
 namespace langer {
 
@@ -37,32 +47,55 @@ struct Job {
 
   template <class... Parts>
   void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
-    if (!quiet) fmt::print(stderr, "{}: {}\n", identity.stage, fmt::format(form, std::forward<Parts>(parts)...));
+    if (!quiet) say_line("{}: {}", identity.stage, fmt::format(form, std::forward<Parts>(parts)...));
   }
 };
 
-// Out of memory, OpenBLAS's own threads may try for ever to get theirs, and exit() would wait for them.
-[[noreturn]] inline void leave_at_once(Exit code) {
+// Data on stdout, to its end; a reader who has seen enough (`| head`) is no error, a full disk is.
+inline void put_out(const std::string& text) {
+  errno = 0;
+  if ((std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) && errno != EPIPE)
+    throw Failure(Exit::input, Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+}
+
+// The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
+// (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
+inline int leave(int code) {
   std::fflush(nullptr);
-  std::_Exit(static_cast<int>(code));
+#ifndef LANGER_SANITIZE  // which looks for leaks at the end
+  _exit(code);
+#endif
+  return code;
 }
 
 // Runs the body and turns what it throws into a message and an exit code.
-int guarded(const std::string& program, auto&& body) {
+int exit_code_after(const std::string& program, auto&& body) {
+  const auto no_memory = [&](const char* what) {
+    say_line("{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)", program, what);
+    return static_cast<int>(Exit::input);
+  };
+  listen_to_signals();
+  set_traps();
   try {
     return body();
   } catch (const Failure& failure) {
-    fmt::print(stderr, "{}\n", failure.what());
+    say_line("{}", failure.what());
     return static_cast<int>(failure.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: out of memory\n", program);
-    leave_at_once(Exit::bug);
+    return no_memory("");
+  } catch (const std::system_error& e) {
+    if (e.code() == std::errc::resource_unavailable_try_again || e.code() == std::errc::not_enough_memory)
+      return no_memory(": no further thread can be started");
+    say_line("{}: {}", program, e.what());
+    return static_cast<int>(Exit::input);
   } catch (const std::exception& e) {
-    fmt::print(stderr, "{} {} ({}): {}\n  this is a bug, please report it with the command and its files\n", program, version,
-               revision, e.what());
+    say_line("{} {} ({}): {}\n  this is a bug, please report it with the command and its files", program, version, revision,
+             e.what());
   }
   return static_cast<int>(Exit::bug);
 }
+
+int guarded(const std::string& program, auto&& body) { return leave(exit_code_after(program, body)); }
 
 // Reads the arguments; nothing if the program has said all it was asked for, then `code` is its exit code.
 inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
@@ -70,7 +103,9 @@ inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
     app.parse(argc, argv);
     return true;
   } catch (const CLI::Success& asked) {
-    code = app.exit(asked);
+    std::ostringstream text;
+    code = app.exit(asked, text, text);
+    put_out(text.str());
   } catch (const CLI::ParseError& e) {
     // an unknown option says more than the required one that is missing because of it
     std::vector<std::string> known;
@@ -78,10 +113,9 @@ inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
     for (const std::string& extra : app.remaining())
       if (extra.rfind("-", 0) == 0) {
         const std::string near = nearest(extra, known);
-        fmt::print(stderr, "{}: unknown option {}{}\n", app.get_name(), extra,
-                   near.empty() ? "" : "; did you mean " + near + "?");
+        say_line("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?");
       }
-    fmt::print(stderr, "{}: {}\n  hint: {} --help\n", app.get_name(), e.what(), app.get_name());
+    say_line("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name());
     code = static_cast<int>(Exit::config);
   }
   return false;
@@ -128,7 +162,7 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
   return guarded(program, [&] {
     // --describe needs none of the required arguments
     if (std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string(a) == "--describe"; })) {
-      fmt::print("{}", describe<Config>());
+      put_out(describe<Config>());
       return static_cast<int>(Exit::ok);
     }
     int code = 0;
@@ -150,8 +184,10 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     job.where = std::move(loaded.where);
     if (!job.dry_run) need_output(job.output, config_file, job.inputs);
     job.identity = identity_of(name, job.config, job.where, job.inputs, command_line(argc, argv));
+    std::optional<OutputLock> lock;
+    if (!job.dry_run) lock.emplace(job.output, job.identity.command);
     const std::vector<Summary> results = body(std::as_const(job));
-    if (job.json) fmt::print("{}", json_text(job.identity, results));
+    if (job.json) put_out(json_text(job.identity, results));
     return static_cast<int>(Exit::ok);
   });
 }

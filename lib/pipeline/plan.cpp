@@ -14,6 +14,7 @@
 #include "pipeline/expand.hpp"
 #include "pipeline/makefile.hpp"
 #include "pipeline/run_files.hpp"
+#include "store/lock.hpp"
 #include "store/seal.hpp"
 
 namespace langer {
@@ -121,19 +122,22 @@ bool holds(const fs::path& path, const std::string& text) {
   return file.good() && found.str() == text;
 }
 
+void make_folder(const fs::path& path) {
+  std::error_code ec;
+  fs::create_directories(path, ec);
+  if (!fs::is_directory(path)) throw Failure(Exit::input, Error{{path.string()}, "", "this folder cannot be made", "", ""});
+}
+
 bool write_if_changed(const fs::path& path, const std::string& text) {
   if (holds(path, text)) return false;
-  std::error_code ec;
-  fs::create_directories(path.parent_path(), ec);
-  if (!fs::is_directory(path.parent_path()))
-    throw Failure(Exit::input, Error{{path.parent_path().string(), 0, 0}, "", "this folder cannot be made", "", ""});
+  make_folder(path.parent_path());
   write_text_file(path.string(), text);
   return true;
 }
 
 }  // namespace
 
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin) {
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command) {
   Tree tree = load_yaml(pipeline_file);
   set_base(tree, "");
   const Pipeline written = read_pipeline(tree);
@@ -143,6 +147,8 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
   for (const Step& step : steps) planning.add(step);
   planning.stop_if_wrong();
 
+  make_folder(folder);
+  const OutputLock lock((fs::path(folder) / "Makefile").string(), command);
   PlanReport report{folder, written.nodes.size(), steps.size(), 0};
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(folder) / file.path, file.text);
   const std::string seen_bin = relative_path(bin, folder);

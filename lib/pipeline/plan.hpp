@@ -13,6 +13,7 @@ struct PlanReport {
 };
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs.
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin);
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin,
+                const std::string& command = "");
 
 }  // namespace langer

@@ -118,7 +118,14 @@ std::string run_gnuplot(const std::string& folder, const std::string& script) {
   std::string program = "gnuplot", file = script;
   char* const arguments[] = {program.data(), file.data(), nullptr};
   pid_t child = 0;
-  const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawnattr_t attributes;  // what this program ignores, gnuplot need not
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual), sigaddset(&usual, SIGPIPE), sigaddset(&usual, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   std::string problem;
   if (error) {

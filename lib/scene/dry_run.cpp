@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/say.hpp"
 
 namespace langer {
 
@@ -43,8 +44,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
   const double free = std::min(free_memory(), free_address());
   const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, !scene.contacts.empty());
   if (!quiet) {
-    const auto line = [](const char* part, const std::string& says) { fmt::print(stderr, "  {:<12}{}\n", part, says); };
-    fmt::print(stderr, "solve: dry run, nothing is solved or written\n");
+    const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
+    say_line("solve: dry run, nothing is solved or written");
     line("body", fmt::format("{} hexahedra, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().n_nodes(),
                              body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
     std::size_t families = 0;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include <fmt/format.h>
+#include "base/say.hpp"
 
 namespace langer {
 
@@ -18,7 +18,7 @@ inline std::function<void(double)> progress_of(const std::string& stage, const s
     const int tenths = static_cast<int>(10 * part);
     if (seconds < 2 || tenths <= said || tenths >= 10) return;
     said = tenths;
-    fmt::print(stderr, "{}: {} {} %, about {:.0f} s more\n", stage, what, 10 * tenths, seconds * (1 - part) / part);
+    say_line("{}: {} {} %, about {:.0f} s more", stage, what, 10 * tenths, seconds * (1 - part) / part);
   };
 }
 

@@ -1,10 +1,9 @@
 #include "scene/progress.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/memory.hpp"
+#include "base/say.hpp"
 
 namespace langer {
 
@@ -12,60 +11,58 @@ Progress::Progress(bool quiet, const Equilibrium& body, const Scene& scene) : qu
   if (quiet_) return;
   std::size_t families = 0;
   for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
-  fmt::print(stderr, "solve: {} hexahedra, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}\n",
+  say_line("solve: {} hexahedra, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}",
              body.mesh().n_cells(), body.mesh().n_nodes(), body.dofs().n_free(),
              names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
              scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
 }
 
 void Progress::resumed(int steps, double t) const {
-  if (!quiet_) fmt::print(stderr, "solve: continues after {} steps, at t = {:.6g}\n", steps, t);
+  if (!quiet_) say_line("solve: continues after {} steps, at t = {:.6g}", steps, t);
 }
 
 void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   ++step_;
   if (quiet_) return;
-  fmt::print(stderr, "step {:3d}  t {:.4f}", step_, record.t);
-  if (contact_) fmt::print(stderr, "  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
-  fmt::print(stderr, "  {} iterations  residual {:.1e}  J_min {:.4f}", report.iterations, record.residual,
-             record.scalars.at("J_min"));
+  std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
+  if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
+  line += fmt::format("  {} iterations  residual {:.1e}  J_min {:.4f}", report.iterations, record.residual,
+                      record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
     const double negative = record.scalars.at("negative_eigenvalues");
-    fmt::print(stderr, "  stiffness {:.3g} MPa", stiffness->second);
-    if (negative > 0) fmt::print(stderr, "  UNSTABLE: {:.0f} negative eigenvalues", negative);
-    if (negative < 0) fmt::print(stderr, "  UNSTABLE: singular tangent");
-    if (!(stiffness->second >= 0)) fmt::print(stderr, "  MATERIAL UNSTABLE");
+    line += fmt::format("  stiffness {:.3g} MPa", stiffness->second);
+    if (negative > 0) line += fmt::format("  UNSTABLE: {:.0f} negative eigenvalues", negative);
+    if (negative < 0) line += "  UNSTABLE: singular tangent";
+    if (!(stiffness->second >= 0)) line += "  MATERIAL UNSTABLE";
   }
   if (contact_) {
     int stick = 0, slip = 0;
     for (const auto& [name, contact] : record.contacts)
       for (int status : contact.status) stick += status == 1, slip += status == 2;
-    fmt::print(stderr, "  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick, slip,
-               record.scalars.at("penetration"), record.scalars.at("cone"), record.scalars.at("complementarity"));
+    line += fmt::format("  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick, slip,
+                        record.scalars.at("penetration"), record.scalars.at("cone"), record.scalars.at("complementarity"));
   }
-  fmt::print(stderr, "\n");
+  say_line(line);
 }
 
 void Progress::failed(double t, const SolveReport& report) const {
-  if (!quiet_) fmt::print(stderr, "solve: no equilibrium found at t = {:.6g}: {}; the increment is halved\n", t, report.why);
+  if (!quiet_) say_line("solve: no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
 }
 
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   if (quiet_) return;
   const Statics::Cost& cost = statics.cost();
-  fmt::print(stderr, "solve: {} steps, {} iterations, {} cuts; {:.0f} MB\n", path.steps, path.iterations, path.cuts,
+  say_line("solve: {} steps, {} iterations, {} cuts; {:.0f} MB", path.steps, path.iterations, path.cuts,
              1e-6 * peak_bytes());
-  fmt::print(stderr,
-             "solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
-             "files {:.2f}\n",
+  say_line("solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
+             "files {:.2f}",
              cost.analysis, cost.assembly, cost.factor,
              1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9),
              cost.solve, cost.contact, files);
   if (statics.n_indefinite() > 0)
-    fmt::print(
-        stderr,
+    say_line(
         "solve: {} tangents were not positive definite: without its constraints the body has a direction in which it gives way "
-        "(limit point, loss of ellipticity, or loose supports)\n",
+        "(limit point, loss of ellipticity, or loose supports)",
         statics.n_indefinite());
 }
 

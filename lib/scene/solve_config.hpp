@@ -116,7 +116,7 @@ struct SolveConfig {
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
-  int threads = 1;
+  int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
@@ -134,7 +134,10 @@ struct SolveConfig {
       "when to look at the signs of the constrained tangent and at strong ellipticity in all Gauss points");
     v(&SolveConfig::on_unstable, "on_unstable", unit::none,
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
-    v(&SolveConfig::threads, "threads", unit::none, "threads of assembly and factorization", between(1, 256));
+    v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
+    v(&SolveConfig::blas_threads, "blas_threads", unit::none,
+      "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",
+      between(1, 256));
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;

@@ -2,6 +2,7 @@
 
 #include <cholmod.h>
 #include <omp.h>
+#include <sys/mman.h>
 #include <umfpack.h>
 
 #include <Eigen/Dense>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 
 extern "C" void openblas_set_num_threads(int);
+extern "C" int openblas_get_num_threads();
 
 namespace langer {
 
@@ -25,6 +27,19 @@ class NoNestedThreads {
  private:
   int levels_;
 };
+
+// OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and again, for ever:
+// whether there is memory for them is asked beforehand.
+void need_blas_buffers() {
+  static const bool once = [] {
+    const std::size_t bytes = (std::size_t{136} << 20) * static_cast<std::size_t>(std::max(1, openblas_get_num_threads()));
+    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    munmap(memory, bytes);
+    return true;
+  }();
+  (void)once;
+}
 
 }  // namespace
 
@@ -64,6 +79,7 @@ struct LinearSolver::State {
 
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads) : state_(std::make_unique<State>()) {
   State& s = *state_;
+  need_blas_buffers();
   openblas_set_num_threads(std::max(1, threads));
   cholmod_start(&s.common);
   s.common.print = 0;
@@ -204,12 +220,16 @@ bool LinearSolver::State::factorize_indefinite() {
   umfpack_di_defaults(control);
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+  const auto worked = [](int status) {
+    if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
+    return status == UMFPACK_OK;
+  };
   if (!symbolic &&
-      umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr) < 0)
+      !worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
     return false;
   if (numeric) umfpack_di_free_numeric(&numeric);
-  return umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr) ==
-         UMFPACK_OK;
+  return worked(
+      umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
 }
 
 VecX LinearSolver::solve(const VecX& b) const {

@@ -33,7 +33,7 @@ struct Signature {
 };
 
 struct StaticsOptions {
-  int threads = 1;
+  int threads = 1;  // of the BLAS
   double gap_tolerance = 1e-10;  // [mm]
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/say.hpp"
 #include "store/grid.hpp"
 #include "store/listing.hpp"
 #include "store/provenance.hpp"
@@ -97,10 +98,9 @@ std::unique_ptr<SolutionReader> unfinished(const std::string& part, const Soluti
     const bool same_arrays = old_mesh.X == mesh.X && old_mesh.connectivity == mesh.connectivity &&
                              old->header().contact_nodes == header.contact_nodes;
     if (same_task && same_arrays) return old;
-    fmt::print(stderr, "{}: left by a run with another {}; starting anew\n", part,
-               same_task ? "mesh" : "config or other inputs");
+    say_line("{}: left by a run with another {}; starting anew", part, same_task ? "mesh" : "config or other inputs");
   } catch (const Failure& failure) {
-    fmt::print(stderr, "{}\n  an earlier run ended here; starting anew\n", failure.what());
+    say_line("{}\n  an earlier run ended here; starting anew", failure.what());
   }
   return nullptr;
 }
@@ -123,7 +123,7 @@ SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& he
     for (int i = 0; i < old->n_steps(); ++i) state_->append(old->step(i));
   } catch (const Failure& failure) {
     if (failure.code() != Exit::input) throw;
-    fmt::print(stderr, "{}\n  continuing after the {} steps before it\n", failure.what(), state_->n_steps);
+    say_line("{}\n  continuing after the {} steps before it", failure.what(), state_->n_steps);
   }
   state_->file.rename_part(part);
 }

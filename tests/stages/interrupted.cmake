@@ -1,0 +1,104 @@
+# Ctrl-C, SIGTERM, a second run in the same place, readers that leave: nothing is lost, and everybody is told.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(folder ${WORK}/project)
+run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --quiet)
+set(solve ${BIN}/langer-solve configs/solve/smoke.yaml --mesh mesh.h5 --material configs/material/abdomen_hgo_yeoh.yaml
+  --set path.first=0.0025 --set path.largest=0.0025 -o)
+run(0 ${solve} whole/solution.h5 --quiet)
+
+# a signal once the first steps are in: the step is finished and kept, the next run continues from there
+macro(stop_by signal expected)
+  file(WRITE ${WORK}/stop.sh "\"$@\" 2> ${WORK}/said & p=$!
+while kill -0 $p 2>/dev/null && ! grep -q '^step   3' ${WORK}/said; do sleep 0.02; done
+kill -${signal} $p
+wait $p\n")
+  # a shell without job control starts background jobs with SIGINT ignored; env gives it back
+  execute_process(COMMAND sh ${WORK}/stop.sh env --default-signal=INT ${solve} ${signal}/solution.h5 WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
+  file(READ ${WORK}/said said)
+  expect_equal(${code} ${expected} "exit code after SIG${signal}")
+  expect_said("stopped by SIG${signal} at t = 0.0")
+  expect_said("kept: ${signal}/solution.h5.part (the next run continues from there)")
+  if(EXISTS ${folder}/${signal}/solution.h5 OR EXISTS ${folder}/${signal}/solution.h5.lock)
+    message(FATAL_ERROR "SIG${signal} left more than the unfinished file")
+  endif()
+  run(0 ${solve} ${signal}/solution.h5)
+  expect_said("solve: continues after ")
+  run(0 ${BIN}/langer-compare-h5 whole/solution.h5 ${signal}/solution.h5 1e-12)
+endmacro()
+stop_by(INT 130)
+stop_by(TERM 143)
+
+# a second signal ends a long step at once, with the same code, and the steps before it are kept
+set(long ${BIN}/langer-solve configs/solve/smoke.yaml --mesh fine.h5 --material configs/material/abdomen_hgo_yeoh.yaml -o twice/solution.h5)
+run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o fine.h5 --quiet --set "geometry.block.divisions=[40, 8, 40]" --set geometry.block.centre.edge=0.25)
+file(WRITE ${WORK}/twice.sh "\"$@\" 2> ${WORK}/said & p=$!
+while kill -0 $p 2>/dev/null && ! grep -q '^solve:' ${WORK}/said; do sleep 0.02; done
+kill -INT $p; sleep 0.3; kill -INT $p
+wait $p\n")
+execute_process(COMMAND sh ${WORK}/twice.sh env --default-signal=INT ${long} WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
+file(READ ${WORK}/said said)
+expect_equal(${code} 130 "exit code after two signals")
+expect_said("ended by SIGINT")
+if(said MATCHES "\nstep")
+  message(FATAL_ERROR "the second signal waited for the step:\n${said}")
+endif()
+
+# other programs end at once; what was there stays
+file(SHA256 ${folder}/mesh.h5 before)
+foreach(signal INT TERM)
+  execute_process(COMMAND env --default-signal=INT timeout -s ${signal} 0.05 ${BIN}/langer-fit configs/fit/abdomen.yaml -o mesh.h5
+    WORKING_DIRECTORY ${folder} RESULT_VARIABLE code ERROR_VARIABLE said)
+  expect_equal(${code} 124 "timeout's word that langer-fit was still running")
+  execute_process(COMMAND env --default-signal=INT timeout --preserve-status -s ${signal} 0.05 ${BIN}/langer-fit configs/fit/abdomen.yaml -o mesh.h5
+    WORKING_DIRECTORY ${folder} RESULT_VARIABLE code ERROR_VARIABLE said)
+  if(NOT (signal STREQUAL INT AND code EQUAL 130) AND NOT (signal STREQUAL TERM AND code EQUAL 143))
+    message(FATAL_ERROR "SIG${signal} ended langer-fit with ${code}")
+  endif()
+endforeach()
+file(SHA256 ${folder}/mesh.h5 after)
+expect_equal(${after} ${before} "the old file")
+
+# two runs of one output: the second names the first and stops; the first does not notice
+file(WRITE ${WORK}/two.sh "\"$@\" --quiet 2> ${WORK}/first & p=$!
+while kill -0 $p 2>/dev/null && ! [ -s two/solution.h5.lock ]; do sleep 0.01; done
+\"$@\"; second=$?
+wait $p; echo pid $p first $? second $second\n")
+file(MAKE_DIRECTORY ${folder}/two)
+execute_process(COMMAND sh ${WORK}/two.sh ${solve} two/solution.h5 WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE said ERROR_VARIABLE said)
+string(REGEX MATCH "pid ([0-9]+) first 0 second 3" _ "${said}")
+set(pid ${CMAKE_MATCH_1})
+cmake_host_system_information(RESULT host QUERY HOSTNAME)
+if(NOT pid OR NOT said MATCHES "two/solution.h5: is being written by another run, pid ${pid} on [^ ]+ since 20..-..-..T..:..:..Z: langer-solve configs/solve/smoke.yaml")
+  message(FATAL_ERROR "two runs of one output said:\n${said}")
+endif()
+run(0 ${BIN}/langer-compare-h5 whole/solution.h5 two/solution.h5)
+file(GLOB_RECURSE locks ${folder}/*.lock)
+list(FILTER locks EXCLUDE REGEX "mesh.h5.lock|twice")  # of the programs that were ended at once
+expect_equal("${locks}" "" "locks left behind")
+run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --quiet)  # a lock nobody holds is in nobody's way
+if(EXISTS ${folder}/mesh.h5.lock)
+  message(FATAL_ERROR "the lock was not removed")
+endif()
+
+# readers that leave early, and outputs that take nothing
+function(shell expected words)
+  execute_process(COMMAND bash -c "set -o pipefail; ${words}" WORKING_DIRECTORY ${folder} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL ${expected})
+    message(FATAL_ERROR "${words}\nended with ${code}, expected ${expected}:\n${said}")
+  endif()
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+list(JOIN solve " " words)
+shell(0 "${words} head/solution.h5 2>&1 | head -1 | grep -q hexahedra")
+run(0 ${BIN}/langer-compare-h5 whole/solution.h5 head/solution.h5)
+foreach(stage mesh fit sensitivity solve post gather)
+  shell(0 "${BIN}/langer-${stage} --describe | head -1")
+  shell(0 "${BIN}/langer-${stage} --help | head -1")
+  shell(3 "${BIN}/langer-${stage} --describe > /dev/full")
+  expect_said("stdout: cannot be written")
+endforeach()
+shell(0 "${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --json | true")
+shell(0 "${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 2> /dev/full")
+shell(3 "${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --json > /dev/full")
+expect_said("stdout: cannot be written")
