@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run test bench ladder clean help
+.PHONY: all deps configure build plan run test soak fuzz reliability bench ladder clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -52,6 +52,27 @@ test: configure
 	@cmake --build $(build) --parallel $(JOBS)
 	@ctest --test-dir $(build) --output-on-failure -j2
 
+# kill -9 at random times in every program; KILLS and SEED may be given
+KILLS ?= 200
+SEED  ?= 1
+soak: configure
+	@cmake --build $(build) --parallel $(JOBS) --target $(programs) langer-soak
+	@$(build)/bin/langer-soak . $(build)/bin $(build)/soak --kills $(KILLS) --seed $(SEED) --table $(build)/soak.md
+
+# every reader under libFuzzer, ASan and UBSan, for FUZZ_SECONDS each; needs clang and libclang-rt-dev
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS ?= yaml csv mesh hdf5 pipeline
+fuzz:
+	@command -v clang++ >/dev/null || { echo "make fuzz needs clang and libclang-rt-dev"; exit 1; }
+	@[ -f build-fuzz/CMakeCache.txt ] || cmake -S tests/fuzz -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+	@cmake --build build-fuzz --parallel $(JOBS)
+	@tests/fuzz/run build-fuzz $(FUZZ_SECONDS) $(FUZZ_TARGETS)
+
+# both, and their tables into the page
+reliability: soak fuzz
+	@tests/soak/page docs/reliability.md kills $(build)/soak.md
+	@tests/soak/page docs/reliability.md inputs build-fuzz/fuzz.md
+
 bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
@@ -78,6 +99,8 @@ help:
 	@echo "make test                     set up, build, run every test"
 	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"
 	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
+	@echo "make soak                     kill -9 at random times, KILLS=200"
+	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make clean                    remove $(build); results in runs/ stay"

@@ -80,7 +80,9 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   }
   const h5::Group steps = root.group("VTKHDF").group("Steps");
   const std::int64_t n = steps.integer_attribute("NSteps");
-  const std::int64_t rows = n == 0 ? 0 : static_cast<std::int64_t>(root.group("history").shape("t").at(0));
+  const h5::Shape times = n == 0 ? h5::Shape{0} : root.group("history").shape("t");
+  if (times.empty()) root.group("history").refuse("t", "a scalar", "one time for each step");
+  const std::int64_t rows = static_cast<std::int64_t>(times[0]);
   if (n < 0 || n > rows) steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
   state_->n_steps = static_cast<std::size_t>(n);
 }

@@ -132,7 +132,8 @@ int main(int argc, char** argv) {
   fs::remove_all(work);
   fs::create_directories(work / "project");
   const fs::path project = work / "project";
-  for (const char* folder : {"configs", "pipelines", "data"}) fs::copy(root / folder, project / folder, fs::copy_options::recursive);
+  for (const char* folder : {"configs", "pipelines", "data"})
+    fs::copy(root / folder, project / folder, fs::copy_options::recursive);
   const auto program = [&](const std::string& stage) { return (bin / ("langer-" + stage)).string(); };
   const Words solve{program("solve"), "configs/solve/smoke.yaml", "--mesh", "in/mesh.h5", "--material",
                     "configs/material/abdomen_hgo_yeoh.yaml", "--set", "path.first=0.01", "--set", "path.largest=0.01", "-o"};
@@ -221,7 +222,8 @@ int main(int argc, char** argv) {
     std::printf("FAILED %s, seed %u, killed after %s s:\n%s\n", job.name.c_str(), seed, fmt::format("{}", fmt::join(times, ", ")).c_str(),
                 fmt::format("{}", fmt::join(wrong, "\n")).c_str());
   }
-  std::string text = "| program | a run alone, s | kills that met it running | runs that ended before | unfinished files left | runs to the end, all equal |\n"
+  std::string text = "| program | a run alone, s | kills that met it running | runs that ended before | unfinished files left | "
+                     "runs to the end, all equal |\n"
                      "| --- | --- | --- | --- | --- | --- |\n";
   for (const Job& job : jobs)
     if (const auto c = counts.find(job.name); c != counts.end())

@@ -1,0 +1,32 @@
+// Text -> CSV -> a curve, and tests of two kinds.
+#include <cmath>
+
+#include "fit/test_data.hpp"
+#include "fuzz.hpp"
+
+namespace {
+void finite(const std::vector<double>& values) {
+  for (double x : values)
+    if (!std::isfinite(x)) std::abort();
+}
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace langer;
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  fuzz::reads_or_refuses("input.csv", [&] {
+    const Curve curve = parse_curve(text, "input.csv");
+    finite(curve.strain), finite(curve.stress);
+    if (curve.strain.size() != curve.stress.size() || curve.size() < 2) std::abort();
+  });
+  TestFormat uniaxial, biaxial;
+  uniaxial.strain_x = "strain", uniaxial.stress_x = "cauchy_stress_MPa";
+  biaxial.like.kind = TestKind::biaxial, biaxial.strain = StrainMeasure::stretch, biaxial.stress_unit = StressUnit::kPa;
+  biaxial.strain_x = "lx", biaxial.strain_z = "lz", biaxial.stress_x = "sx", biaxial.stress_z = "sz", biaxial.split = "test";
+  for (const TestFormat& format : {uniaxial, biaxial})
+    fuzz::reads_or_refuses("input.csv", [&] {
+      for (const Test& test : tests_of(parse_table(text, "input.csv"), format))
+        finite(test.first), finite(test.second), finite(test.stress_x), finite(test.stress_z);
+    });
+  return 0;
+}
