@@ -89,6 +89,8 @@ Must must_where_misspelt(const Spot& spot) {
   static const std::set<std::string> of_names{"sets",      "points",     "maps",  "figures", "contacts",
                                               "materials", "summary_at", "nodes", "sweep",   "variants"};
   if (of_names.count(parent)) return Must::not_crash;
+  // beside the one that an included file gives, a misspelt alternative is a second one: said of the whole choice
+  if (spot.path == "geometry.block") return Must::not_crash;
   return spot.path.starts_with("nodes.") ? Must::refuse : Must::refuse_here;
 }
 
