@@ -10,6 +10,7 @@
 #include "scene/scene.hpp"
 #include "scene/stability_watch.hpp"
 #include "scene/step_record.hpp"
+#include "scene/symmetry.hpp"
 #include "solve/free_motions.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
@@ -49,20 +50,25 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   refuse_bad(mesh, job.input("mesh"));
   const std::optional<Material> material =
       job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
-  const Scene scene = make_scene(config, mesh, material, job.where);
-  Equilibrium body(mesh, scene.materials, config.formulation, scene.dofs, config.threads, Kernel::packets, scene.fibres);
-  const FibreJump jump = largest_jump(mesh, [&](int e) { return body.fibres(e); });
+  const Scene whole = make_scene(config, mesh, material, job.where);
+  const FibreJump jump = largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); });
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
+  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, job.where);
+  if (part) job.say("symmetry: {}", part->words());
+  const Scene& scene = part ? part->scene() : whole;
+  Equilibrium body(part ? part->mesh() : mesh, scene.materials, config.formulation, scene.dofs, config.threads, Kernel::packets,
+                   scene.fibres, part ? part->cell_share() : std::vector<double>{});
+  const auto state = [&](const StepRecord& record) { return part ? part->reduced(record) : state_of(record, scene); };
   StaticsOptions options;
   options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);
   if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
   need_memory(statics, config.threads);
-  SolutionWriter file(job.output, header_of(body, scene, job.identity));
+  SolutionWriter file(job.output, header_of(mesh, config.formulation, whole, job.identity));
   Progress progress(job.quiet, body, scene);
-  const std::string held_by_contact = free_motions(mesh, scene.dofs);
+  const std::string held_by_contact = free_motions(mesh, whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())
     throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
@@ -74,8 +80,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   std::optional<double> increment;
   if (const auto last = file.resumed()) {
     const auto before = file.before_resumed();
-    const BodyState earlier = before ? state_of(*before, scene) : statics.accepted();  // at rest
-    statics.restore(state_of(*last, scene), &earlier);
+    const BodyState earlier = before ? state(*before) : statics.accepted();  // at rest
+    statics.restore(state(*last), &earlier);
     increment = last->scalars.at("next_increment");
     watch.resume(*last);
     if (const auto found = last->scalars.find("shear_stiffness_min"); found != last->scalars.end() && found->second < 0)
@@ -107,6 +113,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
             return false;
           }
         }
+        if (part) record = part->whole(record);
         {
           const Stopwatch writing(files);
           file.append(record);
@@ -146,6 +153,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   file.finish();
   progress.finished(path, statics, files);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
+  if (part) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)
     for (const Summary& s : watch.summary()) summary.push_back(s);

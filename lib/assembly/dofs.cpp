@@ -4,7 +4,7 @@
 
 namespace langer {
 
-DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed) {
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie) {
   DofsResult result;
   Dofs& dofs = result.dofs;
   dofs.n = 3 * n_nodes;
@@ -17,6 +17,10 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed) {
     dofs.prescribed.push_back(p);
   }
   dofs.equation.assign(dofs.n, 0);
+  dofs.tie = std::move(tie);
+  for (std::size_t i = 0; i < dofs.tie.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (dofs.tie[i].of != static_cast<int>(i) || dofs.tie[i].signs[k] == 0) dofs.equation[3 * i + static_cast<std::size_t>(k)] = -1;
   for (const Prescribed& p : dofs.prescribed) dofs.equation[p.dof] = -1;
   for (int i = 0; i < dofs.n; ++i)
     if (dofs.equation[i] == 0) {

@@ -1,9 +1,11 @@
 // Which degrees of freedom are free. Dof 3 i + k is displacement component k of node i.
 // A prescribed component moves as  value * ramp(t);  held components have value 0.
+// Where symmetry ties nodes to others, these have no dofs of their own: whoever needs their displacement asks their image.
 #pragma once
 
 #include <vector>
 
+#include "mesh/symmetry.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -15,11 +17,13 @@ struct Prescribed {
 
 struct Dofs {
   int n = 0;                           // 3 * nodes
-  std::vector<int> equation;           // (n) row of a free dof, -1 where prescribed
+  std::vector<int> equation;           // (n) row of a free dof, -1 where prescribed, tied or forbidden by symmetry
   std::vector<int> free;               // dof of each row
   std::vector<Prescribed> prescribed;  // ascending dof
+  std::vector<Image> tie;              // by node; empty without symmetry
 
   int n_free() const { return static_cast<int>(free.size()); }
+  int node(int i) const { return tie.empty() ? i : tie[i].of; }  // where node i has its dofs
 };
 
 // Later entries for the same dof must agree in value; `conflict` is the dof where they do not, or -1.
@@ -27,6 +31,6 @@ struct DofsResult {
   Dofs dofs;
   int conflict = -1;
 };
-DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed);
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie = {});
 
 }  // namespace langer

@@ -9,7 +9,7 @@
 namespace langer {
 
 Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads,
-                         Kernel kernel, std::vector<std::vector<Vec3>> fibres)
+                         Kernel kernel, std::vector<std::vector<Vec3>> fibres, std::vector<double> cell_share)
     : mesh_(mesh),
       materials_(std::move(materials)),
       formulation_(formulation),
@@ -23,10 +23,20 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
   const bool from_frames = fibres_.empty();
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
+    if (!cell_share.empty()) {
+      for (double& w : geometry_[e].w) w *= cell_share[e];
+      geometry_[e].V *= cell_share[e];
+    }
     if (from_frames) fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3::Identity() : mesh.frames[e]));
   }
   for (const Material& m : materials_)
     if (!packet_form(m)) kernel_ = Kernel::one_by_one;
+  if (!dofs_.tie.empty()) {
+    tied_.assign(n, 0);
+    for (int e = 0; e < n; ++e)
+      for (int a : mesh.cell(e))
+        if (dofs_.tie[a].of != a) tied_[e] = 1;
+  }
   make_blocks();
   p_.assign(static_cast<std::size_t>(n) * per_element, 0);
   J_minus_1_ = p_;
@@ -59,13 +69,22 @@ void Equilibrium::make_blocks() {
 ElementNodes Equilibrium::element_displacements(const VecX& u, int e) const {
   ElementNodes q;
   const auto nodes = mesh_.cell(e);
-  for (int a = 0; a < 8; ++a) q.row(a) = u.segment<3>(3 * nodes[a]).transpose();
+  for (int a = 0; a < 8; ++a) q.row(a) = u.segment<3>(3 * dofs_.node(nodes[a])).transpose();
+  if (!tied_.empty() && tied_[e])
+    for (int a = 0; a < 8; ++a) q.row(a) = q.row(a).cwiseProduct(dofs_.tie[nodes[a]].signs.transpose());
   return q;
 }
 
 void Equilibrium::load(const Block& block, const VecX& u, Packet* q) const {
   for (int l = 0; l < Packet::lanes; ++l) {
-    const auto nodes = mesh_.cell(block.cells[l]);
+    const int e = block.cells[l];
+    const auto nodes = mesh_.cell(e);
+    if (!tied_.empty() && tied_[e]) {
+      const ElementNodes q_e = element_displacements(u, e);
+      for (int a = 0; a < 8; ++a)
+        for (int k = 0; k < 3; ++k) q[3 * a + k].set(l, q_e(a, k));
+      continue;
+    }
     for (int a = 0; a < 8; ++a)
       for (int k = 0; k < 3; ++k) q[3 * a + k].set(l, u[3 * nodes[a] + k]);
   }
@@ -100,6 +119,23 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   for (int l = block.n; l < Packet::lanes; ++l) out.J_min.set(l, out.J_min[0]);
 }
 
+// Forces and tangent of a cell with tied nodes, folded onto the nodes that move.
+void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_tangent) {
+  const auto nodes = mesh_.cell(e);
+  double sign[24];
+  int dof[24];
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      sign[3 * a + i] = dofs_.tie[nodes[a]].signs[i], dof[3 * a + i] = 3 * dofs_.node(nodes[a]) + i;
+      f_[dof[3 * a + i]] += sign[3 * a + i] * out.f[3 * a + i][lane];
+    }
+  if (!with_tangent) return;
+  const int* slot = pattern_.slots(e);
+  for (int i = 0, k = 0; i < 24; ++i)
+    for (int j = 0; j <= i; ++j, ++k)  // two tied entries of one cell meet on the diagonal: both halves of the matrix count there
+      if (slot[k] >= 0) K_[slot[k]] += (i != j && dof[i] == dof[j] ? 2 : 1) * sign[i] * sign[j] * out.K[k][lane];
+}
+
 void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent,
                       const VecX* du_prescribed) {
   const int per_element = n_pressures(formulation_);
@@ -107,7 +143,9 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
     const auto nodes = mesh_.cell(e);
-    for (int a = 0; a < 8; ++a)
+    const bool tied = !tied_.empty() && tied_[e];
+    if (tied) add_tied(e, out, l, with_tangent);
+    for (int a = 0; a < 8 && !tied; ++a)
       for (int i = 0; i < 3; ++i) f_[3 * nodes[a] + i] += out.f[3 * a + i][l];
     W_ += out.W[l];
     double slope = 0, moved = 0;
@@ -117,17 +155,18 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
       for (int i = 0; i < 24; ++i) dJ[i] = out.dJ_du[k][i][l];
       slope = std::max(slope, dJ.lpNorm<Eigen::Infinity>());
     }
-    for (int a = 0; a < 8; ++a) moved = std::max(moved, u.segment<3>(3 * nodes[a]).lpNorm<Eigen::Infinity>());
+    for (int a = 0; a < 8; ++a) moved = std::max(moved, u.segment<3>(3 * dofs_.node(nodes[a])).lpNorm<Eigen::Infinity>());
     // rounding of u reaches the pressure through the dilatation's gradient, and the force through it once more
     const double floor = std::numeric_limits<double>::epsilon() * kappa * moved * slope * slope * geometry_[e].V;
     floor_ += floor * floor;
     if (!with_tangent) continue;
     const int* slot = pattern_.slots(e);
-    for (int k = 0; k < Pattern::slots_per_element; ++k)
+    for (int k = 0; k < Pattern::slots_per_element && !tied; ++k)
       if (slot[k] >= 0) K_[slot[k]] += out.K[k][l];
     if (!du_prescribed) continue;
     Vec24 du;
-    for (int a = 0; a < 8; ++a) du.segment<3>(3 * a) = du_prescribed->segment<3>(3 * nodes[a]);
+    const ElementNodes du_nodes = element_displacements(*du_prescribed, e);
+    for (int a = 0; a < 8; ++a) du.segment<3>(3 * a) = du_nodes.row(a).transpose();
     if (du.isZero(0)) continue;
     Vec24 K_du = Vec24::Zero();
     for (int i = 0, k = 0; i < 24; ++i)
@@ -135,7 +174,10 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
         K_du[i] += out.K[k][l] * du[j];
         if (j < i) K_du[j] += out.K[k][l] * du[i];
       }
-    for (int a = 0; a < 8; ++a) K_du_.segment<3>(3 * nodes[a]) += K_du.segment<3>(3 * a);
+    for (int a = 0; a < 8; ++a) {
+      const Vec3 signs = tied ? dofs_.tie[nodes[a]].signs : Vec3::Ones();
+      K_du_.segment<3>(3 * dofs_.node(nodes[a])) += signs.cwiseProduct(K_du.segment<3>(3 * a));
+    }
   }
 }
 

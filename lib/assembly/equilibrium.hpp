@@ -2,6 +2,7 @@
 //   F_int(u) - F_ext - R = 0
 // Vectors have one entry per dof (3 n); the tangent has the free rows only, lower triangle in the pattern's order.
 // A cell's material is materials[body[e]]; its fibres follow from that and its frame, unless `fibres` has its directions.
+// A cell counts cell_share[e] times: for a body that symmetry reduces, the number of cells of the whole that it stands for.
 // The parallel loop over elements lives here; sums are made in order,
 // so the number of threads does not change a bit of the result.
 #pragma once
@@ -20,7 +21,7 @@ enum class Kernel { packets, one_by_one };  // one_by_one: the scalar element, t
 class Equilibrium {
  public:
   Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1,
-              Kernel kernel = Kernel::packets, std::vector<std::vector<Vec3>> fibres = {});
+              Kernel kernel = Kernel::packets, std::vector<std::vector<Vec3>> fibres = {}, std::vector<double> cell_share = {});
 
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
@@ -58,6 +59,7 @@ class Equilibrium {
   void make_blocks();
   void load(const Block& block, const VecX& u, Packet* q) const;
   void compute(const Block& block, const VecX& u, bool with_tangent, PacketElement& out) const;
+  void add_tied(int e, const PacketElement& out, int lane, bool with_tangent);
   void add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed);
 
   const Mesh& mesh_;
@@ -72,6 +74,7 @@ class Equilibrium {
   std::vector<std::vector<PacketFibre>> packet_fibres_;
   std::vector<ElementGeometry> geometry_;
   std::vector<std::vector<Vec3>> fibres_;
+  std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
   std::vector<double> p_;          // per element (mean dilatation) or per Gauss point
   std::vector<double> J_minus_1_;  // same shape
   std::vector<Vec24> dJ_du_;       // same shape

@@ -5,16 +5,16 @@
 namespace langer {
 
 namespace {
-// neighbours of each node through cells, ascending, itself included
-std::vector<std::vector<int>> node_graph(const Mesh& mesh) {
+// neighbours of each node through cells, ascending, itself included; tied nodes are those they are tied to
+std::vector<std::vector<int>> node_graph(const Mesh& mesh, const Dofs& dofs) {
   std::vector<std::vector<int>> cells_of(mesh.n_nodes());
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int a : mesh.cell(e)) cells_of[a].push_back(e);
+    for (int a : mesh.cell(e)) cells_of[dofs.node(a)].push_back(e);
   std::vector<std::vector<int>> graph(mesh.n_nodes());
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     auto& near = graph[i];
     for (int e : cells_of[i])
-      for (int b : mesh.cell(e)) near.push_back(b);
+      for (int b : mesh.cell(e)) near.push_back(dofs.node(b));
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
   }
@@ -26,7 +26,7 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
   Pattern pattern;
   pattern.n = dofs.n_free();
   pattern.column_start.assign(pattern.n + 1, 0);
-  const auto graph = node_graph(mesh);
+  const auto graph = node_graph(mesh, dofs);
   for (int c = 0; c < pattern.n; ++c) {  // rows are numbered by node, so neighbours in order give ascending rows
     const int dof = dofs.free[c];
     for (int b : graph[dof / 3])
@@ -40,7 +40,7 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
     int* slot = pattern.slot.data() + static_cast<std::size_t>(e) * Pattern::slots_per_element;
     for (int i = 0; i < 24; ++i)
       for (int j = 0; j <= i; ++j, ++slot) {
-        int r = dofs.equation[3 * nodes[i / 3] + i % 3], c = dofs.equation[3 * nodes[j / 3] + j % 3];
+        int r = dofs.equation[3 * dofs.node(nodes[i / 3]) + i % 3], c = dofs.equation[3 * dofs.node(nodes[j / 3]) + j % 3];
         if (r < 0 || c < 0) continue;
         if (r < c) std::swap(r, c);
         const auto first = pattern.row.begin() + pattern.column_start[c],

@@ -13,7 +13,10 @@ std::string as_held(const std::string& path) { return path; }
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 std::string relative_path(const std::string& path, const std::string& folder) {
   // of a folder that does not exist yet, only the absolute name can be made canonical
-  return fs::relative(fs::absolute(path), fs::absolute(folder.empty() ? "." : folder)).string();
+  const fs::path from = fs::absolute(folder.empty() ? "." : folder), to = fs::absolute(path);
+  std::error_code ec;
+  const fs::path relative = fs::relative(to, from, ec);
+  return (ec ? to.lexically_relative(from) : relative).string();  // ... nor below one that may not be looked into
 }
 PathText relative_to(const std::string& folder) {
   return [folder](const std::string& path) { return relative_path(path, folder); };

@@ -210,6 +210,13 @@ struct Reading {
 
 Tree load(const std::string& path, Reading& reading);
 
+// below a folder that may not be looked into, the name as it is given
+fs::path own_name(const fs::path& path) {
+  std::error_code ec;
+  const fs::path canonical = fs::weakly_canonical(path, ec);
+  return ec ? path.lexically_normal() : canonical;
+}
+
 void resolve_includes(Tree& tree, Reading& reading) {
   for (Tree& item : tree.list) resolve_includes(item, reading);
   for (auto& e : tree.map)
@@ -231,7 +238,7 @@ void resolve_includes(Tree& tree, Reading& reading) {
     std::error_code ec;
     if (!fs::is_regular_file(path, ec))
       refuse(file->place, "include: there is no file " + path.string(), "a path relative to this file");
-    if (std::find(reading.files.begin(), reading.files.end(), fs::weakly_canonical(path)) != reading.files.end())
+    if (std::find(reading.files.begin(), reading.files.end(), own_name(path)) != reading.files.end())
       refuse(file->place, "include: " + path.string() + " includes itself");
     const Tree included = load(path.string(), reading);
     if (included.kind != Tree::Kind::map)
@@ -254,7 +261,7 @@ Tree load(const std::string& path, Reading& reading) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > largest_file) refuse({path, 0, 0}, fmt::format("larger than {} bytes", largest_file), "a YAML file");
-  reading.files.push_back(fs::weakly_canonical(path));
+  reading.files.push_back(own_name(path));
   Tree tree = parse(text, path, fs::path(path).parent_path().string(), reading.n_parts);
   resolve_includes(tree, reading);
   reading.files.pop_back();

@@ -143,7 +143,7 @@ void lay_fibres(const FibreField& field, const Mesh& mesh, std::span<const int> 
   }
 }
 
-FibreJump largest_jump(const Mesh& mesh, const std::function<std::span<const Vec3>(int)>& fibres) {
+FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(int)>& fibres) {
   FibreJump jump;
   std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far
   for (int e = 0; e < mesh.n_cells(); ++e)

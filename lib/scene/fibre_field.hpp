@@ -67,7 +67,7 @@ struct FibreJump {
   int cell = -1, neighbour = -1, family = 0;
   Vec3 place = Vec3::Zero();  // centre of the facet [mm]
 };
-FibreJump largest_jump(const Mesh& mesh, const std::function<std::span<const Vec3>(int)>& fibres);
+FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(int)>& fibres);
 
 Vec3 cell_centre(const Mesh& mesh, int e);
 

@@ -90,6 +90,12 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
 
 }  // namespace
 
+std::vector<Vec3> Scene::fibres_of(const Mesh& mesh, int cell) const {
+  if (!fibres.empty()) return fibres[cell];
+  return fibre_directions(materials[mesh.body.empty() ? 0 : mesh.body[cell]],
+                          mesh.frames.empty() ? Mat3::Identity() : mesh.frames[cell]);
+}
+
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {
   Scene scene;
   Composer composer(mesh, where);

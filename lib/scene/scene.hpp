@@ -21,6 +21,8 @@ struct Scene {
   Dofs dofs;
   std::vector<RigidContact> contacts;  // empty: no contact code runs
   std::vector<double> stops;           // values of t where an indenter turns
+
+  std::vector<Vec3> fibres_of(const Mesh& mesh, int cell) const;  // from its field, or its material's angles and its frame
 };
 
 // material: of the bodies that `materials` gives none

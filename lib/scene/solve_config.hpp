@@ -92,6 +92,10 @@ constexpr auto names(StabilityCheck) { return std::array{"each_step", "last", "o
 enum class OnUnstable { warn, stop };
 constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 
+// Symmetry by which the body is reduced before it is solved (scene/symmetry.hpp).
+enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
+constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
+
 struct BodyConfig {
   std::optional<Material> material;
   std::vector<double> fibre_angles;
@@ -116,6 +120,7 @@ struct SolveConfig {
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
+  SymmetryChoice symmetry = SymmetryChoice::none;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
@@ -134,6 +139,9 @@ struct SolveConfig {
       "when to look at the signs of the constrained tangent and at strong ellipticity in all Gauss points");
     v(&SolveConfig::on_unstable, "on_unstable", unit::none,
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
+    v(&SolveConfig::symmetry, "symmetry", unit::none,
+      "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
+      "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",

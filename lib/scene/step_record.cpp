@@ -14,13 +14,13 @@ Material material_from(const std::string& path) {
   return read_material(path).material;
 }
 
-SolutionHeader header_of(const Equilibrium& body, const Scene& scene, const Identity& identity) {
+SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity) {
   SolutionHeader header;
-  header.mesh = body.mesh();
+  header.mesh = mesh;
   header.material = scene.materials.front();
   if (scene.materials.size() > 1) header.materials = scene.materials;
   header.fibres = scene.fibres;
-  header.formulation = names(body.formulation())[static_cast<int>(body.formulation())];
+  header.formulation = names(formulation)[static_cast<int>(formulation)];
   for (const RigidContact& contact : scene.contacts) header.contact_nodes[contact.name] = contact.nodes;
   header.identity = identity;
   return header;

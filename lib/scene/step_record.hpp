@@ -10,7 +10,7 @@ namespace langer {
 
 Material material_from(const std::string& path);  // material.h5, or YAML with the keys of a material
 
-SolutionHeader header_of(const Equilibrium& body, const Scene& scene, const Identity& identity);
+SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity);
 StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report);
 BodyState state_of(const StepRecord& record, const Scene& scene);
 std::vector<Summary> summary_of(int n_steps, const PathReport& path, const Statics& statics);

@@ -35,7 +35,7 @@ TEST_CASE("a formula gives each cell the angle at its centre, and the jump is it
     const double alpha = (30 + 2 * cell_centre(mesh, e)[0]) * degree;
     CHECK((fibres[e][0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
   }
-  const FibreJump jump = largest_jump(mesh, [&](int e) { return std::span<const Vec3>(fibres[e]); });
+  const FibreJump jump = largest_jump(mesh, [&](int e) { return fibres[e]; });
   CHECK(jump.degrees == doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
   CHECK(std::fmod(jump.place[0], 2) == doctest::Approx(0));
 }

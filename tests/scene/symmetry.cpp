@@ -1,0 +1,175 @@
+// A scene solved on the part of the body that decides the rest gives what the whole body gives.
+#include "scene/symmetry.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scene/step_record.hpp"
+#include "solve/load_path.hpp"
+#include "support/block.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+const auto nowhere = [](const std::string&) { return Place{}; };
+
+struct Case {
+  int nx = 8, nz = 8;
+  double alpha = 60;                  // [deg]
+  Vec3 to = Vec3(0, -0.5, 0);         // of the indenter [mm]
+  double mu = 0.34;
+  Vec3 side = Vec3::Zero();           // of the indenter's place
+  SymmetryChoice symmetry = SymmetryChoice::automatic;
+};
+
+Mesh mesh_of(const Case& c) {
+  Mesh mesh = test::block(c.nx % 2 ? test::even(-6, 6, c.nx) : test::graded(6, c.nx, 0.8), test::even(0, 4, 3),
+                          c.nz % 2 ? test::even(-6, 6, c.nz) : test::graded(6, c.nz, 0.8));
+  for (Vec3& X : mesh.X) X += Vec3(3, 0, -2);  // the middle is anywhere
+  return mesh;
+}
+
+Scene scene_of(const Case& c, const Mesh& mesh) {
+  Scene scene;
+  scene.materials = {test::table1(c.alpha, 1e-4)};
+  std::vector<Prescribed> held;
+  for (int i : mesh.node_sets.at("y_min"))
+    for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+  scene.dofs = number_dofs(mesh.n_nodes(), held).dofs;
+  RigidContact contact{"ball", Sphere{2.5, {3 + c.side[0], 6.5, -2 + c.side[2]}}, c.mu, {}, {{1, c.to}}};
+  for (int i : mesh.node_sets.at("y_max"))
+    if (std::hypot(mesh.X[i][0] - 3, mesh.X[i][2] + 2) < 3.5) contact.nodes.push_back(i);
+  scene.contacts = {contact};
+  return scene;
+}
+
+struct Solved {
+  std::vector<StepRecord> steps;
+  int free = 0;
+};
+
+Solved solved(const Mesh& mesh, const Scene& scene, const ReducedScene* part) {
+  const Scene& own = part ? part->scene() : scene;
+  Equilibrium body(part ? part->mesh() : mesh, own.materials, Formulation::mean_dilatation, own.dofs, 1, Kernel::packets, own.fibres,
+                   part ? part->cell_share() : std::vector<double>{});
+  Statics statics(body, own.contacts, {});
+  LoadPathOptions path;
+  path.first = path.largest = 0.25;
+  Solved out;
+  out.free = body.dofs().n_free();
+  const PathReport report = load_path(
+      path, 0, {}, {},
+      [&](double t) {
+        statics.begin(t);
+        return newton(statics.problem(), statics.trial(), NewtonOptions{});
+      },
+      [&](double, double taken, double next, const SolveReport& step) {
+        statics.accept();
+        StepRecord record = step_record(statics, body, taken, next, step);
+        out.steps.push_back(part ? part->whole(record) : record);
+        return true;
+      });
+  REQUIRE(report.complete);
+  return out;
+}
+
+double largest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  REQUIRE(a.size() == b.size());
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+// u within 1e-8 mm, forces within 1e-8 N; returns how many times fewer unknowns
+double compare(const Case& c) {
+  CAPTURE(c.nx);
+  CAPTURE(c.nz);
+  CAPTURE(c.alpha);
+  const Mesh mesh = mesh_of(c);
+  const Scene scene = scene_of(c, mesh);
+  const auto part = ReducedScene::find(c.symmetry, mesh, scene, nowhere);
+  REQUIRE(part.has_value());
+  const Solved whole = solved(mesh, scene, nullptr), few = solved(mesh, scene, &*part);
+  REQUIRE(whole.steps.size() == few.steps.size());
+  for (std::size_t s = 0; s < whole.steps.size(); ++s) {
+    const StepRecord &a = whole.steps[s], &b = few.steps[s];
+    CHECK(largest(a.u, b.u) < 1e-8);
+    CHECK(largest(a.reaction, b.reaction) < 1e-8);
+    CHECK(largest(a.contacts.at("ball").r, b.contacts.at("ball").r) < 1e-8);
+    CHECK((a.force_ind - b.force_ind).norm() < 1e-8);
+    CHECK(a.scalars.at("energy") == doctest::Approx(b.scalars.at("energy")).epsilon(1e-9));
+    for (const auto& [name, values] : a.cell_fields)
+      for (std::size_t e = 0; e < values.size(); ++e) CHECK(values[e] == doctest::Approx(b.cell_fields.at(name)[e]).epsilon(1e-7));
+    CHECK(a.contacts.at("ball").status == b.contacts.at("ball").status);
+  }
+  CHECK(whole.steps.back().force_ind.norm() > 0.5);
+  return static_cast<double>(whole.free) / few.free;
+}
+
+}  // namespace
+
+TEST_CASE("a quarter under aligned fibres and half a body turned by 180 degrees under any others give what the whole body gives") {
+  CHECK(compare({.alpha = 0}) > 3);
+  CHECK(compare({.alpha = 90}) > 3);
+  CHECK(compare({.alpha = 60}) > 1.7);
+  CHECK(compare({.alpha = 60, .to = Vec3(0, -0.5, 0), .mu = 0}) > 1.7);
+}
+
+TEST_CASE("cells that lie across a plane of symmetry, or on the axis of the turn, count with their share") {
+  CHECK(compare({.nx = 8, .nz = 7, .alpha = 60}) > 1.7);
+  CHECK(compare({.nx = 7, .nz = 8, .alpha = 30}) > 1.7);
+  CHECK(compare({.nx = 7, .nz = 7, .alpha = 60}) > 1.5);
+  CHECK(compare({.nx = 7, .nz = 8, .alpha = 0}) > 2.5);
+  CHECK(compare({.nx = 7, .nz = 7, .alpha = 90}) > 2.2);
+}
+
+TEST_CASE("an indenter drawn along the fibres leaves one mirror plane") {
+  CHECK(compare({.alpha = 0, .to = Vec3(0.3, -0.4, 0)}) > 1.7);
+  CHECK(compare({.alpha = 0, .to = Vec3(0, -0.4, 0.3)}) > 1.7);
+}
+
+TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked for and not there is refused with what breaks it") {
+  const auto words = [](const Case& c) -> std::string {
+    const Mesh mesh = mesh_of(c);
+    Scene scene = scene_of(c, mesh);
+    try {
+      return ReducedScene::find(c.symmetry, mesh, scene, nowhere) ? "found" : "none";
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+  };
+  CHECK(words({.side = Vec3(0.1, 0, 0)}) == "none");
+  CHECK(words({.to = Vec3(0.1, -0.4, 0)}) == "none");  // oblique fibres
+  CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::none}) == "none");
+  CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::mirror_x}).find("fibres") != std::string::npos);
+  CHECK(words({.alpha = 0, .side = Vec3(0.1, 0, 0), .symmetry = SymmetryChoice::quarter}).find("indenter \"ball\"") != std::string::npos);
+  CHECK(words({.alpha = 0, .to = Vec3(0.1, -0.4, 0), .symmetry = SymmetryChoice::half_turn}).find("path") != std::string::npos);
+
+  const Case c{.alpha = 0};
+  const Mesh mesh = mesh_of(c);
+  Scene scene = scene_of(c, mesh);
+  scene.dofs = number_dofs(mesh.n_nodes(), {{3 * mesh.node_sets.at("y_min")[0], 0.0}}).dofs;  // one corner held
+  CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
+  scene = scene_of(c, mesh);
+  scene.fibres.assign(mesh.n_cells(), {Vec3(1, 0, 0)});
+  scene.fibres[5] = {Vec3(0.6, 0, 0.8)};
+  CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
+}
+
+TEST_CASE("a reduced run continues from what was written of the whole body") {
+  const Case c{.alpha = 60};
+  const Mesh mesh = mesh_of(c);
+  const Scene scene = scene_of(c, mesh);
+  const auto part = ReducedScene::find(c.symmetry, mesh, scene, nowhere);
+  REQUIRE(part.has_value());
+  const StepRecord record = solved(mesh, scene, &*part).steps.back();
+  const BodyState state = part->reduced(record);
+  REQUIRE(state.r.size() == 1);
+  double kept = 0, all = 0;
+  for (const Vec3& r : state.r[0]) kept += r[1];
+  for (const Vec3& r : record.contacts.at("ball").r) all += r[1];
+  CHECK(kept == doctest::Approx(all).epsilon(1e-12));
+  for (int i = 0; i < part->mesh().n_nodes(); ++i)
+    if (part->scene().dofs.tie[i].of != i) CHECK(state.u.segment<3>(3 * i).isZero(0));
+}
