@@ -4,6 +4,7 @@
 
 #include "config/reader.hpp"
 #include "material/material.hpp"
+#include "report/report_config.hpp"
 #include "scene/fit_config.hpp"
 #include "scene/gather_config.hpp"
 #include "scene/mesh_config.hpp"
@@ -31,6 +32,7 @@ Effective effective_config(const StageSpec& stage, Tree config, const std::strin
   static const std::map<std::string, Check> checks{
       {"mesh", check<MeshConfig>},   {"fit", check<FitConfig>},   {"sensitivity", check<SensitivityConfig>},
       {"solve", check<SolveConfig>}, {"post", check<PostConfig>}, {"gather", check<GatherConfig>},
+      {"report", check<ReportConfig>},
   };
   return checks.at(stage.name)(std::move(config), folder);
 }

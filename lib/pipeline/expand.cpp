@@ -250,7 +250,7 @@ class Expansion {
       step.inputs.push_back({s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
       used_.insert(step.inputs.back().path);
     }
-    if (n.stage->port(s.port)->several) describe_members(gathered, members, step);
+    if (n.stage->port(s.port)->members) describe_members(gathered, members, step);
   }
 
   // the keys `axes` and `members` of a config that gathers

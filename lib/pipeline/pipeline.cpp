@@ -133,6 +133,11 @@ class Reading {
       if (port.required) f.say(tree.place, key, "missing", fmt::format("a node or a file: {}", port.says));
       return;
     }
+    if (given->kind != Tree::Kind::list || !port.several) return one_source(given, key, port, n);
+    for (std::size_t i = 0; i < given->list.size(); ++i) one_source(&given->list[i], item(key, i), port, n);
+  }
+
+  void one_source(const Tree* given, const std::string& key, const Port& port, Node& n) {
     Source s{port.name, "", "", {}, given->place};
     std::string wanted;
     if (given->kind == Tree::Kind::map) {

@@ -30,8 +30,18 @@ const std::vector<StageSpec>& stages() {
        {{.name = "curves",
          .says = "a member of the sweep: any file with a /summary",
          .made_by = {"post", "fit", "sensitivity", "mesh"},
-         .several = true}},
+         .several = true,
+         .members = true}},
        "sweep.h5"},
+      {"report",
+       "Puts what a run has made on one page that opens offline.",
+       {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
+        {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
+        {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
+        {.name = "solution", .says = "a body to look at", .made_by = {"solve"}, .required = false, .several = true},
+        {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
+        {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
+       "report.html"},
   };
   return table;
 }

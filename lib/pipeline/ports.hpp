@@ -14,6 +14,7 @@ struct Port {
   bool or_key = false;      // a key of this name in the config may stand in for the file; one of the two must be there
   bool several = false;     // --port may be repeated; the order counts
   bool takes_yaml = false;  // the file may be written by hand, as YAML
+  bool members = false;     // the config's keys axes and members say what each file is; written by plan
 };
 
 struct StageSpec {

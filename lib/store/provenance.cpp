@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <Eigen/Core>
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <sstream>
@@ -45,6 +46,8 @@ std::string utc() {
   return text;
 }
 
+const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  // nearly that of the program
+
 std::string host() {
   char name[256] = "";
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
@@ -71,6 +74,15 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   provenance.write_text("created_utc", utc());
   provenance.write_text("host", host());
   provenance.write_text("command", identity.command);
+  write_times(root);
+}
+
+void write_times(const h5::Group& root) {
+  if (std::getenv("SOURCE_DATE_EPOCH")) return;
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const h5::Group provenance = root.group("provenance");
+  provenance.attribute("wall_seconds", fmt::format("{:.3f}", wall.count()));
+  provenance.attribute("cpu_seconds", fmt::format("{:.3f}", static_cast<double>(std::clock()) / CLOCKS_PER_SEC));
 }
 
 namespace {

@@ -17,7 +17,11 @@ inline constexpr Schema mesh_schema{"mesh", 1}, material_schema{"material", 1}, 
     curves_schema{"curves", 1}, sweep_schema{"sweep", 1}, sensitivity_schema{"sensitivity", 1}, snapshot_schema{"snapshot", 1};
 
 // SOURCE_DATE_EPOCH, where set, is the time that /provenance/created_utc shows
+// and at which /provenance/{wall,cpu}_seconds are left out
 void write_identity(const h5::Group& root, const Schema& schema, const Identity& identity);
+
+// seconds since the program began, of all its threads for the CPU; again where a file grows over the whole run
+void write_times(const h5::Group& root);
 
 // refuses another schema or version by name; `config` and `command` stay empty where /provenance is missing
 Identity read_identity(const h5::Group& root, const Schema& schema);

@@ -259,6 +259,9 @@ void SolutionWriter::State::contact(const StepRecord& record) {
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
-void SolutionWriter::finish() { state_->file.commit(); }
+void SolutionWriter::finish() {
+  write_times(state_->file.root());
+  state_->file.commit();
+}
 
 }  // namespace langer

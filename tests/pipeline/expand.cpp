@@ -151,6 +151,20 @@ TEST_CASE("the way a number is typed does not change its member") {
   CHECK(folders(steps, "mesh") == Words{"n_10/mesh", "n_2.5/mesh", "n_word/mesh"});
 }
 
+TEST_CASE("a port of several files takes a list of nodes, each with its members") {
+  const auto steps = steps_of(two_axes + R"(
+  page: {stage: report, table: [table, by_code], curves: {node: post, code: FER}, over: [code, alpha]}
+)");
+  const Step& page = step(steps, "page");
+  Words paths;
+  for (const StepInput& input : page.inputs) paths.push_back(input.port + " " + input.path);
+  CHECK(paths == Words{"curves code_FER/alpha_000/post/curves.h5", "curves code_FER/alpha_030/post/curves.h5",
+                       "curves code_FER/alpha_007.5/post/curves.h5", "table table/sweep.h5", "table code_FER/by_code/sweep.h5",
+                       "table code_ANSYS/by_code/sweep.h5"});
+  CHECK_FALSE(page.config.find("members"));
+  CHECK_THROWS_AS(steps_of(two_axes + "  other: {stage: post, solution: [solve]}\n"), Failure);
+}
+
 TEST_CASE("one axis may set several keys") {
   const auto steps = steps_of("pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {keys: [a, b.c], values: [4]}}}\n");
   CHECK(to_text(steps.at(0).config) == "a: 4\nb:\n  c: 4\n");

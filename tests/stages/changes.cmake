@@ -8,7 +8,7 @@ macro(expect_pending what)
   expect_equal("${found}" "${ARGN}" "${what}")
 endmacro()
 set(all alpha_000/post/curves.h5 alpha_000/solve/solution.h5 alpha_060/post/curves.h5 alpha_060/solve/solution.h5 fit/material.h5 mesh/mesh.h5
-  sensitivity/sensitivity.h5 table/sweep.h5)
+  report/report.html sensitivity/sensitivity.h5 table/sweep.h5)
 expect_pending("at first" ${all})
 run(0 make -j2 -C ${run})
 expect_pending("after a run")
@@ -18,12 +18,12 @@ file(APPEND ${WORK}/project/pipelines/smoke.yaml "\n# a comment\n")
 expect_pending("after comments")
 
 edit(${WORK}/project/configs/post/smoke.yaml "snapshots: [last]" "snapshots: [last, 1]")
-set(posts alpha_000/post/curves.h5 alpha_060/post/curves.h5 table/sweep.h5)
+set(posts alpha_000/post/curves.h5 alpha_060/post/curves.h5 report/report.html table/sweep.h5)
 expect_pending("after a change of post" ${posts})
 run(0 make -j2 -C ${run})
 
 edit(${WORK}/project/pipelines/smoke.yaml "values: [0, 60]" "values: [0, 45]")
-expect_pending("after a new angle" alpha_045/post/curves.h5 alpha_045/solve/solution.h5 table/sweep.h5)
+expect_pending("after a new angle" alpha_045/post/curves.h5 alpha_045/solve/solution.h5 report/report.html table/sweep.h5)
 run(0 make -j2 -C ${run})
 file(STRINGS ${WORK}/project/${run}/table/table.csv rows REGEX "^[0-9]")
 list(TRANSFORM rows REPLACE ",.*" "")
@@ -31,12 +31,12 @@ expect_equal("${rows}" "0;45" "angles of the table")
 
 edit(${WORK}/project/configs/material/abdomen_hgo_yeoh.yaml "a1: 0.269" "a1: 0.270")
 expect_pending("after a new material" alpha_000/post/curves.h5 alpha_000/solve/solution.h5 alpha_045/post/curves.h5 alpha_045/solve/solution.h5
-  table/sweep.h5)
+  report/report.html table/sweep.h5)
 run(0 make -j2 -C ${run})
 
 file(GLOB curve ${WORK}/project/data/abdomen*.csv)
 file(APPEND ${curve} "# one more remark\n")
-expect_pending("after a change of the data" fit/material.h5 sensitivity/sensitivity.h5)
+expect_pending("after a change of the data" fit/material.h5 report/report.html sensitivity/sensitivity.h5)
 run(0 make -j2 -C ${run})
 
 # a rebuilt program makes nothing again, unless STRICT

@@ -2,10 +2,10 @@
 include(${ROOT}/tests/support/run.cmake)
 copy_project()
 run(0 ${BIN}/langer-plan pipelines/smoke.yaml)
-expect_said("6 nodes, 8 steps")
+expect_said("7 nodes, 9 steps")
 run(0 make -j2 -C runs/smoke)
 foreach(file fit/material.h5 mesh/mesh.h5 sensitivity/sensitivity.h5 alpha_000/solve/solution.h5 alpha_060/solve/solution.h5
-    alpha_000/post/curves.h5 alpha_060/post/curves.csv table/sweep.h5 table/table.csv)
+    alpha_000/post/curves.h5 alpha_060/post/curves.csv table/sweep.h5 table/table.csv report/report.html)
   if(NOT EXISTS ${WORK}/project/runs/smoke/${file})
     message(FATAL_ERROR "${file} was not made")
   endif()

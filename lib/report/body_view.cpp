@@ -1,0 +1,205 @@
+#include "report/body_view.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "post/render.hpp"
+#include "report/labels.hpp"
+#include "report/packed.hpp"
+#include "scene/post_files.hpp"
+
+namespace langer::report {
+
+namespace {
+
+constexpr std::size_t most_glyphs = 2500;
+
+struct ShownField {
+  Quantity quantity;
+  int family = 0;  // from 0
+  std::string name, label, unit;
+  Span span;
+  std::vector<std::vector<double>> values;  // state, node
+};
+
+std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const Body& body) {
+  std::vector<ShownField> fields;
+  for (const Quantity q : quantities) {
+    const QuantityLine& line = line_of(q);
+    const int n = q == Quantity::fibre_stretch ? body.n_families() : 1;
+    for (int k = 0; k < n; ++k)
+      fields.push_back({q, k, n > 1 ? fmt::format("{}_{}", line.word, k + 1) : line.word,
+                        n > 1 ? fmt::format("{} {}", line.label, k + 1) : plain_label(line.label), line.unit, {}, {}});
+  }
+  return fields;
+}
+
+// rows of the table of states: 0 is the unloaded one
+std::vector<int> rows_shown(int n_steps, int most) {
+  std::vector<int> rows;
+  const int n = std::clamp(most, 2, n_steps + 1);
+  for (int i = 0; i < n; ++i)
+    rows.push_back(n > 1 ? static_cast<int>(std::lround(double(i) * n_steps / (n - 1))) : 0);
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+// The nodes that travel: all, or those of the surface.
+struct Chosen {
+  std::vector<int> nodes, place;  // place: of each node of the mesh among them, or -1
+  Chosen(const Mesh& mesh, const std::vector<std::array<int, 4>>& surface, bool all) : place(mesh.X.size(), -1) {
+    std::set<int> used;
+    for (const auto& facet : surface) used.insert(facet.begin(), facet.end());
+    if (all)
+      for (int i = 0; i < mesh.n_nodes(); ++i) used.insert(i);
+    nodes.assign(used.begin(), used.end());
+    for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
+  }
+};
+
+Json text_of(const std::string& packed) { return {'"' + packed + '"'}; }
+
+template <class T>
+Json packed(const std::vector<T>& values) {
+  return text_of(base64(values));
+}
+
+// Fibres on the facets of the surface, thinned out evenly.
+struct Glyphs {
+  std::vector<std::int32_t> facet, cell_nodes;
+  std::vector<float> weights;
+};
+
+Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surface, const Chosen& chosen) {
+  const Mesh& mesh = body.mesh();
+  Glyphs glyphs;
+  std::map<std::array<int, 4>, int> place;  // sorted nodes -> facet of the surface
+  for (std::size_t f = 0; f < surface.size(); ++f) {
+    auto key = surface[f];
+    std::sort(key.begin(), key.end());
+    place[key] = static_cast<int>(f);
+  }
+  const std::size_t every = std::max<std::size_t>(1, surface.size() / most_glyphs);
+  std::size_t seen = 0;
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (const auto& local : Hex8::facet) {
+      std::array<int, 4> nodes{};
+      for (int k = 0; k < 4; ++k) nodes[k] = mesh.cell(e)[local[k]];
+      auto key = nodes;
+      std::sort(key.begin(), key.end());
+      const auto found = place.find(key);
+      if (found == place.end() || seen++ % every != 0) continue;
+      const auto& facet = surface[static_cast<std::size_t>(found->second)];
+      const Vec3 normal = (mesh.X[facet[2]] - mesh.X[facet[0]]).cross(mesh.X[facet[3]] - mesh.X[facet[1]]).normalized();
+      const Hex8::Gradient dN = Hex8::gradient(Vec3::Zero());
+      const Mat3 jacobian = element_nodes(mesh, e).transpose() * dN;  // dX/dxi
+      for (const Vec3& a : body.fibres(e)) {
+        if (std::abs(a.dot(normal)) > 0.7) continue;  // seen from its end
+        const Eigen::Matrix<double, 8, 1> w = dN * jacobian.inverse() * a;
+        glyphs.facet.push_back(found->second);
+        for (int k = 0; k < 8; ++k) {
+          glyphs.cell_nodes.push_back(chosen.place[mesh.cell(e)[k]]);
+          glyphs.weights.push_back(static_cast<float>(w[k]));
+        }
+      }
+    }
+  return glyphs;
+}
+
+}  // namespace
+
+Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path, const ReportConfig& config,
+               double budget) {
+  const SolutionHeader& header = solution.header();
+  const Mesh& mesh = header.mesh;
+  const Body body(mesh, header.materials.empty() ? std::vector{header.material} : header.materials,
+                  formulation_of(header, path), header.fibres);
+  const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
+  std::vector<ShownField> fields = fields_of(config.shown, body);
+
+  // bytes in base64: per node and state, per node, per cell and facet
+  const auto size = [&](const Chosen& nodes, int states, bool cells) {
+    const double n = static_cast<double>(nodes.nodes.size());
+    return 4.0 / 3 * (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
+                      (cells ? 32.0 * mesh.n_cells() : 0) + 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)));
+  };
+  const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
+  constexpr int few = 6;
+  const int wanted = std::min(config.states, solution.n_steps() + 1);
+  const auto fitting = [&](const Chosen& nodes, bool cells) {
+    int states = wanted;
+    while (states > 2 && size(nodes, states, cells) > budget) --states;
+    return size(nodes, states, cells) > budget ? 0 : states;
+  };
+  int states = fitting(whole, true);
+  const bool cells = states >= std::min(few, wanted);
+  if (!cells) states = std::max(2, fitting(outside, false));
+  const Chosen& chosen = cells ? whole : outside;
+  const std::vector<int> rows = rows_shown(solution.n_steps(), states);
+
+  const std::vector<RigidContact> indenters = indenters_of(header);
+  std::vector<std::vector<double>> u;  // state, 3 node
+  std::vector<Json> of_state;
+  for (const int row : rows) {
+    const StepState state = row == 0 ? unloaded(mesh) : state_of(solution.step(row - 1));
+    auto& here = u.emplace_back();
+    for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
+    const GaussValues gauss = gauss_values(body, state.u);
+    for (ShownField& f : fields) f.values.emplace_back();
+    for (const int node : chosen.nodes) {
+      const VecX values = node_values(body, node, gauss, config.stress);
+      for (ShownField& f : fields) f.values.back().push_back(value_of(f.quantity, values, f.family));
+    }
+    of_state.push_back(object({{"row", number(row)}, {"t", number(state.t)},
+                               {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
+  }
+
+  double largest = 0;
+  for (const auto& state : u)
+    for (double v : state) largest = std::max(largest, std::abs(v));
+  const double step = largest > 0 ? largest / 32767 : 1;
+  std::vector<Json> moves;
+  for (const auto& state : u) {
+    std::vector<std::int16_t> whole_steps;
+    for (double v : state) whole_steps.push_back(static_cast<std::int16_t>(std::lround(v / step)));
+    moves.push_back(packed(whole_steps));
+  }
+  std::vector<Json> shown;
+  for (ShownField& f : fields) {
+    for (const auto& values : f.values) f.span.add(values);
+    if (f.span.empty()) continue;
+    shown.push_back(object({{"name", words(f.name)}, {"label", words(f.label)}, {"unit", words(f.unit)},
+                            {"low", number(f.span.low)}, {"high", number(f.span.high)},
+                            {"states", list(f.values, [&](const auto& v) { return packed(quantised(v, f.span)); })}}));
+  }
+
+  std::vector<float> X;
+  for (const int node : chosen.nodes)
+    for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));
+  std::vector<std::int32_t> facets, cell_nodes;
+  for (const auto& facet : surface)
+    for (int node : facet) facets.push_back(chosen.place[node]);
+  Json glyphs, connectivity;
+  if (cells) {
+    for (int node : mesh.connectivity) cell_nodes.push_back(chosen.place[node]);
+    connectivity = packed(cell_nodes);
+  }
+  if (const Glyphs g = cells && body.n_families() > 0 ? glyphs_of(body, surface, chosen) : Glyphs{}; !g.facet.empty())
+    glyphs = object({{"facet", packed(g.facet)}, {"nodes", packed(g.cell_nodes)}, {"weights", packed(g.weights)}});
+  std::vector<Json> spheres;
+  for (const RigidContact& indenter : indenters)
+    if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))
+      spheres.push_back(object({{"name", words(indenter.name)}, {"radius", number(sphere->radius)},
+                                {"centre", numbers({sphere->centre.begin(), sphere->centre.end()})}}));
+  const auto as_is = [](const Json& j) { return j; };
+  return object({{"label", words(label)}, {"cells", connectivity}, {"n_cells", number(mesh.n_cells())},
+                 {"n_nodes", number(mesh.n_nodes())}, {"n_states", number(solution.n_steps() + 1)}, {"X", packed(X)},
+                 {"facets", packed(facets)}, {"states", list(of_state, as_is)}, {"step", number(step)}, {"u", list(moves, as_is)},
+                 {"fields", list(shown, as_is)}, {"glyphs", glyphs}, {"spheres", list(spheres, as_is)}});
+}
+
+}  // namespace langer::report

@@ -1,0 +1,21 @@
+// The deformed body of a solution as data of a page: places, displacements and fields of its nodes in several states, the facets
+// of its surface, fibres, and the spheres pressed into it.
+//   displacement  int16, one unit is `step` mm     fields  uint16 between their least and largest value over all states
+//   fibre         F a = sum_k x_k (grad N_k . a) at the middle of a cell: eight weights per glyph, so that a fibre can be drawn
+//                 at any state and scale; it stands on the middle of a facet
+//   cells         with all nodes, so that a plane can cut the body open; left out where the budget is short
+#pragma once
+
+#include <string>
+
+#include "report/json.hpp"
+#include "report/report_config.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer::report {
+
+// at most `budget` bytes, unless two states of the surface need more
+Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path, const ReportConfig& config,
+               double budget);
+
+}  // namespace langer::report

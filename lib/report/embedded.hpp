@@ -1,0 +1,11 @@
+// The page's files as they stand in lib/report/page, and three.js; cmake/embed.cmake writes them into the program.
+#pragma once
+
+#include <string_view>
+
+namespace langer::report::embedded {
+
+extern const std::string_view index_html, style_css, charts_js, tables_js, body_js, main_js;
+extern const std::string_view three_js, orbit_js;  // empty where the build found no three.js
+
+}  // namespace langer::report::embedded

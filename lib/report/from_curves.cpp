@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <map>
+
+#include "report/labels.hpp"
+#include "report/sources.hpp"
+#include "store/curves_file.hpp"
+
+namespace langer::report {
+
+namespace {
+
+// u_y_A and u_y_B are u_y at two places: they share a chart
+std::string stem(const std::string& name) {
+  const auto cut = name.rfind('_');
+  if (cut == std::string::npos || cut == 0) return name;
+  const std::string place = name.substr(cut + 1);
+  const bool is_place = !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c); });
+  return is_place ? name.substr(0, cut) : name;
+}
+
+}  // namespace
+
+void add_curves(ReportPage& page, const std::vector<Source>& sources) {
+  std::vector<std::string> order;  // of titles, as the columns stand
+  std::map<std::string, Chart> charts;
+  for (const Source& source : sources) {
+    const Curves curves = read_curves(source.path).curves;
+    std::map<std::string, std::size_t> place;
+    for (const Column& c : curves.columns) place.emplace(c.name, place.size());
+    std::vector<const NamedCurve*> sorted;
+    for (const NamedCurve& c : curves.curves) sorted.push_back(&c);
+    const auto rank = [&](const NamedCurve* c) { return place.count(c->name) ? place.at(c->name) : place.size(); };
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
+    for (const NamedCurve* c : sorted) {
+      const std::string title = sources.size() == 1 ? stem(c->name) : c->name;
+      auto [it, is_new] = charts.try_emplace(title);
+      Chart& chart = it->second;
+      if (is_new) {
+        order.push_back(title);
+        chart = {"curves", in_words(title), in_words(c->x_label), c->x_unit, in_words(title), c->y_unit, {}, sources.size() > 1};
+      }
+      chart.ordered = chart.ordered && source.numbered;
+      chart.series.push_back({sources.size() > 1 ? source.label : c->name == title ? c->name : c->name.substr(title.size() + 1), c->x, c->y, false});
+    }
+  }
+  for (const std::string& title : order) page.charts.push_back(std::move(charts.at(title)));
+}
+
+}  // namespace langer::report

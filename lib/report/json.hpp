@@ -1,0 +1,46 @@
+// Text of JSON for a page's <script>: nothing in it can end the script, numbers that are not finite become null.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace langer::report {
+
+struct Json {
+  std::string text = "null";
+};
+
+inline Json number(double x) { return {std::isfinite(x) ? fmt::format("{:.9g}", x) : "null"}; }
+
+inline Json words(const std::string& s) {
+  std::string text = "\"";
+  for (const unsigned char c : s) {
+    if (c == '"' || c == '\\')
+      text += std::string("\\") + static_cast<char>(c);
+    else if (c < 0x20 || c == '<')  // "</script" and "<!--" mean something to HTML even inside of a string
+      text += fmt::format("\\u{:04x}", static_cast<int>(c));
+    else
+      text += static_cast<char>(c);
+  }
+  return {text + "\""};
+}
+
+// each item of a range by a function that makes it a Json
+Json list(const auto& range, auto&& each) {
+  std::string text;
+  for (const auto& item : range) text += (text.empty() ? "" : ",") + each(item).text;
+  return {"[" + text + "]"};
+}
+inline Json numbers(const std::vector<double>& values) { return list(values, number); }
+
+inline Json object(const std::vector<std::pair<const char*, Json>>& parts) {
+  std::string text;
+  for (const auto& [key, value] : parts) text += (text.empty() ? "" : ",") + words(key).text + ":" + value.text;
+  return {"{" + text + "}"};
+}
+
+}  // namespace langer::report

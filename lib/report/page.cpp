@@ -1,0 +1,92 @@
+#include "report/page.hpp"
+
+#include "base/version.hpp"
+#include "report/embedded.hpp"
+
+namespace langer::report {
+
+namespace {
+
+const char* level_word(Level level) {
+  return level == Level::good ? "good" : level == Level::note ? "note" : "warning";
+}
+
+Json series(const Series& s) {
+  return object({{"name", words(s.name)}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"points", {s.points ? "true" : "false"}}});
+}
+
+Json data_of(const ReportPage& page) {
+  const auto verdict = [](const Verdict& v) {
+    return object({{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
+  };
+  const auto chart = [](const Chart& c) {
+    return object({{"group", words(c.group)}, {"title", words(c.title)}, {"xLabel", words(c.x_label)}, {"xUnit", words(c.x_unit)},
+                   {"yLabel", words(c.y_label)}, {"yUnit", words(c.y_unit)}, {"series", list(c.series, series)},
+                   {"ordered", {c.ordered ? "true" : "false"}}});
+  };
+  const auto polar = [](const Polar& p) {
+    const auto residual = [](const SymmetryResidual& r) {
+      return object({{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
+    };
+    return object({{"title", words(p.title)}, {"axis", words(p.axis)}, {"unit", words(p.unit)}, {"angle", numbers(p.angle)},
+                   {"series", list(p.series, series)}, {"residuals", list(p.residuals, residual)}});
+  };
+  const auto table = [](const ReportTable& t) {
+    const auto column = [](const TableColumn& c) { return object({{"name", words(c.name)}, {"unit", words(c.unit)}}); };
+    const auto cell = [](const Cell& c) {
+      return std::holds_alternative<double>(c) ? number(std::get<double>(c)) : words(std::get<std::string>(c));
+    };
+    return object({{"title", words(t.title)}, {"columns", list(t.columns, column)},
+                   {"rows", list(t.rows, [&](const auto& row) { return list(row, cell); })}});
+  };
+  const auto origin = [](const FileOrigin& o) {
+    return object({{"label", words(o.label)}, {"stage", words(o.stage)}, {"made", words(o.made)}, {"host", words(o.host)},
+                   {"version", words(o.version)}, {"libraries", words(o.libraries)}, {"command", words(o.command)},
+                   {"content", words(o.content)}, {"config", words(o.config)}, {"wall", number(o.wall)}, {"cpu", number(o.cpu)}});
+  };
+  return object({{"title", words(page.title)}, {"version", words(fmt::format("{} ({})", version, revision))},
+                 {"verdicts", list(page.verdicts, verdict)}, {"charts", list(page.charts, chart)}, {"polars", list(page.polars, polar)},
+                 {"tables", list(page.tables, table)}, {"bodies", list(page.bodies, [](const Json& j) { return j; })},
+                 {"origins", list(page.origins, origin)}});
+}
+
+std::string escaped(const std::string& s) {
+  std::string text;
+  for (char c : s) c == '<' ? text += "&lt;" : c == '&' ? text += "&amp;" : text += c;
+  return text;
+}
+
+}  // namespace
+
+bool has_three() { return !embedded::three_js.empty(); }
+
+std::size_t bytes_without_data() {
+  using namespace embedded;
+  return index_html.size() + style_css.size() + three_js.size() + orbit_js.size() + charts_js.size() + tables_js.size() +
+         body_js.size() + main_js.size();
+}
+
+std::string html(const ReportPage& page) {
+  using namespace embedded;
+  const std::string data = data_of(page).text, title = escaped(page.title);
+  const bool view = has_three() && !page.bodies.empty();
+  const std::pair<std::string_view, std::string_view> parts[] = {
+      {"title", title},         {"style", style_css},   {"three", view ? three_js : ""}, {"orbit", view ? orbit_js : ""},
+      {"data", data},           {"charts", charts_js},  {"tables", tables_js},           {"body", body_js},
+      {"main", main_js}};
+  std::string text;
+  std::string_view rest = index_html;
+  for (;;) {
+    const auto open = rest.find("{{");
+    if (open == rest.npos) break;
+    const auto close = rest.find("}}", open);
+    const std::string_view name = rest.substr(open + 2, close - open - 2);
+    text += rest.substr(0, open);
+    for (const auto& [key, value] : parts)
+      if (key == name) text += value;
+    rest = rest.substr(close + 2);
+  }
+  return text + std::string(rest);
+}
+
+}  // namespace langer::report

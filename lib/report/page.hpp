@@ -1,0 +1,70 @@
+// A report as values, and as one HTML file that needs nothing beside it: styles, scripts, three.js and the data are inside.
+//   verdicts  what a reader must know first      charts  curves with hover values      polars  a sweep over an angle
+//   tables    numbers                            bodies  deformed bodies to look at    origins who made which file from what
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "report/json.hpp"
+#include "report/symmetry.hpp"
+
+namespace langer::report {
+
+enum class Level { good, note, warning };
+
+struct Verdict {
+  Level level = Level::note;
+  std::string of, text;  // of: the file or member it is said of
+};
+
+struct Series {
+  std::string name;
+  std::vector<double> x, y;
+  bool points = false;  // measured: points in place of a line
+};
+
+struct Chart {
+  std::string group, title, x_label, x_unit, y_label, y_unit;
+  std::vector<Series> series;
+  bool ordered = false;  // the series are values of a number: colours in order
+};
+
+struct TableColumn {
+  std::string name, unit;
+};
+using Cell = std::variant<double, std::string>;
+struct ReportTable {
+  std::string title;
+  std::vector<TableColumn> columns;
+  std::vector<std::vector<Cell>> rows;
+};
+
+struct Polar {
+  std::string title, axis, unit;
+  std::vector<double> angle;  // [deg]
+  std::vector<Series> series;  // y by angle
+  std::vector<SymmetryResidual> residuals;
+};
+
+struct FileOrigin {
+  std::string label, stage, made, host, version, libraries, command, content, config;
+  double wall = 0, cpu = 0;  // [s]; NaN where the file does not tell
+};
+
+struct ReportPage {
+  std::string title;
+  std::vector<Verdict> verdicts;
+  std::vector<Chart> charts;
+  std::vector<Polar> polars;
+  std::vector<ReportTable> tables;
+  std::vector<Json> bodies;  // body_view.hpp
+  std::vector<FileOrigin> origins;
+};
+
+std::string html(const ReportPage& page);
+bool has_three();  // this build has three.js inside; without it a page has no view of the body
+std::size_t bytes_without_data();
+
+}  // namespace langer::report

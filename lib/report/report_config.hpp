@@ -1,0 +1,37 @@
+// Config of the stage report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "post/fields.hpp"
+#include "post/quantity.hpp"
+
+namespace langer {
+
+struct ReportConfig {
+  std::string title;
+  std::vector<Quantity> shown{Quantity::von_mises, Quantity::pressure, Quantity::sigma_1, Quantity::J, Quantity::fibre_stretch};
+  StressAt stress = StressAt::nodal_average;
+  int states = 25;
+  double megabytes = 9;
+  static void fields(auto& v) {
+    v(&ReportConfig::title, "title", unit::none, "above the page; by default the folders that the files lie in");
+    v(&ReportConfig::shown, "fields", unit::none, "what colours the deformed body, beside its displacement; quantities of points");
+    v(&ReportConfig::stress, "stress", unit::none, "how values of Gauss points come to nodes");
+    v(&ReportConfig::states, "states", unit::none, "states of each solution that the body can be seen in, at most", at_least(2));
+    v(&ReportConfig::megabytes, "megabytes", unit::none,
+      "size of the page, at most; where it is short bodies have fewer states, then only their surface", at_least(1.2));
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> all;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (line_of(shown[i]).of != Of::point)
+        all.push_back({"fields[" + std::to_string(i) + "]", line_of(shown[i]).word, "a quantity of points, as von_mises or J",
+                       line_of(shown[i]).of == Of::nodes ? "displacements are always there" : ""});
+    return all;
+  }
+};
+
+}  // namespace langer
