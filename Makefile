@@ -10,12 +10,12 @@ LAUNCH   ?=
 build   := build$(if $(SANITIZE),-sanitize)$(if $(TRAPS),-traps)
 options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON)
 run      = runs/$(basename $(notdir $(PIPELINE)))
-programs := $(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp))
+programs := $(patsubst langer-langer,langer,$(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp)))
 packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run test soak fuzz reliability bench ladder clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -42,11 +42,18 @@ build: configure
 	@cmake --build $(build) --parallel $(JOBS) --target $(programs)
 
 plan: build
-	@$(build)/bin/langer-plan $(PIPELINE) -o $(run)
+	+@$(build)/bin/langer-plan $(PIPELINE) -o $(run)
 
 run: plan
-	@$(MAKE) --no-print-directory -C $(run) $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
+	@$(MAKE) --no-print-directory -C $(run) $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS)) || \
+	  { $(build)/bin/langer times --failed $(run) >&2; exit 1; }
 	@echo "results: $(run)"
+
+# why a step would run again; what each took
+explain: plan
+	@$(build)/bin/langer explain $(run)
+times:
+	@$(build)/bin/langer times $(run)
 
 test: configure
 	@cmake --build $(build) --parallel $(JOBS)
@@ -85,6 +92,18 @@ ladder:
 	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
 	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
 
+# configs/schema, and the line in each config that names its schema
+schemas: build
+	@mkdir -p configs/schema
+	@for kind in $$($(build)/bin/langer schema --list); do \
+	  $(build)/bin/langer schema $$kind > configs/schema/$$kind.schema.json || exit 1; \
+	  case $$kind in pipeline) files=pipelines/*.yaml; folder=../configs/schema;; *) files=configs/$$kind/*.yaml; folder=../schema;; esac; \
+	  for file in $$files; do \
+	    [ -e $$file ] || continue; \
+	    grep -q '^# yaml-language-server: ' $$file || sed -i "1i # yaml-language-server: \$$schema=$$folder/$$kind.schema.json" $$file; \
+	  done; \
+	done
+
 clean:
 	rm -rf $(build)
 
@@ -96,6 +115,7 @@ help:
 	@echo "         JOBS=4               steps at the same time"
 	@echo "         LAUNCH=\"srun -n1\"    put before every command"
 	@echo "         STRICT=1             rebuilt programs make their results again"
+	@echo "make explain PIPELINE=file    say why each step would run; make times: what each took, which failed"
 	@echo "make test                     set up, build, run every test"
 	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"
 	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
@@ -103,4 +123,5 @@ help:
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
+	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"

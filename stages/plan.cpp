@@ -7,18 +7,27 @@ int main(int argc, char** argv) {
   using namespace langer;
   CLI::App app{"Turns a pipeline into a Makefile.", "langer-plan"};
   std::string pipeline, folder;
-  bool quiet = false;
-  app.add_option("pipeline", pipeline, "YAML file with nodes")->required()->type_name("FILE");
-  app.add_option("-o,--output", folder, "folder of the run; runs/<name of the pipeline> by default")->type_name("FOLDER");
-  app.add_flag("--quiet", quiet, "say errors only");
+  bool quiet = false, verbose = false, dry_run = false, slurm = false;
+  app.add_option("pipeline", pipeline)->required();
+  app.add_option("-o,--output", folder);
+  app.add_flag("--dry-run", dry_run);
+  app.add_flag("--slurm", slurm);
+  app.add_flag("--quiet", quiet);
+  app.add_flag("-v,--verbose", verbose);
+  app.set_help_flag("-h,--help");
   app.set_version_flag("--version", version_line("langer-plan"));
   return guarded("langer-plan", [&] {
     int code = 0;
-    if (!parsed(app, argc, argv, code)) return code;
+    if (!parsed(app, plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
-    const PlanReport report = plan(pipeline, folder, bin, command_line(argc, argv));
-    if (!quiet)
+    const PlanReport report = dry_run ? check_pipeline(pipeline, folder) : plan(pipeline, folder, bin, command_line(argc, argv), slurm);
+    if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
+    if (quiet) return 0;
+    if (dry_run)
+      say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder, report.nodes, report.steps);
+    else
       say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder, report.nodes, report.steps, report.changed);
-    return static_cast<int>(Exit::ok);
+    if (slurm && !dry_run) say_line("plan: to send it to Slurm: {}/slurm/submit [options of sbatch]", report.folder);
+    return 0;
   });
 }

@@ -67,7 +67,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
   need_memory(statics, config.threads);
   SolutionWriter file(job.output, header_of(mesh, config.formulation, whole, job.identity));
-  Progress progress(job.quiet, body, scene);
+  Progress progress(job.quiet, job.verbose, body, scene);
   const std::string held_by_contact = free_motions(mesh, whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())
     throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
@@ -94,7 +94,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
       [&](double t) {
         if (interrupted()) return SolveReport{};  // not converged
         statics.begin(t);
-        const SolveReport report = equilibrium_by(config.solver, statics.problem(), statics.trial());
+        const SolveReport report = equilibrium_by(config.solver, progress.watched(statics.problem(), t), statics.trial());
         if (!report.converged()) progress.failed(t, report);
         return report;
       },

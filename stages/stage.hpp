@@ -21,12 +21,16 @@
 #include <fmt/format.h>
 
 #include "base/interrupt.hpp"
+#include "base/memory.hpp"
 #include "base/say.hpp"
+#include "base/stopwatch.hpp"
 #include "base/traps.hpp"
 #include "base/version.hpp"
 #include "pipeline/ports.hpp"
 #include "pipeline/run_files.hpp"
+#include "store/h5.hpp"
 #include "store/lock.hpp"
+#include "tool/usage.hpp"
 
 namespace langer {
 
@@ -38,6 +42,7 @@ struct Job {
   std::string output;  // main output file; side files stand beside it
   Identity identity;
   bool quiet = false;
+  bool verbose = false;
   bool json = false;
   bool dry_run = false;  // only with stages that foretell
 
@@ -58,6 +63,28 @@ inline void put_out(const std::string& text) {
     throw Failure(Exit::input, Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
 }
 
+inline std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
+
+// What --log keeps: all that is said, and how it ended.
+class RunLog {
+ public:
+  ~RunLog() {
+    if (said::log) std::fclose(std::exchange(said::log, nullptr));
+  }
+  // `goes_on`: the run may continue one that was stopped
+  void open(const std::string& path, const std::string& command, bool goes_on) {
+    said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
+    if (!said::log) throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+    fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
+    std::fflush(said::log);
+  }
+  // read by the table of a run's times (pipeline/run_state.hpp)
+  static void end(int code) {
+    if (said::log)
+      fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
+  }
+};
+
 // The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
 // (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
 inline int leave(int code) {
@@ -70,6 +97,7 @@ inline int leave(int code) {
 
 // Runs the body and turns what it throws into a message and an exit code.
 int exit_code_after(const std::string& program, auto&& body) {
+  wall_seconds();
   const auto no_memory = [&](const char* what) {
     say_line("{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)", program, what);
     return static_cast<int>(Exit::input);
@@ -79,7 +107,7 @@ int exit_code_after(const std::string& program, auto&& body) {
   try {
     return body();
   } catch (const Failure& failure) {
-    say_line("{}", failure.what());
+    say_error(failure.what());
     return static_cast<int>(failure.code());
   } catch (const std::bad_alloc&) {
     return no_memory("");
@@ -95,10 +123,26 @@ int exit_code_after(const std::string& program, auto&& body) {
   return static_cast<int>(Exit::bug);
 }
 
-int guarded(const std::string& program, auto&& body) { return leave(exit_code_after(program, body)); }
+int guarded(const std::string& program, auto&& body) {
+  const int code = exit_code_after(program, body);
+  RunLog::end(code);
+  return leave(code);
+}
 
 // Reads the arguments; nothing if the program has said all it was asked for, then `code` is its exit code.
-inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
+// --help and --version are answered whatever else is missing.
+inline bool parsed(CLI::App& app, const Usage& usage, int argc, char** argv, int& code) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    known.push_back(name);
+    if (name.rfind("-", 0) == 0 && !usage.find(name)) throw std::logic_error("the option " + name + " is not in the table of usage");
+  }
+  for (int i = 1; i < argc; ++i)
+    if (const std::string a = argv[i]; a == "--help" || a == "-h") {
+      put_out(help_text(usage));
+      return false;
+    }
   try {
     app.parse(argc, argv);
     return true;
@@ -108,17 +152,21 @@ inline bool parsed(CLI::App& app, int argc, char** argv, int& code) {
     put_out(text.str());
   } catch (const CLI::ParseError& e) {
     // an unknown option says more than the required one that is missing because of it
-    std::vector<std::string> known;
-    for (const CLI::Option* option : app.get_options()) known.push_back(option->get_name());
     for (const std::string& extra : app.remaining())
       if (extra.rfind("-", 0) == 0) {
         const std::string near = nearest(extra, known);
-        say_line("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?");
+        say_error(fmt::format("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?"));
       }
-    say_line("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name());
+    say_error(fmt::format("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name()));
     code = static_cast<int>(Exit::config);
   }
   return false;
+}
+
+// -v: what this run is made from
+inline void say_inputs(const Identity& identity, const std::string& program) {
+  say_line("{}: {}, config {}", identity.stage, version_line(program), identity.config_hash);
+  for (const auto& [port, id] : identity.inputs) say_line("{}: {} {}", identity.stage, port, id);
 }
 
 inline std::string command_line(int argc, char** argv) {
@@ -127,7 +175,26 @@ inline std::string command_line(int argc, char** argv) {
   return line;
 }
 
-inline std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
+// inputs are files of ours of a kind that the port takes
+inline void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
+  for (const auto& [port, files] : inputs)
+    for (const std::string& file : files) {
+      if (std::filesystem::path(file).extension() != ".h5") continue;
+      const std::string stage = read_origin(file).identity.stage;
+      const std::vector<std::string>& makers = spec.port(port)->made_by;
+      if (std::find(makers.begin(), makers.end(), stage) == makers.end())
+        throw Failure(Exit::input, Error{{file}, "", "made by langer-" + stage, "a file of langer-" + list_words(makers), ""});
+    }
+}
+
+// --dry-run of the stages that cannot foretell more
+inline void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output, const InputFiles& inputs) {
+  say_line("{}: dry run, nothing is computed or written", spec.name);
+  const auto line = [](const std::string& part, const std::string& says) { say_line("  {:<14}{}", part, says); };
+  for (const auto& [port, files] : inputs) line(port, fmt::format("{}", fmt::join(files, ", ")));
+  for (const ConfigPart& p : parts) line(p.key, p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
+  line("makes", output.empty() ? std::string(spec.output) : output);
+}
 
 template <Listed Config>
 int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
@@ -135,30 +202,26 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
   const std::string program = "langer-" + name;
   CLI::App app{spec.sentence, program};
   Job<Config> job;
-  std::string config_file;
+  std::string config_file, log;
   std::vector<std::string> settings;
-  app.add_option("config", config_file, "YAML file; its keys: --describe")->required()->type_name("FILE");
+  app.add_option("config", config_file)->required();
   for (const Port& port : spec.inputs) {
-    auto* option = app.add_option("--" + std::string(port.name), job.inputs[port.name],
-                                  std::string(port.says) + (port.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)"));
-    option->type_name("FILE")->allow_extra_args(false)->required(port.required);
+    auto* option = app.add_option("--" + std::string(port.name), job.inputs[port.name]);
+    option->allow_extra_args(false)->required(port.required);
     if (!port.several) option->expected(1);
   }
-  auto* output = app.add_option("-o,--output", job.output, fmt::format("main output file, for example {}", spec.output));
-  output->type_name("FILE");
-  if (spec.foretells)
-    app.add_flag("--dry-run", job.dry_run, "say which parts the scene has, its sizes, memory and time; solve nothing");
-  else
-    output->required();
-  app.add_option("--set", settings, "replace a value of the config; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  app.add_flag("--quiet", job.quiet, "say errors only");
-  app.add_flag("--json", job.json, "print the results as JSON on stdout");
-  app.add_flag_callback(
-      "--describe", [] { throw CLI::CallForHelp(); }, "print the keys of the config and leave");
+  app.add_option("-o,--output", job.output);
+  app.add_flag("--dry-run", job.dry_run);
+  app.add_option("--set", settings)->allow_extra_args(false);
+  app.add_flag("--quiet", job.quiet);
+  app.add_flag("-v,--verbose", job.verbose);
+  app.add_flag("--json", job.json);
+  app.add_option("--log", log);
+  app.add_flag("--describe");
+  app.set_help_flag("-h,--help");
   app.set_version_flag("--version", version_line(program));
 
+  RunLog kept;
   return guarded(program, [&] {
     // --describe needs none of the required arguments
     if (std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string(a) == "--describe"; })) {
@@ -166,11 +229,13 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
       return static_cast<int>(Exit::ok);
     }
     int code = 0;
-    if (!parsed(app, argc, argv, code)) return code;
+    if (!parsed(app, usage_of(spec, top_keys<Config>(), ""), argc, argv, code)) return code;
     if (job.output.empty() && !job.dry_run) {
-      fmt::print(stderr, "{}: --output is required\n  hint: {} --help\n", program, program);
+      say_error(fmt::format("{}: --output is required\n  hint: {} --help", program, program));
       return static_cast<int>(Exit::config);
     }
+    const std::string command = command_line(argc, argv);
+    if (!log.empty()) kept.open(log, command, std::filesystem::exists(job.output + ".part"));
     std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
     for (const auto& [port, files] : job.inputs)
       for (const std::string& file : files) need_file(file);
@@ -183,10 +248,19 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     job.config = std::move(loaded.config);
     job.where = std::move(loaded.where);
     if (!job.dry_run) need_output(job.output, config_file, job.inputs);
-    job.identity = identity_of(name, job.config, job.where, job.inputs, command_line(argc, argv));
+    job.identity = identity_of(name, job.config, job.where, job.inputs, command);
+    if (job.verbose) say_inputs(job.identity, program);
+    if (job.dry_run && !spec.foretells) {
+      need_kinds(spec, job.inputs);
+      if (!job.quiet) say_dry_run(spec, parts_of(job.config), job.output, job.inputs);
+      if (job.json) put_out(json_text(job.identity, {}));
+      return static_cast<int>(Exit::ok);
+    }
     std::optional<OutputLock> lock;
     if (!job.dry_run) lock.emplace(job.output, job.identity.command);
     const std::vector<Summary> results = body(std::as_const(job));
+    if (job.verbose)
+      say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", name, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
     if (job.json) put_out(json_text(job.identity, results));
     return static_cast<int>(Exit::ok);
   });

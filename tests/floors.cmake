@@ -16,7 +16,8 @@ endforeach()
 foreach(folder scene pipeline report)
   set(floor_${folder} 5)
 endforeach()
-set(floor_stages 6)
+set(floor_tool 6)
+set(floor_stages 7)
 
 # include pattern -> where it may stand
 set(third_parties

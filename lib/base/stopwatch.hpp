@@ -1,4 +1,4 @@
-// CPU seconds of this process, all its threads; adds the time of its own life to a total.
+// CPU seconds of this process, all its threads; a stopwatch adds the time of its own life to a total. Seconds since the start.
 #pragma once
 
 #include <ctime>
@@ -9,6 +9,14 @@ inline double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// by the clock, since the first call; main calls it first
+inline double wall_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  static const timespec start = now;
+  return static_cast<double>(now.tv_sec - start.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - start.tv_nsec);
 }
 
 class Stopwatch {

@@ -109,7 +109,14 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     out = std::move(value);
   } else if constexpr (is_choice<T>) {
     if (tree.kind != Kind::map) return wrong_kind();
-    if (tree.map.size() != 1) return wrong("found " + std::to_string(tree.map.size()) + " keys");
+    if (tree.map.size() != 1) {  // a misspelt key says more than their number
+      const std::vector<std::string> known = alternatives<T>();
+      const std::size_t before = f.errors.size();
+      for (const Tree::Entry& entry : tree.map)
+        if (std::find(known.begin(), known.end(), entry.key) == known.end()) say_unknown(entry, path, known, f);
+      if (f.errors.size() == before) wrong("found " + std::to_string(tree.map.size()) + " keys");
+      return;
+    }
     read_alternative(tree.map.front(), path, m, out, f);
   } else if constexpr (is_sum<T>) {
     if (tree.kind != Kind::map && tree.kind != Kind::list) return wrong_kind();

@@ -111,6 +111,25 @@ std::vector<NamedFile> files_named_by(const Config& config) {
   return files;
 }
 
+// The outermost keys that may be absent: what a config switches on, for --dry-run.
+struct ConfigPart {
+  std::string key;
+  bool active = false;
+  std::size_t count = 0;  // of a list or of named things
+};
+template <Listed Config>
+std::vector<ConfigPart> parts_of(const Config& config) {
+  std::vector<ConfigPart> parts;
+  for_each_line(config, [&](const Member& m, const auto& value) {
+    using V = std::remove_cvref_t<decltype(value)>;
+    if constexpr (is_optional<V>)
+      parts.push_back({m.key, value.has_value()});
+    else if constexpr (is_vector<V> || is_named_things<V>)
+      parts.push_back({m.key, !value.empty(), value.size()});
+  });
+  return parts;
+}
+
 // The reference of a config: one line per key, nested ones indented.
 struct DescribedKey {
   int level;
@@ -184,6 +203,15 @@ void describe_parts(int level, std::vector<DescribedKey>& keys) {
     describe_parts<typename T::mapped_type>(level, keys);
   else if constexpr (Listed<T>)
     describe_lines<T>(level, keys);
+}
+
+// only the keys of the outermost map
+template <Listed Config>
+std::vector<DescribedKey> top_keys() {
+  std::vector<DescribedKey> keys;
+  describe_lines<Config>(0, keys);
+  std::erase_if(keys, [](const DescribedKey& k) { return k.level > 0; });
+  return keys;
 }
 
 template <Listed Config>

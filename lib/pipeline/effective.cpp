@@ -1,7 +1,8 @@
 #include "pipeline/effective.hpp"
 
-#include <map>
+#include <utility>
 
+#include "config/json_schema.hpp"
 #include "config/reader.hpp"
 #include "material/material.hpp"
 #include "report/report_config.hpp"
@@ -16,8 +17,6 @@ namespace langer {
 
 namespace {
 
-using Check = Effective (*)(Tree, const std::string& folder);
-
 template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
@@ -26,20 +25,41 @@ Effective check(Tree tree, const std::string& folder) {
   return e;
 }
 
+template <Listed Config>
+ConfigKind kind() {
+  return {check<Config>, describe<Config>, top_keys<Config>, json_schema<Config>};
+}
+
+// a new stage stands here
+const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
+  static const std::vector<std::pair<const char*, ConfigKind>> table{
+      {"mesh", kind<MeshConfig>()},   {"fit", kind<FitConfig>()},   {"sensitivity", kind<SensitivityConfig>()},
+      {"solve", kind<SolveConfig>()}, {"post", kind<PostConfig>()}, {"gather", kind<GatherConfig>()},
+      {"report", kind<ReportConfig>()}, {"material", kind<Material>()},
+  };
+  return table;
+}
+
 }  // namespace
 
+const ConfigKind* find_config_kind(const std::string& name) {
+  for (const auto& [known, kind] : kinds())
+    if (name == known) return &kind;
+  return nullptr;
+}
+
+std::vector<std::string> config_kind_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kinds()) names.push_back(name);
+  return names;
+}
+
 Effective effective_config(const StageSpec& stage, Tree config, const std::string& folder) {
-  static const std::map<std::string, Check> checks{
-      {"mesh", check<MeshConfig>},   {"fit", check<FitConfig>},   {"sensitivity", check<SensitivityConfig>},
-      {"solve", check<SolveConfig>}, {"post", check<PostConfig>}, {"gather", check<GatherConfig>},
-      {"report", check<ReportConfig>},
-  };
-  return checks.at(stage.name)(std::move(config), folder);
+  return find_config_kind(stage.name)->check(std::move(config), folder);
 }
 
 Effective effective_port_file(const Port& port, Tree file, const std::string& folder) {
-  static const std::map<std::string, Check> checks{{"material", check<Material>}};
-  return checks.at(port.name)(std::move(file), folder);
+  return find_config_kind(port.name)->check(std::move(file), folder);
 }
 
 }  // namespace langer

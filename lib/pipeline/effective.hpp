@@ -1,4 +1,5 @@
-// The config that a step really runs with: read by its listing, defaults filled in, includes and overrides resolved.
+// The configs of all stages by name: what they really say once read (defaults filled in, includes and overrides resolved), and
+// what can be said of them without a file: reference, top keys, JSON Schema.
 #pragma once
 
 #include <string>
@@ -18,6 +19,17 @@ struct Effective {
   };
   std::vector<File> files;  // input files that the config names
 };
+
+struct ConfigKind {
+  Effective (*check)(Tree config, const std::string& folder);  // throws Failure(config)
+  std::string (*reference)();
+  std::vector<DescribedKey> (*top_keys)();
+  std::string (*schema)(const std::string& title);
+};
+
+// of a stage, or of a YAML file given at a port ("material"); nullptr where there is none
+const ConfigKind* find_config_kind(const std::string& name);
+std::vector<std::string> config_kind_names();
 
 // Checks and canonical text of a stage's config, or of a YAML file given at a port; throws Failure(config).
 Effective effective_config(const StageSpec& stage, Tree config, const std::string& folder);

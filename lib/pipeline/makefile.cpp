@@ -21,7 +21,7 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
     const std::string program = "$(BIN)/" + rule.program;
     text +=
         fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target, fmt::join(rule.prerequisites, " "), program, program);
-    text += fmt::format("\t$(LAUNCH) {} {} -o $@\n", program, rule.arguments);
+    text += fmt::format("\t$(LAUNCH) {} {} --log $(basename $@).log -o $@\n", program, rule.arguments);
   }
   return text;
 }

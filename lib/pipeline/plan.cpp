@@ -14,6 +14,7 @@
 #include "pipeline/expand.hpp"
 #include "pipeline/makefile.hpp"
 #include "pipeline/run_files.hpp"
+#include "pipeline/slurm.hpp"
 #include "store/lock.hpp"
 #include "store/seal.hpp"
 
@@ -137,23 +138,47 @@ bool write_if_changed(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command) {
+namespace {
+
+struct Planned {
+  Planning planning;
+  PlanReport report;
+  std::string name;
+  std::vector<Step> steps;
+};
+
+Planned planned(const std::string& pipeline_file, std::string folder) {
   Tree tree = load_yaml(pipeline_file);
   set_base(tree, "");
   const Pipeline written = read_pipeline(tree);
   if (folder.empty()) folder = "runs/" + written.name;
   const std::vector<Step> steps = expand(written, load_yaml);
-  Planning planning(folder);
-  for (const Step& step : steps) planning.add(step);
-  planning.stop_if_wrong();
+  Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0}, written.name, steps};
+  for (const Step& step : p.steps) p.planning.add(step);
+  p.planning.stop_if_wrong();
+  return p;
+}
 
-  make_folder(folder);
-  const OutputLock lock((fs::path(folder) / "Makefile").string(), command);
-  PlanReport report{folder, written.nodes.size(), steps.size(), 0};
-  for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(folder) / file.path, file.text);
-  const std::string seen_bin = relative_path(bin, folder);
-  write_if_changed(fs::path(folder) / "Makefile",
+}  // namespace
+
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder) {
+  return planned(pipeline_file, std::move(folder)).report;
+}
+
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command, bool slurm) {
+  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder));
+  make_folder(report.folder);
+  const OutputLock lock((fs::path(report.folder) / "Makefile").string(), command);
+  for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
+  const std::string seen_bin = relative_path(bin, report.folder);
+  write_if_changed(fs::path(report.folder) / "Makefile",
                    makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
+  if (slurm)
+    for (const SlurmFile& file : slurm_files(name, steps)) {
+      const fs::path path = fs::path(report.folder) / file.name;
+      write_if_changed(path, file.text);
+      if (file.program) fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
+    }
   return report;
 }
 

@@ -12,8 +12,11 @@ struct PlanReport {
   std::size_t nodes = 0, steps = 0, changed = 0;  // changed: files written because their text is new
 };
 
-// `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs.
+// `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin,
-                const std::string& command = "");
+                const std::string& command = "", bool slurm = false);
+
+// The same checks; nothing is written.
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder = "");
 
 }  // namespace langer

@@ -1,4 +1,5 @@
-// What langer-solve says while it works, on stderr: sizes first, one line per step, costs last.
+// What langer-solve says while it works, on stderr: sizes first, one line per step, costs last. On a terminal the steps are one
+// line that is rewritten, iteration by iteration; with `verbose` every iteration has a line, there and elsewhere.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -9,16 +10,20 @@ namespace langer {
 
 class Progress {
  public:
-  Progress(bool quiet, const Equilibrium& body, const Scene& scene);
-  void resumed(int steps, double t) const;
+  Progress(bool quiet, bool verbose, const Equilibrium& body, const Scene& scene);
+  void resumed(int steps, double t);
+  Problem watched(Problem problem, double t);  // tells each assessment
   void accepted(const StepRecord& record, const SolveReport& report);
   void failed(double t, const SolveReport& report) const;
   void finished(const PathReport& path, const Statics& statics, double files) const;  // files: CPU seconds of writing
 
  private:
-  bool quiet_;
+  std::string left(double t) const;
+  bool quiet_, verbose_, live_;  // live: a line rewritten in place
   bool contact_;
   int step_ = 0;
+  double from_ = 0;  // t of the resumed step
+  double start_;     // seconds, when the first step began
 };
 
 }  // namespace langer

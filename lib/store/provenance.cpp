@@ -37,7 +37,9 @@ std::map<std::string, std::string> separated(const std::string& text) {
   return inputs;
 }
 
-std::string utc() {
+}  // namespace
+
+std::string utc_now() {
   std::time_t now = std::time(nullptr);
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
   char text[32] = "";
@@ -48,12 +50,10 @@ std::string utc() {
 
 const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  // nearly that of the program
 
-std::string host() {
+std::string host_name() {
   char name[256] = "";
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
-
-}  // namespace
 
 std::string content_id(const Identity& identity, int schema_version) {
   return fnv1a(fmt::format("{}\n{}\n{}\n{}", identity.stage, schema_version, identity.config_hash, joined(identity.inputs)));
@@ -71,8 +71,8 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   provenance.write_text("code_version", fmt::format("{} ({})", version, revision));
   provenance.write_text("libraries", fmt::format("{}; Eigen {}.{}.{}; compiler {}", h5::library(), EIGEN_WORLD_VERSION,
                                                  EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
-  provenance.write_text("created_utc", utc());
-  provenance.write_text("host", host());
+  provenance.write_text("created_utc", utc_now());
+  provenance.write_text("host", host_name());
   provenance.write_text("command", identity.command);
   write_times(root);
 }

@@ -16,6 +16,9 @@ struct Schema {
 inline constexpr Schema mesh_schema{"mesh", 1}, material_schema{"material", 1}, solution_schema{"solution", 1},
     curves_schema{"curves", 1}, sweep_schema{"sweep", 1}, sensitivity_schema{"sensitivity", 1}, snapshot_schema{"snapshot", 1};
 
+std::string utc_now();  // SOURCE_DATE_EPOCH where that is set
+std::string host_name();
+
 // SOURCE_DATE_EPOCH, where set, is the time that /provenance/created_utc shows
 // and at which /provenance/{wall,cpu}_seconds are left out
 void write_identity(const h5::Group& root, const Schema& schema, const Identity& identity);

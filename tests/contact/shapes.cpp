@@ -73,7 +73,7 @@ TEST_CASE("normal and bend are the first and second derivatives of the gap") {
   }
 }
 
-TEST_CASE("an ellipsoid of equal axes is a sphere; its poles are where they should be") {
+TEST_CASE("an ellipsoid of equal axes is a sphere, its poles are where they should be") {
   const Indenter ball = Ellipsoid{{2, 2, 2}, {0, 1, 0}}, sphere = Sphere{2, {0, 1, 0}}, egg = Ellipsoid{{3, 1.5, 2}, {0, 5, 0}};
   for (const Vec3& x : {Vec3(3, 0, 1), Vec3(0.3, -1.2, 0.4), Vec3(0, -3, 0)}) {
     CHECK(shape_at(ball, x).gap == doctest::Approx(shape_at(sphere, x).gap).epsilon(1e-10));
@@ -100,7 +100,7 @@ TEST_CASE("facets know inside from outside and find the nearest triangle") {
   }
 }
 
-TEST_CASE("every indenter presses: exact law, few iterations; a finely faceted sphere gives the sphere's force") {
+TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted sphere gives the sphere's force") {
   test::Indentation scene;
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 0.5, scene.reach = 3;
   const auto press = [&](const std::string& name, const Indenter& shape) {

@@ -154,7 +154,7 @@ TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm"
   CHECK(std::isnan(cov(2, 2)));
 }
 
-TEST_CASE("steps into a region without model are shortened; a start without model is reported") {
+TEST_CASE("steps into a region without model are shortened, a start without model is reported") {
   LeastSquares q;  // r = sqrt(p) - 2, defined for p >= 0 only
   q.residual = [](const VecX& p, VecX& r) {
     r = vec({std::sqrt(p[0]) - 2});

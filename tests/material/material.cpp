@@ -137,7 +137,7 @@ TEST_CASE("turning the specimen with its fibres turns the stress") {
   CHECK((tensor(q.S) - Q * tensor(r.S) * Q.transpose()).norm() <= 1e-13 * r.S.norm());
 }
 
-TEST_CASE("a shortened fibre bears nothing; with the switch off it does") {
+TEST_CASE("a shortened fibre bears nothing, with the switch off it does") {
   Material material = positive_hgo_yeoh(0, 0.5);
   Material matrix = material;
   matrix.fibres.clear();

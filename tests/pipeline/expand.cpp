@@ -46,7 +46,7 @@ nodes:
 
 }  // namespace
 
-TEST_CASE("a node's axes are its own and those of its inputs; `over` removes them") {
+TEST_CASE("a node's axes are its own and those of its inputs, `over` removes them") {
   const auto steps = steps_of(two_axes);
   CHECK(folders(steps, "mesh") == Words{"mesh"});
   const Words members{"code_FER/alpha_000/",   "code_FER/alpha_030/",   "code_FER/alpha_007.5/",
@@ -60,7 +60,7 @@ TEST_CASE("a node's axes are its own and those of its inputs; `over` removes the
   CHECK(steps.size() == 1 + 6 + 6 + 1 + 2);
 }
 
-TEST_CASE("each member gets its values; `set` comes before them") {
+TEST_CASE("each member gets its values, `set` comes before them") {
   const auto steps = steps_of(two_axes);
   CHECK(to_text(step(steps, "code_FER/alpha_030/solve").config) == "angles: [30]\nd: 2\npath:\n  steps: 10\nform: full\n");
   CHECK(to_text(step(steps, "code_ANSYS/alpha_007.5/solve").config) == "angles: [7.5]\nd: 1\npath:\n  steps: 10\n");
@@ -72,7 +72,7 @@ TEST_CASE("an axis that two nodes declare is one axis, with settings for each of
   CHECK(to_text(step(steps, "code_ANSYS/alpha_000/post").config) == "stress: b\n");
 }
 
-TEST_CASE("inputs are those of the same member; a gathering node gets all of them in order") {
+TEST_CASE("inputs are those of the same member, a gathering node gets all of them in order") {
   const auto steps = steps_of(two_axes);
   const Step& post = step(steps, "code_ANSYS/alpha_030/post");
   REQUIRE(post.inputs.size() == 1);
@@ -128,7 +128,7 @@ TEST_CASE("a variant may be another config file") {
   CHECK(to_text(step(steps, "law_B/fit").config) == "from: base.yaml\nx: 1\ny: 2\n");
 }
 
-TEST_CASE("folders of numbers sort like the numbers; every folder is safe for make") {
+TEST_CASE("folders of numbers sort like the numbers, every folder is safe for make") {
   Axis axis{"alpha", "deg", true, {}, {}};
   for (const char* label : {"0", "7.5", "30", "180", "0.25"}) axis.points.push_back({label, {}, {}});
   Words names;
@@ -177,7 +177,7 @@ TEST_CASE("a recipe is one plain command with a launcher in front, programs are 
                                          {"b/x.h5"});
   CHECK(text.find("\nall: b/x.h5\n") != std::string::npos);
   CHECK(text.find("\nb/x.h5: b/x.yaml a/mesh.h5 $(if $(STRICT),$(BIN)/langer-x) | $(BIN)/langer-x\n"
-                  "\t$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 -o $@\n") != std::string::npos);
+                  "\t$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 --log $(basename $@).log -o $@\n") != std::string::npos);
   for (const char* line : {".DELETE_ON_ERROR:", ".SECONDARY:", "LAUNCH ?=", "BIN ?= ../../build/bin"}) {
     CAPTURE(line);
     CHECK(text.find(std::string("\n") + line) != std::string::npos);

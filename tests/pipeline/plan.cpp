@@ -71,7 +71,7 @@ std::string failure(Exit& code) {
 
 }  // namespace
 
-TEST_CASE("a plan is effective configs and a Makefile; planning again touches nothing") {
+TEST_CASE("a plan is effective configs and a Makefile, planning again touches nothing") {
   Project project;
   const PlanReport first = plan("p.yaml", "", "bin");
   CHECK(first.folder == "runs/p");

@@ -58,7 +58,7 @@ struct Sample {
 
 }  // namespace
 
-TEST_CASE("a column is called after its quantity, its place and its fibre family; name: replaces that") {
+TEST_CASE("a column is called after its quantity, its place and its fibre family, name: replaces that") {
   const auto name = [](const std::string& choice) { return column_name(choices(choice)[0]); };
   CHECK(name("{quantity: u_ind}") == "u_ind");
   CHECK(name("{quantity: u_y, at: A}") == "u_y_A");

@@ -130,7 +130,7 @@ TEST_CASE("the nearest Gauss point is the nearest of all, in each element at the
   }
 }
 
-TEST_CASE("bodies of different materials are never averaged; of one material they are") {
+TEST_CASE("bodies of different materials are never averaged, of one material they are") {
   Mesh mesh = test::block({0, 1, 2}, {0, 1}, {0, 1});
   mesh.bodies = {"skin", "fat"};
   mesh.body = {0, 1};

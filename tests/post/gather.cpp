@@ -17,7 +17,7 @@ const std::vector<GatherInput> members{
 const std::vector<SweepAxis> axes{{"code", "-", {}}, {"alpha", "deg", {}}};
 }  // namespace
 
-TEST_CASE("a row per member: axes first, then all quantities of the first member; what is absent is an empty cell") {
+TEST_CASE("a row per member: axes first, then all quantities of the first member, what is absent is an empty cell") {
   CHECK(csv(gather({}, axes, members)) == "code,alpha_deg,force_N,J,u_y_mm\nFER,0,1.5,1,-0.25\nFER,30,0.1,,\n");
 }
 

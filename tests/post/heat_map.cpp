@@ -51,7 +51,7 @@ TEST_CASE("A heat map has one cell per value: red above zero, blue below, grey w
   for (const auto& [x, y] : cells[3].corners) CHECK((x > 0 && x < d.width && y > 0 && y < d.height));
 }
 
-TEST_CASE("The line of zero runs between cells of different sign only; losses are redder the earlier they come") {
+TEST_CASE("The line of zero runs between cells of different sign only, losses are redder the earlier they come") {
   HeatMap map;
   map.values = MatX::Constant(3, 3, 1);
   map.zero_line = true;

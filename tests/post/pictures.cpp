@@ -164,7 +164,7 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
   CHECK_FALSE(std::filesystem::exists(where + "/broken"));
 }
 
-TEST_CASE("a figure takes its columns by name; labels carry units, legends are the columns or what the user says") {
+TEST_CASE("a figure takes its columns by name, labels carry units, legends are the columns or what the user says") {
   const auto column = [](Quantity quantity, const char* at = nullptr) {
     ColumnChoice c;
     c.quantity = quantity;
@@ -193,7 +193,7 @@ TEST_CASE("a figure takes its columns by name; labels carry units, legends are t
   CHECK(plain("stress σ_{xx}") == "stress σ_xx");
 }
 
-TEST_CASE("gnuplot draws a figure from a CSV file; its complaint is reported, and so is its absence") {
+TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, and so is its absence") {
   const std::string where = folder("figure");
   write(where + "/curves.csv", "t,u_mm,force_N\n0,0,0\n1,0.5,2\n2,1,8\n");
   Plot plot{

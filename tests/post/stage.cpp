@@ -113,7 +113,7 @@ TEST_CASE("the table has one row per state, the unloaded one first, and columns 
   CHECK(file.curves.columns[6].values == std::vector<double>{0, 2, 2, 2, 2});
 }
 
-TEST_CASE("the summary is the last row with what stands beyond the table; every column is a curve over the first") {
+TEST_CASE("the summary is the last row with what stands beyond the table, every column is a curve over the first") {
   const std::string where = folder("summary");
   REQUIRE(post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n").code == 0);
   const CurvesFile file = read_curves(where + "/out/curves.h5");
@@ -156,7 +156,7 @@ TEST_CASE("snapshots are the states asked for, with fields at points and in cell
   CHECK(cells.read<double>("J", {3}).values[2] == doctest::Approx(1.1 * 0.95 * 0.96));
 }
 
-TEST_CASE("figures and the picture stand beside the table; without gnuplot it says so once and goes on") {
+TEST_CASE("figures and the picture stand beside the table, without gnuplot it says so once and goes on") {
   const std::string where = folder("figures");
   const std::string config =
       columns + "figures:\n  force: {x: u_ind, y: [force]}\nrender: {field: u_x, cuts: [{axis: z, at: 0.5}]}\n";

@@ -68,7 +68,7 @@ TEST_CASE("directions between points do not depend on the points' signs, and opp
   CHECK(direction_at(points, middle, Between::inverse_distance, 2) == Vec3::Zero());
 }
 
-TEST_CASE("the same points from a CSV file and from an HDF5 file; datasets of unequal length are refused by name") {
+TEST_CASE("the same points from a CSV file and from an HDF5 file, datasets of unequal length are refused by name") {
   const auto folder = std::filesystem::temp_directory_path() / "langer_fibre_points";
   std::filesystem::create_directories(folder);
   const std::string csv = (folder / "points.csv").string(), h5_file = (folder / "points.h5").string();

@@ -16,7 +16,7 @@ VecX vec(std::initializer_list<double> x) { return Eigen::Map<const VecX>(x.begi
 
 }  // namespace
 
-TEST_CASE("a linear model has its slopes as effects and no spread; s is twice a negative slope") {
+TEST_CASE("a linear model has its slopes as effects and no spread, s is twice a negative slope") {
   const auto phi = [](const VecX& p, VecX& y) {
     y = vec({3 * p[0] - 2 * p[1], 0.5 * p[1] + 7});
     return true;
@@ -91,7 +91,7 @@ TEST_CASE("zones average the points they contain, both ends included") {
   CHECK(zone_means(of, {0, 0.1, 0.1 + 0.2, 1}, {{0, 0.3}})(0, 0) == 2);
 }
 
-TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed forms, no spread; c2 has one") {
+TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed forms, no spread, c2 has one") {
   const Material truth = table1_hgo_yeoh();
   const std::vector<double> strain{0.1, 0.3, 0.6};
   const auto phi = [&](const VecX& p, VecX& y) {

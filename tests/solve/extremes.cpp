@@ -181,7 +181,7 @@ TEST_CASE("extremes: pulled to 3 and pressed to 0.2, the closed form") {
   }
 }
 
-TEST_CASE("extremes: spheres from 0.1 mm to 1e5 mm; the largest is a plane") {
+TEST_CASE("extremes: spheres from 0.1 mm to 1e5 mm, the largest is a plane") {
   test::Indentation scene = small_scene();
   scene.depth = 0.05, scene.step = 0.025;
   double before = 0;

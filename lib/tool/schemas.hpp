@@ -1,0 +1,16 @@
+// The JSON Schema of every kind of YAML file: configs of the stages, materials, pipelines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace langer {
+
+std::vector<std::string> schema_kinds();
+bool has_schema(const std::string& kind);
+std::string schema_text(const std::string& kind);  // throws Failure(config) with the known kinds
+std::string schema_file(const std::string& kind);  // "solve.schema.json"
+// the line that tells an editor where the schema lies, seen from the file
+std::string schema_line(const std::string& kind, const std::string& folder);
+
+}  // namespace langer
