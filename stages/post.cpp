@@ -177,7 +177,9 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     pictures.draw("render", render(scene, choice));
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
-  write_curves(job.output, curves, job.identity);
+  Identity identity = job.identity;
+  identity.cost = header.identity.cost;
+  write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(),
           config.figures.size() + config.maps.size() + config.render.has_value());

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include "assembly/equilibrium.hpp"
+#include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "mesh/quality.hpp"
+#include "scene/accuracy.hpp"
 #include "scene/dry_run.hpp"
+#include "scene/make_mesh.hpp"
 #include "scene/progress.hpp"
 #include "scene/scene.hpp"
 #include "scene/stability_watch.hpp"
@@ -44,10 +47,24 @@ void refuse_bad(const Mesh& mesh, const std::string& file) {
   }
 }
 
+// the mesh that the config describes
+Mesh mesh_in(const SolveConfig& config, const Where& where) {
+  try {
+    return make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
+  } catch (const Failure& failure) {
+    std::vector<Error> errors = failure.errors();
+    for (Error& e : errors) e.where = where("mesh." + e.key), e.key = "mesh." + e.key;
+    throw Failure(failure.code(), errors);
+  }
+}
+
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
-  const SolveConfig& config = job.config;
-  const Mesh mesh = read_mesh(job.input("mesh")).mesh;
-  refuse_bad(mesh, job.input("mesh"));
+  const double began = wall_seconds();
+  SolveConfig config = job.config;
+  const std::optional<ChosenRung> rung = choose_accuracy(config);
+  if (rung) job.say("accuracy: {}", rung->words);
+  const Mesh mesh = job.has("mesh") ? read_mesh(job.input("mesh")).mesh : mesh_in(config, job.where);
+  refuse_bad(mesh, job.has("mesh") ? job.input("mesh") : "");
   const std::optional<Material> material =
       job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
   const Scene whole = make_scene(config, mesh, material, job.where);
@@ -77,7 +94,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   std::string last_said;  // of the last state's stability
 
   double files = 0;  // CPU seconds
+  double force = 0;  // on the indenter, at the end [N]
   std::optional<double> increment;
+  const bool from_the_start = !file.resumed();
   if (const auto last = file.resumed()) {
     const auto before = file.before_resumed();
     const BodyState earlier = before ? state(*before) : statics.accepted();  // at rest
@@ -114,6 +133,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
           }
         }
         if (part) record = part->whole(record);
+        force = record.force_ind.norm();
         {
           const Stopwatch writing(files);
           file.append(record);
@@ -150,9 +170,13 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
             fmt::format(
                 "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",
                 file.n_steps(), job.output)});
-  file.finish();
+  // the processor's time before this function is that of loading the program
+  file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt);
   progress.finished(path, statics, files);
+  if (rung) job.say("force {:.4g} N +- {:g} % (by the ladder)", force, rung->rung.error);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
+  if (!scene.contacts.empty()) summary.push_back({"force", force, "N"});
+  if (rung) summary.push_back({"accuracy", rung->rung.error, "percent"});
   if (part) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)

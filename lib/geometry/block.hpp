@@ -1,5 +1,6 @@
-// Geometries of the mesh stage, as values with their listings; both span [origin, origin + size].
+// Geometries of the mesh stage, as values with their listings; they span [origin, origin + size].
 //   Block        hexahedra on three families of grid lines: even, or refined towards the centre in x and z and to the top in y
+//   IndentedBlock  a Block whose cells follow from the indenter and one number
 //   GradedBlock  square core, rings and outer blocks in the x-z plane (an O-grid), extruded along y: edges turn with the rings
 // Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock must have nodes there.
 #pragma once
@@ -92,17 +93,37 @@ struct GradedBlock {
   std::vector<Complaint> complaints() const;
 };
 
-using Geometry = std::variant<Block, GradedBlock>;
+// A block for a round indenter above its middle: cells by one number, their length in radii of the contact. Under the indenter
+// they are even, up to 1.1 contact radii; to the sides, the bottom and far layers they grow. Halving `edge` halves them all.
+struct IndentedBlock {
+  static constexpr const char* key = "indented_block";
+  std::array<double, 3> origin{}, size{};
+  double radius = 0, depth = 0, edge = 0.175;
+  static void fields(auto& v) {
+    v(&IndentedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
+    v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
+    v(&IndentedBlock::radius, "radius", unit::mm, "of the indenter", required, positive);
+    v(&IndentedBlock::depth, "depth", unit::mm, "how deep it is pressed, at most", required, positive);
+    v(&IndentedBlock::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact", between(0.02, 1));
+  }
+  double contact_radius() const;  // of a sphere, where it cuts the undeformed surface [mm]
+  Block block() const;
+  std::vector<Complaint> complaints() const;
+};
+
+using Geometry = std::variant<Block, GradedBlock, IndentedBlock>;
 using Points = std::map<std::string, Vec3>;
 
 // Mesh with positions and cells, numbered in order, exactly symmetric where it is symmetric; no sets, bodies or frames yet.
 // `notes` gets what a user may want to know, such as moved grid lines. Failures name keys under `geometry` and `points`.
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const GradedBlock& block, const Points& points, std::vector<std::string>& notes);
+Mesh mesh_of(const IndentedBlock& block, const Points& points, std::vector<std::string>& notes);
 
 // What can be seen to be wrong before meshing: refinements that do not fit, points outside or too close to each other.
 std::vector<Complaint> contradictions(const Block& block, const Points& points);
 std::vector<Complaint> contradictions(const GradedBlock& block, const Points& points);
+std::vector<Complaint> contradictions(const IndentedBlock& block, const Points& points);
 
 // Sets each point's node set, the node exactly there; throws Failure(config) with the nearest node where there is none.
 void name_points(Mesh& mesh, const Points& points);

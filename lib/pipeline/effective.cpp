@@ -12,6 +12,7 @@
 #include "scene/post_config.hpp"
 #include "scene/sensitivity_config.hpp"
 #include "scene/solve_config.hpp"
+#include "scene/tune_config.hpp"
 
 namespace langer {
 
@@ -35,7 +36,7 @@ const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
       {"mesh", kind<MeshConfig>()},   {"fit", kind<FitConfig>()},   {"sensitivity", kind<SensitivityConfig>()},
       {"solve", kind<SolveConfig>()}, {"post", kind<PostConfig>()}, {"gather", kind<GatherConfig>()},
-      {"report", kind<ReportConfig>()}, {"material", kind<Material>()},
+      {"report", kind<ReportConfig>()}, {"tune", kind<TuneConfig>()}, {"material", kind<Material>()},
   };
   return table;
 }

@@ -12,7 +12,7 @@ const std::vector<StageSpec>& stages() {
        "sensitivity.h5"},
       {"solve",
        "Finds equilibrium along a load path.",
-       {{.name = "mesh", .says = "mesh with named sets and frames", .made_by = {"mesh"}},
+       {{.name = "mesh", .says = "mesh with named sets and frames, unless the config has one", .made_by = {"mesh"}, .required = false, .or_key = true},
         {.name = "material",
          .says = "energy terms and their parameters, unless the config has them",
          .made_by = {"fit"},
@@ -42,6 +42,10 @@ const std::vector<StageSpec>& stages() {
         {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
         {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
        "report.html"},
+      {"tune",
+       "Finds which rungs of a ladder of settings give the least error for their cost.",
+       {{.name = "curves", .says = "a rung: curves of its solution", .made_by = {"post"}, .several = true, .members = true}},
+       "trade.h5"},
   };
   return table;
 }

@@ -97,6 +97,9 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
       draw += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
                           markers[dash % markers.size()], every);
     draw += fmt::format(" title {}", printed(line.legend));
+    if (!line.names.empty())
+      draw += fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
+                          gnuplot_string(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
   }
   for (const auto& [terminal, size, type] :
        {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})

@@ -11,6 +11,7 @@
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "scene/fibre_field.hpp"
+#include "scene/mesh_config.hpp"
 #include "solve/kinsol.hpp"
 #include "solve/load_path.hpp"
 #include "solve/newton.hpp"
@@ -96,6 +97,8 @@ constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
 constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
 
+std::optional<double> percent_of(const std::string& text);  // "1%" or "1 %": 1; nothing where it is none above 0
+
 struct BodyConfig {
   std::optional<Material> material;
   std::vector<double> fibre_angles;
@@ -107,7 +110,14 @@ struct BodyConfig {
   }
 };
 
+// Named points of the measured front of accuracy against cost (scene/accuracy.hpp).
+enum class Fidelity { draft, standard, reference };
+constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
+
 struct SolveConfig {
+  std::optional<MeshConfig> mesh;
+  std::optional<std::string> accuracy;  // "1%"
+  std::optional<Fidelity> fidelity;
   std::optional<Material> material;
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
@@ -123,6 +133,11 @@ struct SolveConfig {
   SymmetryChoice symmetry = SymmetryChoice::none;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
+    v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
+    v(&SolveConfig::accuracy, "accuracy", unit::none,
+      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and the "
+      "symmetry from what was measured (pipelines/trade.yaml)");
+    v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
@@ -150,6 +165,15 @@ struct SolveConfig {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (loads.empty() && contacts.empty()) found.push_back({"", "nothing moves", "loads or contacts", ""});
+    if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
+    if (accuracy && !percent_of(*accuracy))
+      found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
+      if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
+      if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
+        found.push_back({key, mesh ? "a mesh of another kind" : "no mesh here", "the key mesh with geometry: {indented_block: ...}",
+                         "its cells are what accuracy chooses"});
+    }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
     return found;

@@ -2,9 +2,17 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace langer {
+
+// What a solution took, of one run from start to end; another run of the same takes a little more or less.
+struct Cost {
+  double cpu = 0;     // all threads [s]
+  double wall = 0;    // [s]
+  double memory = 0;  // at its peak [MB]
+};
 
 struct Identity {
   std::string stage;                          // "mesh", "fit", "solve", ...
@@ -12,6 +20,7 @@ struct Identity {
   std::string config_hash;                    // FNV-1a 64 of `config` with input files by name: what they hold is in `inputs`
   std::map<std::string, std::string> inputs;  // port -> content id of the input file
   std::string command;                        // command line as typed
+  std::optional<Cost> cost;                   // of solution.h5, and of what is made of it
 };
 
 // 16 hex digits of FNV-1a 64

@@ -75,6 +75,7 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   provenance.write_text("host", host_name());
   provenance.write_text("command", identity.command);
   write_times(root);
+  if (identity.cost) write_cost(root, *identity.cost);
 }
 
 void write_times(const h5::Group& root) {
@@ -83,6 +84,13 @@ void write_times(const h5::Group& root) {
   const h5::Group provenance = root.group("provenance");
   provenance.attribute("wall_seconds", fmt::format("{:.3f}", wall.count()));
   provenance.attribute("cpu_seconds", fmt::format("{:.3f}", static_cast<double>(std::clock()) / CLOCKS_PER_SEC));
+}
+
+void write_cost(const h5::Group& root, const Cost& cost) {
+  const h5::Group group = root.group("provenance").make_group("cost");
+  group.write_scalar("cpu", cost.cpu, "s");
+  group.write_scalar("wall", cost.wall, "s");
+  group.write_scalar("memory", cost.memory, "MB");
 }
 
 namespace {
@@ -100,6 +108,10 @@ Origin origin(const h5::Group& root) {
     const h5::Group provenance = root.group("provenance");
     if (provenance.has("config")) identity.config = provenance.read_text("config");
     if (provenance.has("command")) identity.command = provenance.read_text("command");
+    if (provenance.has("cost")) {
+      const h5::Group cost = provenance.group("cost");
+      identity.cost = Cost{cost.read_scalar("cpu"), cost.read_scalar("wall"), cost.read_scalar("memory")};
+    }
   }
   origin.content_id = content_id(identity, origin.version);
   return origin;

@@ -25,6 +25,7 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
 
 // seconds since the program began, of all its threads for the CPU; again where a file grows over the whole run
 void write_times(const h5::Group& root);
+void write_cost(const h5::Group& root, const Cost& cost);  // beside the identity, when the work is done
 
 // refuses another schema or version by name; `config` and `command` stay empty where /provenance is missing
 Identity read_identity(const h5::Group& root, const Schema& schema);

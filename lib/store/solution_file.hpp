@@ -58,7 +58,7 @@ class SolutionWriter {
   std::optional<StepRecord> before_resumed() const;  // the record before that, from which extrapolation starts
   int n_steps() const;
   void append(const StepRecord& record);
-  void finish();
+  void finish(const std::optional<Cost>& cost = {});  // none where the work was done in several runs
 
  private:
   struct State;

@@ -259,8 +259,9 @@ void SolutionWriter::State::contact(const StepRecord& record) {
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
-void SolutionWriter::finish() {
+void SolutionWriter::finish(const std::optional<Cost>& cost) {
   write_times(state_->file.root());
+  if (cost) write_cost(state_->file.root(), *cost);
   state_->file.commit();
 }
 

@@ -1,0 +1,27 @@
+// Accuracy against cost over the rungs of a ladder: errors against a reference, the front of rungs that none beats in both, the
+// cheapest rung under a wanted error.
+//   error      |value - reference| / |reference|; of the whole ladder's table one column per quantity
+//   reference  a member of the ladder, or the limit that three members with cells in a constant ratio r point to:
+//                p = log((f1 - f2) / (f2 - f3)) / log r,   f = f3 + (f3 - f2) / (r^p - 1)                       [R11]
+//              where the differences do not shrink with one sign there is no such limit, and the finest stands for it
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace langer {
+
+struct Limit {
+  double value = 0;
+  double order = 0;        // p; 0 where the finest value stands for the limit
+  double uncertainty = 0;  // |limit - finest|, or the last difference where there is no limit
+};
+Limit richardson(double coarse, double middle, double fine, double ratio);
+
+// Indices by rising cost, each with a smaller error (by more than rounding) than all before it. Rungs that are not a number are left out.
+std::vector<int> pareto_front(const std::vector<double>& cost, const std::vector<double>& error);
+
+// Least cost with an error of at most `wanted`; -1: none.
+int cheapest(const std::vector<double>& cost, const std::vector<double>& error, double wanted);
+
+}  // namespace langer

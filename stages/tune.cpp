@@ -1,0 +1,146 @@
+// langer-tune trade.yaml --curves a/curves.h5 --curves b/curves.h5 -o trade.h5: errors against CPU seconds and memory of every
+// rung, also as trade.csv; the front of each quantity as picture and CSV; the cheapest rung for each error wanted.
+#include <cmath>
+
+#include "post/gather.hpp"
+#include "post/gnuplot.hpp"
+#include "post/trade.hpp"
+#include "scene/pictures.hpp"
+#include "scene/sweep_file.hpp"
+#include "scene/tune_config.hpp"
+#include "stage.hpp"
+#include "store/seal.hpp"
+
+namespace langer {
+namespace {
+
+struct Ladder {
+  std::vector<GatherInput> members;
+  std::vector<Cost> cost;
+
+  std::size_t at(const Job<TuneConfig>& job, const std::string& key, const std::vector<std::string>& at) const {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i].at == at) return i;
+      known.push_back(fmt::format("[{}]", fmt::join(members[i].at, ", ")));
+    }
+    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no rung is [{}]", fmt::join(at, ", ")),
+                                      fmt::format("one of {}", fmt::join(known, ", ")), ""});
+  }
+};
+
+Ladder ladder_of(const Job<TuneConfig>& job) {
+  const std::vector<std::string>& files = job.inputs.at("curves");
+  const TuneConfig& config = job.config;
+  if (!config.members.empty() && config.members.size() != files.size())
+    throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
+                                      fmt::format("one for each of the {} files given", files.size()), ""});
+  Ladder ladder;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    GatherInput member{files[i], {files[i]}, read_summary(files[i])};
+    if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
+    const std::optional<Cost> cost = read_origin(files[i]).identity.cost;
+    if (!cost) job.say("{}: its solution was made in several runs, or by an older version: what it took is not known", member.path);
+    ladder.members.push_back(std::move(member));
+    ladder.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
+  }
+  return ladder;
+}
+
+struct Reference {
+  Limit limit;
+  std::vector<std::size_t> no_rungs;  // members that stand for the truth
+};
+
+Reference reference_of(const Job<TuneConfig>& job, const Ladder& ladder, const std::vector<double>& values) {
+  const TuneReference& wanted = job.config.reference;
+  if (!wanted.richardson) {
+    const std::size_t i = ladder.at(job, "reference.member", wanted.member);
+    return {{values[i], 0, 0}, {i}};
+  }
+  const RichardsonConfig& r = *wanted.richardson;
+  const std::size_t coarse = ladder.at(job, "reference.richardson.coarse", r.coarse),
+                    middle = ladder.at(job, "reference.richardson.middle", r.middle),
+                    fine = ladder.at(job, "reference.richardson.fine", r.fine);
+  return {richardson(values[coarse], values[middle], values[fine], r.ratio), {fine}};
+}
+
+std::string name_of(const GatherInput& member) { return fmt::format("{}", fmt::join(member.at, " ")); }
+
+void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Ladder& ladder,
+          const std::vector<double>& cpu, const std::vector<double>& error, const std::vector<int>& front) {
+  const std::string name = "error_" + quantity;
+  std::string all = "rung,cpu_s,error_percent\n", best = all;
+  const auto line = [&](std::size_t i) { return fmt::format("{},{:.6g},{:.6g}\n", name_of(ladder.members[i]), cpu[i], error[i]); };
+  for (std::size_t i = 0; i < cpu.size(); ++i)
+    if (std::isfinite(cpu[i]) && error[i] > 0) all += line(i);
+  for (int i : front)
+    if (error[static_cast<std::size_t>(i)] > 0) best += line(static_cast<std::size_t>(i));
+  write_text_file(job.beside(name + ".csv"), all);
+  write_text_file(job.beside(name + "_front.csv"), best);
+  Plot plot;
+  plot.title = job.config.title;
+  plot.x_label = "CPU time [s]", plot.y_label = "error of " + literal(quantity) + " [%]";
+  plot.logarithmic = true;
+  plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "rungs"}};
+  plot.lines[0].names = "rung", plot.lines[1].points = true;
+  pictures.draw(name, gnuplot_script(plot, name));
+}
+
+std::vector<Summary> tune(const Job<TuneConfig>& job) {
+  const Ladder ladder = ladder_of(job);
+  std::vector<SweepAxis> axes;
+  for (const GatherAxis& a : job.config.axes) axes.push_back({a.name, a.unit, {}});
+  const Sweep values = gather(job.config.quantities, axes, ladder.members, job.where("quantities"));
+  Sweep sweep = values;
+  std::vector<double> cpu, wall, memory;
+  for (const Cost& c : ladder.cost) cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
+  sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
+  sweep.columns.push_back({"memory", "MB", memory});
+
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  std::string choice = "quantity,wanted_percent,rung,error_percent,cpu_s,memory_MB\n";
+  std::vector<Summary> summary;
+  for (const SweepColumn& column : values.columns) {
+    const Reference reference = reference_of(job, ladder, column.values);
+    const double right = reference.limit.value;
+    std::vector<double> error;
+    for (double v : column.values) error.push_back(100 * std::abs(v - right) / std::abs(right));
+    std::vector<double> as_rung = error;
+    for (std::size_t i : reference.no_rungs) as_rung[i] = NAN;
+    const std::vector<int> front = pareto_front(cpu, as_rung);
+    job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
+            job.config.reference.richardson ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
+                                                          reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order)
+                                                                                    : ", no order seen")
+                                            : "");
+    std::vector<double> on_front(cpu.size(), 0);
+    for (int i : front) on_front[static_cast<std::size_t>(i)] = 1;
+    sweep.columns.push_back({column.name + "_error", "percent", error});
+    sweep.columns.push_back({column.name + "_front", "-", on_front});
+    for (double wanted : job.config.wanted) {
+      const int i = cheapest(cpu, as_rung, wanted);
+      if (i < 0) {
+        job.say("  {:g} %: no rung", wanted);
+        choice += fmt::format("{},{:g},,,,\n", column.name, wanted);
+        continue;
+      }
+      const auto k = static_cast<std::size_t>(i);
+      job.say("  {:g} %: {} ({:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]), error[k], cpu[k], memory[k]);
+      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", column.name, wanted, name_of(ladder.members[k]), error[k], cpu[k],
+                            memory[k]);
+    }
+    draw(job, pictures, column.name, ladder, cpu, as_rung, front);
+    summary.push_back({column.name + "_reference", right, column.unit});
+    summary.push_back({column.name + "_reference_uncertainty", reference.limit.uncertainty, column.unit});
+  }
+  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
+  write_text_file(job.beside("cheapest.csv"), choice);
+  write_sweep(job.output, job.beside("trade.csv"), sweep, nullptr, {}, job.identity);
+  return summary;
+}
+
+}  // namespace
+}  // namespace langer
+
+int main(int argc, char** argv) { return langer::run_stage<langer::TuneConfig>(argc, argv, "tune", langer::tune); }
