@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -104,6 +104,21 @@ schemas: build
 	  done; \
 	done
 
+# error against cost on three indentations, alone on the machine, and docs/trade.md from it; about 20 minutes
+trade:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/trade.yaml JOBS=1
+	@for scene in isotropic table1 positive; do \
+	  awk -v what=front -f docs/trade.awk runs/trade/$$scene/trade.csv > runs/trade/front.md && \
+	  tests/soak/page docs/trade.md $$scene runs/trade/front.md && cp runs/trade/$$scene/error_force.svg docs/trade_$$scene.svg || exit 1; done
+	@awk -v what=rungs -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/rungs.md
+	@tests/soak/page docs/trade.md rungs runs/trade/rungs.md
+
+# does `accuracy: 1%` keep its word on 24 random scenes
+accuracy:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/accuracy.yaml
+	@awk -v what=accuracy -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/accuracy/$(s)_table/table.csv) > runs/accuracy/table.md
+	@tests/soak/page docs/trade.md accuracy runs/accuracy/table.md; tail -1 runs/accuracy/table.md
+
 clean:
 	rm -rf $(build)
 
@@ -123,5 +138,7 @@ help:
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
+	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
+	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"
 	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"

@@ -1,0 +1,45 @@
+# Tables of docs/trade.md.   awk -v what=front -f docs/trade.awk runs/trade/<scene>/trade.csv
+#   front     rungs on the front of the force, by cost
+#   rungs     one line per rung: errors of the force in all scenes given, seconds and memory of the last one
+#   accuracy  asked against fine, of runs/accuracy/<law>_table/table.csv
+BEGIN { FS = "," }
+FNR == 1 { ++file; delete head; for (i = 1; i <= NF; ++i) head[$i] = i; next }
+what == "front" && $head["force_front"] == 1 {
+  row[++n] = sprintf("| %s | %.2g | %.2g | %.2g | %.0f |", $1, $head["force_error_percent"], $head["cpu_s"], $head["wall_s"], $head["memory_MB"])
+  cost[n] = $head["cpu_s"]
+}
+what == "rungs" {
+  if (!($1 in at)) order[++n] = $1, at[$1] = n
+  error[$1, file] = $head["force_error_percent"], cpu[$1, file] = $head["cpu_s"], files = file
+}
+what == "accuracy" {
+  if ($1 == "asked") asked[$2] = $head["force_N"]; else fine[$2] = $head["force_N"]
+  if (!($2 in seen)) order[++n] = $2, seen[$2] = FILENAME
+}
+END {
+  if (what == "front") {
+    print "| rung | error of the force, % | CPU s | wall s | MB |\n| --- | --- | --- | --- | --- |"
+    for (k = 1; k <= n; ++k) {
+      least = 0
+      for (i = 1; i <= n; ++i) if (!(i in done) && (!least || cost[i] < cost[least])) least = i
+      done[least] = 1; print row[least]
+    }
+  }
+  if (what == "rungs") {
+    print "| rung | isotropic: error %, CPU s | Table 1, 60°: error %, CPU s | c1 > 0, 30°: error %, CPU s |\n| --- | --- | --- | --- |"
+    for (k = 1; k <= n; ++k) {
+      line = "| " order[k] " |"
+      for (f = 1; f <= files; ++f) line = line sprintf(" %.2g, %.2g |", error[order[k], f], cpu[order[k], f])
+      print line
+    }
+  }
+  if (what == "accuracy") {
+    print "| scene | law | force N | asked for 1 %: off by % |\n| --- | --- | --- | --- |"
+    for (k = 1; k <= n; ++k) {
+      s = order[k]; law = seen[s]; sub(/_table\/table.csv$/, "", law); sub(/.*\//, "", law)
+      off = 100 * (asked[s] / fine[s] - 1); if (off < 0 ? off > -1 : off < 1) ++hits
+      printf "| %s | %s | %.4g | %+.2f |\n", s, law, fine[s], off
+    }
+    printf "\n%d of %d within 1 %%.\n", hits, n
+  }
+}
