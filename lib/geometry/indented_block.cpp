@@ -10,9 +10,18 @@ namespace langer {
 namespace {
 constexpr double covered = 1.1;  // contact radii of even cells
 
+int bounded(double count) { return count < 1e6 ? static_cast<int>(count) : 1000000; }  // most_cells refuses such a block
+
 // cells in which a length grows out of cells of `edge`, evenly spread over its logarithm; measured in pipelines/trade.yaml
 int growing_cells(double per_edge, double edge, double span, double usual) {
-  return static_cast<int>(std::ceil(per_edge / edge * std::log(span) / std::log(usual) - 1e-9));
+  return bounded(std::ceil(per_edge / edge * std::log(span) / std::log(usual) - 1e-9));
+}
+
+// the fewest cells, each at most twice and a half its neighbour, that reach `rest` beyond a cell of `cell`
+int needed_cells(double rest, double cell) {
+  int n = 0;
+  for (double step = 2.5 * cell; rest > 1e-9 * cell && n < 1000; step *= 2.5) rest -= step, ++n;
+  return n;
 }
 }  // namespace
 
@@ -27,13 +36,12 @@ Block IndentedBlock::block() const {
   b.origin = origin, b.size = size;
   for (int i : {0, 2}) {
     const double half = 0.5 * size[i], even = std::min(covered * a, half);
-    const int fine = static_cast<int>(std::lround(even / cell)), coarse = half > even ? growing_cells(0.65, edge, half / even, 6.8) : 0;
-    b.divisions[i] = 2 * std::max(1, fine + coarse);
-    // growing cells that would not have to grow
-    while (b.divisions[i] > 2 && 0.5 * b.divisions[i] * cell > half * (1 + 1e-9)) b.divisions[i] -= 2;
+    const int fine = std::max(1, bounded(std::round(even / cell)));
+    const int coarse = half > even ? std::max(growing_cells(0.65, edge, half / even, 6.8), needed_cells(half - fine * cell, cell)) : 0;
+    b.divisions[i] = 2 * std::min(fine + coarse, bounded(std::ceil(half / cell - 1e-9)));  // no more than even cells would be
   }
   b.centre = TowardsCentre{std::min(cell, std::min(size[0] / b.divisions[0], size[2] / b.divisions[2])), covered * a};
-  b.divisions[1] = std::max(2, growing_cells(0.875, edge, 1 + size[1] / a, 3));
+  b.divisions[1] = std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3), 1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
   b.top = TowardsTop{std::min(1.6 * cell, size[1] / b.divisions[1])};
   return b;
 }
