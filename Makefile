@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -92,6 +92,20 @@ ladder:
 	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
 	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
 
+# programs, man pages, completion, configs; PREFIX and DESTDIR as usual. LANGER_NATIVE is off: the programs may go to another machine
+PREFIX ?= /usr/local
+package := build-package
+$(package)/CMakeCache.txt: | deps
+	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF
+install: $(package)/CMakeCache.txt
+	@cmake --build $(package) --parallel $(JOBS)
+	@DESTDIR=$(DESTDIR) cmake --install $(package) --prefix $(PREFIX) > /dev/null
+	@echo "installed in $(DESTDIR)$(PREFIX)"
+deb: $(package)/CMakeCache.txt
+	@cmake --build $(package) --parallel $(JOBS)
+	@cd $(package) && cpack -G DEB > cpack.log || { cat cpack.log; exit 1; }
+	@ls $(package)/*.deb
+
 # configs/schema, and the line in each config that names its schema
 schemas: build
 	@mkdir -p configs/schema
@@ -140,5 +154,7 @@ help:
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
 	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"
+	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
+	@echo "make deb                      the same as a Debian package"
 	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"
