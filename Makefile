@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy paper install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -84,6 +84,13 @@ bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
 
+# every figure and table of the paper, and docs/paper.md, which shows them beside the published ones
+paper:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/paper.yaml
+	@mkdir -p docs/paper && awk -F'|' '$$1 == "F" { print $$3, "docs/paper/figure_" $$2 ".png" }' docs/paper.csv | \
+	  while read -r from to; do cp runs/paper/$$from $$to || exit 1; done
+	@awk -v run=runs/paper -f docs/paper.awk docs/paper.csv > runs/paper/paper.md && cp runs/paper/paper.md docs/paper.md
+
 # the section "Ladder" of docs/reliability.md from a run of pipelines/extremes.yaml
 ladder:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
@@ -151,6 +158,7 @@ help:
 	@echo "make soak                     kill -9 at random times, KILLS=200"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
+	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
 	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"

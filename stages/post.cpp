@@ -123,8 +123,17 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [name, map] : config.maps)
     for (const Complaint& c : langer::complaints(map, body))
       complaints.push_back({"maps." + name + "." + c.key, c.found, c.expected, c.hint});
-  if (config.render && config.render->field == Quantity::fibre_stretch && config.render->family > body.n_families())
-    complaints.push_back({"render.family", "a fibre family that the material lacks", "another field", ""});
+  std::map<std::string, std::pair<std::string, RenderChoice>> renders;  // name -> its key, how
+  if (config.render) renders["render"] = {"render", *config.render};
+  for (const auto& [name, choice] : config.renders) renders[name] = {"renders." + name, choice};
+  for (const auto& [name, keyed] : renders) {
+    const auto& [key, choice] = keyed;
+    if (choice.field == Quantity::fibre_stretch && choice.family > body.n_families())
+      complaints.push_back({key + ".family", "a fibre family that the material lacks", "another field", ""});
+    for (std::size_t i = 0; i < choice.points.size(); ++i)
+      if (const auto set = header.mesh.node_sets.find(choice.points[i]); set == header.mesh.node_sets.end() || set->second.size() != 1)
+        complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i], "an observation point of the mesh", ""});
+  }
   if (!complaints.empty()) refuse(job, complaints);
 
   std::vector<Measure> measures = shown.measures;
@@ -133,7 +142,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   std::vector<int> snapshots;
   for (std::size_t i = 0; i < config.snapshots.size(); ++i)
     snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
-  const int pictured = config.render ? table.row(job, "render.step", config.render->step) : 0;
+  std::map<std::string, int> pictured;
+  for (const auto& [name, keyed] : renders) pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
 
   Curves curves;
   curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(shown.measures.size()));
@@ -166,15 +176,20 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
     pictures.draw(map.name, map_drawing({{"", &map}}, config.maps.at(map.name).style));
   }
-  if (config.render) {
-    const StepState state = state_of(solution.record(pictured));
-    const RenderChoice& choice = *config.render;
-    RenderScene scene{header.mesh, header.mesh.X, picture_values(body, state, choice.field, choice.family, config.stress), "",
-                      sphere_of(indenters, state.u_ind)};
+  for (const auto& [name, keyed] : renders) {
+    const RenderChoice& choice = keyed.second;
+    const StepState state = state_of(solution.record(pictured.at(name)));
+    RenderScene scene{header.mesh, header.mesh.X, {}, "", sphere_of(indenters, state.u_ind)};
     for (std::size_t i = 0; i < scene.x.size(); ++i) scene.x[i] += state.u[i];
-    const QuantityLine& field = line_of(choice.field);
-    scene.label = plain(with_unit(field.label, field.unit));
-    pictures.draw("render", render(scene, choice));
+    for (const std::string& point : choice.points)
+      scene.points.push_back({point, scene.x[static_cast<std::size_t>(header.mesh.node_sets.at(point)[0])]});
+    if (choice.actions) scene.actions = actions_of(header, state.u);
+    if (choice.field) {
+      const QuantityLine& field = line_of(*choice.field);
+      scene.values = picture_values(body, state, *choice.field, choice.family, config.stress);
+      scene.label = plain(with_unit(field.label, field.unit));
+    }
+    pictures.draw(name, render(scene, choice));
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
@@ -182,7 +197,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(),
-          config.figures.size() + config.maps.size() + config.render.has_value());
+          config.figures.size() + config.maps.size() + renders.size());
   return curves.summary;
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "config/reader.hpp"
@@ -20,6 +23,15 @@ std::string label_of(const Tree& value, bool& is_number) {
   read_leaf(value, "", Member{}, x, none);
   is_number = none.errors.empty();
   return is_number ? number_text(x) : value.scalar;
+}
+
+// nan, inf, 1e400, as YAML or C write them
+bool not_finite(const std::string& text) {
+  const std::string plain = text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1])) ? text.substr(1)
+                            : text.starts_with("-.") || text.starts_with("+.") ? text.substr(2) : text;
+  char* end = nullptr;
+  const double x = std::strtod(plain.c_str(), &end);
+  return !plain.empty() && *end == 0 && !std::isfinite(x);
 }
 
 bool is_label(const std::string& label) {
@@ -244,6 +256,10 @@ class Reading {
       if (value.kind != Tree::Kind::scalar) {
         f.say(value.place, here, "found " + description(value), "a number or a word",
               "maps and lists can be varied by variants");
+        continue;
+      }
+      if (not_finite(value.scalar)) {
+        f.say(value.place, here, "found " + value.scalar, "a finite number, or a word");
         continue;
       }
       bool is_number = false;

@@ -52,33 +52,42 @@ struct SvgWriter {
   }
 };
 
+// All patches and strokes are polygons of one data block, in the order of painting: thousands of gnuplot's own objects take minutes.
+// A row is x, y and the colour with its transparency; an empty line ends a polygon.
 struct GnuplotWriter {
   const Drawing& drawing;
-  std::string& s;
-  int n = 0;
-  static std::string colour(const Colour& c, double opacity) {
-    return fmt::format("'#{:02x}{}'", byte(1 - opacity), hex(c).substr(1));  // alpha counts transparency
-  }
-  std::string point(const PagePoint& p) const { return fmt::format("{:.2f},{:.2f}", p[0], drawing.height - p[1]); }
-  std::string path(const std::vector<PagePoint>& points) const {
-    std::string text;
-    for (const PagePoint& p : points) text += (text.empty() ? "from " : " to ") + point(p);
-    return text;
+  std::string polygons, labels;
+  void polygon(const std::vector<PagePoint>& corners, const Colour& c, double opacity) {
+    const unsigned colour = byte(1 - opacity) << 24 | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+    for (const PagePoint& p : corners) polygons += fmt::format("{:.2f} {:.2f} {}\n", p[0], drawing.height - p[1], colour);
+    polygons += "\n";
   }
   void operator()(const Patch& p) {
-    const std::string rgb = colour(p.fill, 1);
-    s += fmt::format("set object {} polygon {} to {} front fillcolor rgb {} fillstyle solid {}\n", ++n, path(p.corners),
-                     point(p.corners.front()), rgb, p.hem > 0 ? fmt::format("border lc rgb {} lw {}", rgb, p.hem) : "noborder");
+    PagePoint middle{0, 0};
+    for (const PagePoint& c : p.corners)
+      for (int k = 0; k < 2; ++k) middle[k] += c[k] / static_cast<double>(p.corners.size());
+    std::vector<PagePoint> corners = p.corners;
+    for (PagePoint& c : corners)  // as wide as with its hem
+      if (const double far = std::hypot(c[0] - middle[0], c[1] - middle[1]); far > 0)
+        for (int k = 0; k < 2; ++k) c[k] += 0.7 * p.hem * (c[k] - middle[k]) / far;
+    polygon(corners, p.fill, 1);
   }
   void operator()(const Stroke& l) {
-    s += fmt::format("set object {} polygon {} front fillstyle empty border lc rgb {} lw {}\n", ++n, path(l.points),
-                     colour(l.colour, l.opacity), l.width);
+    for (std::size_t i = 1; i < l.points.size(); ++i) {
+      const PagePoint &a = l.points[i - 1], &b = l.points[i];
+      const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+      if (length == 0) continue;
+      const double x = 0.5 * l.width * dx / length, y = 0.5 * l.width * dy / length;  // along; across is (-y, x)
+      polygon({{a[0] - 0.5 * x - y, a[1] - 0.5 * y + x}, {b[0] + 0.5 * x - y, b[1] + 0.5 * y + x},
+               {b[0] + 0.5 * x + y, b[1] + 0.5 * y - x}, {a[0] - 0.5 * x + y, a[1] - 0.5 * y - x}},
+              l.colour, l.opacity);
+    }
   }
   void operator()(const Label& t) {
     constexpr const char* anchors[] = {"left", "center", "right"};
     // SVG places the base line, gnuplot the middle of the letters
-    s += fmt::format("set label {} at {} {} front noenhanced font ',{}'\n", gnuplot_string(t.text),
-                     point({t.at[0], t.at[1] - 0.35 * t.size}), anchors[static_cast<int>(t.anchor)], 0.75 * t.size);
+    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front noenhanced font ',{}'\n", gnuplot_string(t.text), t.at[0],
+                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], 0.75 * t.size);
   }
 };
 
@@ -105,9 +114,12 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name) {
       gnuplot_string(name + ".png"));
   s +=
       fmt::format("unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n", drawing.width, drawing.height);
-  GnuplotWriter writer{drawing, s};
+  GnuplotWriter writer{drawing, {}, {}};
   for (const auto& mark : drawing.marks) std::visit(writer, mark);
-  return s + "plot NaN\nunset output\n";
+  const bool empty = writer.polygons.empty();
+  return s + writer.labels + (empty ? "" : "$marks << end\n" + writer.polygons + "end\n") +
+         (empty ? "plot NaN\n" : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n") +
+         "unset output\n";
 }
 
 namespace {

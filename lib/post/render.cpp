@@ -15,7 +15,8 @@ namespace {
 
 constexpr double page_width = 960, margin = 24, bar_room = 150;
 constexpr int most_patches = 6000;
-const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85};
+const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89}, grey{0.45, 0.47, 0.50}, vermilion{0.835, 0.369, 0},
+    blue{0, 0.447, 0.698};
 
 // One thing to paint; those further from the eye come first.
 struct Item {
@@ -119,13 +120,79 @@ void add_axes(Drawing& drawing, const Mat3& R) {
   }
 }
 
+// Edges where the surface turns by more than 40 degrees.
+std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>>& surface, const std::vector<Vec3>& x) {
+  std::map<std::array<int, 2>, std::vector<Vec3>> normals;
+  for (const auto& q : surface) {
+    const Vec3 n = normal_of({x[q[0]], x[q[1]], x[q[2]], x[q[3]]});
+    for (int k = 0; k < 4; ++k) {
+      std::array<int, 2> edge{q[k], q[(k + 1) % 4]};
+      std::sort(edge.begin(), edge.end());
+      normals[edge].push_back(n);
+    }
+  }
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& [edge, n] : normals)
+    if (n.size() != 2 || n[0].dot(n[1]) < 0.766) edges.push_back(edge);
+  return edges;
+}
+
+void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, const Colour& colour) {
+  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::max(std::hypot(dx, dy), 1e-9), head = std::min(11.0, length);
+  const double ex = dx / length, ey = dy / length;
+  const PagePoint neck{to[0] - head * ex, to[1] - head * ey};
+  drawing.marks.push_back(Stroke{{from, neck}, colour, 2});
+  drawing.marks.push_back(Patch{{to, {neck[0] - 0.45 * head * ey, neck[1] + 0.45 * head * ex}, {neck[0] + 0.45 * head * ey, neck[1] - 0.45 * head * ex}}, colour});
+}
+
+// its ends, as long as a share of the body
+std::pair<Vec3, Vec3> arrow_of(const Action& action, const Vec3& at, double size) {
+  if (action.moves) return {at, at + 0.17 * size * action.along};
+  return {at - 0.07 * size * action.along, at};
+}
+
+void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page) {
+  for (const auto& [name, x] : scene.points) {
+    const PagePoint at = page(R * x);
+    for (const auto& [radius, colour] : {std::pair{5.5, Colour{1, 1, 1}}, {4.0, vermilion}}) {
+      std::vector<PagePoint> round;
+      for (int k = 0; k < 20; ++k)
+        round.push_back({at[0] + radius * std::cos(k * std::numbers::pi / 10), at[1] + radius * std::sin(k * std::numbers::pi / 10)});
+      drawing.marks.push_back(Patch{round, colour});
+    }
+    // black on white, so that it is read on any ground
+    drawing.marks.push_back(Patch{{{at[0] + 6, at[1] - 6}, {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
+                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 24}, {at[0] + 6, at[1] - 24}},
+                                  Colour{1, 1, 1}});
+    drawing.marks.push_back(Label{{at[0] + 8, at[1] - 9}, name, 16});
+  }
+}
+
+void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page, double size) {
+  for (const Action& action : scene.actions) {
+    const Colour& colour = action.moves ? vermilion : blue;
+    Vec3 end = Vec3::Zero();  // of the arrow nearest to the eye: there it says what
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const Vec3& x : action.at) {
+      const auto [from, to] = arrow_of(action, x, size);
+      add_arrow(drawing, page(R * from), page(R * to), colour);
+      if ((R * x)[2] > nearest) nearest = (R * x)[2], end = action.moves ? to : from;
+    }
+    const Vec3 out = action.moves ? action.along : Vec3(-action.along);
+    const PagePoint at = page(R * Vec3(end + 0.035 * size * out));
+    const double side = (R * out)[0];
+    drawing.marks.push_back(Label{{at[0], at[1] + 5}, action.says, 16,
+                                  side > 0.3 ? Label::Anchor::start : side < -0.3 ? Label::Anchor::end : Label::Anchor::middle});
+  }
+}
+
 }  // namespace
 
 std::vector<Complaint> RenderChoice::complaints() const {
   std::vector<Complaint> found;
-  const Of of = line_of(field).of;
+  const Of of = field ? line_of(*field).of : Of::nodes;
   if (of != Of::nodes && of != Of::point)
-    found.push_back({"field", line_of(field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
+    found.push_back({"field", line_of(*field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
   if (range && !((*range)[0] < (*range)[1])) found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
   return found;
 }
@@ -172,17 +239,32 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
     const std::vector<Vec3> corners{seen[nodes[0]], seen[nodes[1]], seen[nodes[2]], seen[nodes[3]]};
     for (const Vec3& c : corners) box.extend(c);
     if (normal_of(corners)[2] <= 0) continue;
-    for (int node : nodes) low = std::min(low, scene.values[node]), high = std::max(high, scene.values[node]);
+    if (!scene.values.empty())
+      for (int node : nodes) low = std::min(low, scene.values[node]), high = std::max(high, scene.values[node]);
     quads.push_back({nodes, corners});
   }
   std::vector<std::vector<Vec3>> ball;
   if (scene.ball) ball = ball_patches(*scene.ball, choice.cuts);
   for (auto& patch : ball)
     for (Vec3& corner : patch) corner = R * corner, box.extend(corner);
+  std::vector<std::array<int, 2>> outline;
+  if (choice.outline) {
+    outline = sharp_edges(outer_surface(mesh, std::vector<bool>(kept.size(), true)), mesh.X);
+    for (const auto& edge : outline)
+      for (int node : edge) box.extend(Vec3(R * mesh.X[node]));
+  }
+  const double extent = box.isEmpty() ? 1 : box.sizes().norm();
+  for (const Action& action : scene.actions)
+    for (const Vec3& x : action.at) {
+      const auto [from, to] = arrow_of(action, x, extent);
+      const Vec3 far = R * Vec3(action.moves ? to : from), label(0.11 * extent, 0.04 * extent, 0);
+      box.extend(far), box.extend(far + label), box.extend(far - label);
+    }
   if (choice.range) low = (*choice.range)[0], high = (*choice.range)[1];
   if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) low -= 0.5, high += 0.5;  // one value everywhere
 
   const double title_room = choice.title.empty() ? 0 : 40;
+  const bool coloured = !scene.values.empty();
   const double room = page_width - bar_room - 2 * margin, tallest = 640;
   const Vec3 size = box.isEmpty() ? Vec3(1, 1, 1) : Vec3(box.sizes());
   Page page;
@@ -207,6 +289,7 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
       return page(x);
     };
     const auto colour_at = [&](double p, double q) {
+      if (!coloured) return shaded(paper, s);
       const auto N = weights(p, q);
       double value = 0;
       for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
@@ -214,7 +297,7 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
     };
     // below the parts of a quad the quad itself, so that the page does not shine through between them
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
-    for (int i = 0; i < m && m > 1; ++i)
+    for (int i = 0; i < m && m > 1 && coloured; ++i)
       for (int j = 0; j < m; ++j) {
         const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m, q1 = double(j + 1) / m;
         item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)}, colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
@@ -236,7 +319,10 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
   }
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
   for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
-  add_colour_bar(drawing, title_room, low, high, scene.label);
+  for (const auto& edge : outline) drawing.marks.push_back(Stroke{{page(R * mesh.X[edge[0]]), page(R * mesh.X[edge[1]])}, grey, 1.3});
+  add_actions(drawing, scene, R, page, extent);
+  add_points(drawing, scene, R, page);
+  if (coloured) add_colour_bar(drawing, title_room, low, high, scene.label);
   add_axes(drawing, R);
   if (!choice.title.empty())
     drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});

@@ -1,6 +1,7 @@
 // A picture of the deformed body: its outer surface in orthographic projection, coloured by a field, with colour bar,
 // axes and the rigid sphere. Painted from back to front; made without a display.
 //   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
+//   outline  the edges of the undeformed body; points  named places, with their names; actions  what holds and moves the body
 //   cuts  only the cells on one side of each plane are shown; the first plane that meets the sphere cuts it too
 #pragma once
 
@@ -32,21 +33,26 @@ struct Cut {
 };
 
 struct RenderChoice {
-  Quantity field = Quantity::u_y;
+  std::optional<Quantity> field;
   int family = 1;
   std::string step = "last";
   std::array<double, 2> view{35, 28};
   std::vector<Cut> cuts;
   std::optional<std::array<double, 2>> range;
+  std::vector<std::string> points;
+  bool outline = false, actions = false;
   std::string title;
   static void fields(auto& v) {
-    v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface", required);
+    v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface; none: the mesh alone");
     v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
     v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye", between(-360, 360));
     v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&RenderChoice::points, "points", unit::none, "observation points that are marked and named");
+    v(&RenderChoice::outline, "outline", unit::none, "draw the edges of the undeformed body");
+    v(&RenderChoice::actions, "actions", unit::none, "draw supports and imposed displacements with what they impose");
     v(&RenderChoice::title, "title", unit::none, "above the picture");
   }
   std::vector<Complaint> complaints() const;
@@ -57,12 +63,22 @@ struct Ball {
   double radius = 0;
 };
 
+// A displacement that is imposed on a set of nodes: 0 is a support.
+struct Action {
+  std::vector<Vec3> at;          // some of its nodes, deformed [mm]
+  Vec3 along = Vec3::UnitX();    // unit: the way it goes; of a support from outside to the body
+  bool moves = false;
+  std::string says;              // "u_x = 18 mm"
+};
+
 struct RenderScene {
   const Mesh& mesh;
   std::vector<Vec3> x;         // deformed positions (n) [mm]
-  std::vector<double> values;  // of the field (n)
+  std::vector<double> values;  // of the field (n); empty without one
   std::string label;           // of the colour bar, with unit
   std::optional<Ball> ball;
+  std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
+  std::vector<Action> actions = {};
 };
 
 Drawing render(const RenderScene& scene, const RenderChoice& choice);

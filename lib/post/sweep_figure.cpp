@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "config/writer.hpp"
+#include "fit/csv_table.hpp"
 #include "post/figure.hpp"
 
 namespace langer {
@@ -80,6 +81,7 @@ class Drawer {
 
   FigureData data() {
     data_.plot.title = figure_.title;
+    if (figure_.points) add_points(*figure_.points);
     const auto axis = std::find_if(axes_.begin(), axes_.end(), [&](const SweepAxis& a) { return a.name == figure_.x; });
     if (axis == axes_.end())
       over_curves();
@@ -120,6 +122,28 @@ class Drawer {
       line.colour = static_cast<int>(i), line.dash = static_cast<int>(member);
     line.points = std::find(figure_.markers.begin(), figure_.markers.end(), figure_.y[i]) != figure_.markers.end();
     data_.plot.lines.push_back(line);
+  }
+
+  void add_points(const FigurePoints& points) {
+    const CsvTable table = read_table(points.file.path);
+    const auto column = [&](const std::string& key, const std::string& name) {
+      std::vector<std::string> known;
+      for (const CsvCell& cell : table.header.cells) known.push_back(cell.text);
+      const auto found = std::find(known.begin(), known.end(), name);
+      if (found == known.end())
+        throw Failure(Exit::config, Error{where_("points." + key), "points." + key,
+                                          fmt::format("{} has no column \"{}\"", points.file.path, name), "one of " + list_words(known), ""});
+      std::vector<double> values;
+      for (const CsvRow& row : table.rows)
+        values.push_back(csv_number(row.cells[static_cast<std::size_t>(found - known.begin())].text)
+                             .value_or(std::numeric_limits<double>::quiet_NaN()));
+      return values;
+    };
+    PlotLine line{file_, table_.add("points_" + points.x, column("x", points.x)),
+                  table_.add("points_" + points.y, column("y", points.y)), points.legend};
+    line.points = true;
+    data_.plot.lines.push_back(line);
+    data_.plot.rows = static_cast<int>(table.rows.size());
   }
 
   void over_axis(std::size_t axis) {

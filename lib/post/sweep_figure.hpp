@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "base/input_path.hpp"
 #include "post/gather.hpp"
 #include "post/gnuplot.hpp"
 #include "post/map.hpp"
@@ -18,10 +19,23 @@
 
 namespace langer {
 
+// Points from a CSV file beside what was computed.
+struct FigurePoints {
+  InputPath file;
+  std::string x, y, legend;
+  static void fields(auto& v) {
+    v(&FigurePoints::file, "file", unit::none, "CSV file whose first line names its columns", required);
+    v(&FigurePoints::x, "x", unit::none, "column in the unit of the figure's x", required);
+    v(&FigurePoints::y, "y", unit::none, "column in the unit of the figure's y", required);
+    v(&FigurePoints::legend, "legend", unit::none, "what they are", required);
+  }
+};
+
 struct SweepFigure {
   std::string x;
   std::vector<std::string> y, legends, markers, once;
   std::string title, member;
+  std::optional<FigurePoints> points;
   std::optional<std::string> x_label, y_label;
   static void fields(auto& v) {
     v(&SweepFigure::x, "x", unit::none, "an axis of the sweep, or a column of the members' tables, without its unit", required);
@@ -34,6 +48,7 @@ struct SweepFigure {
       "those of y that are the same for every member, such as what was measured: drawn for the first");
     v(&SweepFigure::member, "member", unit::none,
       "in legends: what a member is called, {} stands for its value on the axes; by default the value and its unit");
+    v(&SweepFigure::points, "points", unit::none, "measured points, drawn first");
     v(&SweepFigure::title, "title", unit::none, "above the figure");
     v(&SweepFigure::x_label, "x_label", unit::none, "what x is; the unit is added");
     v(&SweepFigure::y_label, "y_label", unit::none, "what y is; the unit is added");

@@ -125,10 +125,10 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const auto size = [&](const Chosen& nodes, int states, bool cells) {
     const double n = static_cast<double>(nodes.nodes.size());
     return 4.0 / 3 * (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
-                      (cells ? 32.0 * mesh.n_cells() : 0) + 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)));
+                      (cells ? 32.0 * mesh.n_cells() : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
   };
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
-  constexpr int few = 6;
+  constexpr int few = 4;
   const int wanted = std::min(config.states, solution.n_steps() + 1);
   const auto fitting = [&](const Chosen& nodes, bool cells) {
     int states = wanted;

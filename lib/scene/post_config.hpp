@@ -23,6 +23,7 @@ struct PostConfig {
   std::map<std::string, FigureChoice> figures;
   std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
+  std::map<std::string, RenderChoice> renders;
   static void fields(auto& v) {
     v(&PostConfig::stress, "stress", unit::none, "how stress at a node is taken from the Gauss points around it");
     v(&PostConfig::columns, "columns", unit::none, "the table, curves.csv and curves.h5; one row per state", required);
@@ -36,6 +37,7 @@ struct PostConfig {
     v(&PostConfig::maps, "maps", unit::none,
       "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");
     v(&PostConfig::render, "render", unit::none, "picture of the deformed body, render.svg and render.png");
+    v(&PostConfig::renders, "renders", unit::none, "more such pictures by name, <name>.svg and <name>.png");
   }
   std::vector<Complaint> complaints() const;
 };
@@ -57,6 +59,12 @@ inline std::vector<Complaint> PostConfig::complaints() const {
     if (!parse_step(snapshots[i]))
       all.push_back({"snapshots[" + std::to_string(i) + "]", "\"" + snapshots[i] + "\"", steps, ""});
   if (render && !parse_step(render->step)) all.push_back({"render.step", "\"" + render->step + "\"", steps, ""});
+  for (const auto& [name, choice] : renders) {
+    if (!parse_step(choice.step)) all.push_back({"renders." + name + ".step", "\"" + choice.step + "\"", steps, ""});
+    if (!is_column_name(name)) all.push_back({"renders." + name, "\"" + name + "\"", column_letters, ""});
+    if (name == "render" || figures.count(name) || maps.count(name))
+      all.push_back({"renders." + name, "the name of another picture", "another name", ""});
+  }
   for (const auto& [name, step] : summary_at) {
     if (!parse_step(step)) all.push_back({"summary_at." + name, "\"" + step + "\"", steps, ""});
     if (!is_column_name(name)) all.push_back({"summary_at." + name, "\"" + name + "\"", column_letters, ""});

@@ -152,6 +152,44 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   return indenters.size() == header.contact_nodes.size() ? indenters : std::vector<RigidContact>{};
 }
 
+std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u) {
+  constexpr std::size_t most = 9;
+  const Mesh& mesh = header.mesh;
+  std::vector<Action> actions;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& X : mesh.X) middle += X / static_cast<double>(mesh.X.size());
+  const auto add = [&](const std::string& set, int axis, double to) {
+    const auto found = mesh.node_sets.find(set);
+    if (found == mesh.node_sets.end() || found->second.empty()) return;
+    const std::vector<int>& nodes = found->second;
+    Action action;
+    Vec3 centre = Vec3::Zero();
+    for (int node : nodes) centre += mesh.X[node] / static_cast<double>(nodes.size());
+    const std::size_t n = std::min(most, nodes.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const int node = nodes[n > 1 ? i * (nodes.size() - 1) / (n - 1) : 0];
+      action.at.push_back(mesh.X[node] + u[node]);
+    }
+    action.moves = to != 0;
+    const double way = action.moves ? to : middle[axis] - centre[axis];
+    action.along = (way < 0 ? -1 : 1) * Vec3::Unit(axis);
+    action.says = fmt::format("u_{} = {:g}{}", "xyz"[axis], to, action.moves ? " mm" : "");
+    actions.push_back(std::move(action));
+  };
+  try {
+    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    for (const SupportConfig& support : solve.supports)
+      for (Axis axis : support.hold) add(support.on, static_cast<int>(axis), 0);
+    for (const LoadConfig& load : solve.loads)
+      for (int axis = 0; axis < 3; ++axis)
+        if (const auto& to = axis == 0 ? load.displacement.x : axis == 1 ? load.displacement.y : load.displacement.z)
+          add(load.on, axis, *to);
+  } catch (const Failure&) {
+    return {};  // written by another version of solve
+  }
+  return actions;
+}
+
 std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind) {
   for (const RigidContact& indenter : indenters)
     if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))

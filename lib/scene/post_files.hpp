@@ -26,6 +26,8 @@ std::vector<double> picture_values(const Body& body, const StepState& state, Qua
 
 // The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
+// Supports and imposed displacements as that config tells, on some nodes of each set; u (n) [mm] moves them.
+std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
 // The first sphere among them, moved by u_ind.
 std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind);
 // The record as a state of an energy path; reactions in the order of the indenters.

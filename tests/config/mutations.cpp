@@ -86,7 +86,7 @@ struct Mutation {
 Must must_where_misspelt(const Spot& spot) {
   std::string parent = spot.path.substr(0, std::max(spot.path.size(), spot.key.size() + 1) - spot.key.size() - 1);
   parent = parent.substr(parent.rfind('.') + 1);
-  static const std::set<std::string> of_names{"sets",      "points",     "maps",  "figures", "contacts",
+  static const std::set<std::string> of_names{"sets",      "points",     "maps",  "renders", "figures", "contacts",
                                               "materials", "summary_at", "nodes", "sweep",   "variants"};
   if (of_names.count(parent)) return Must::not_crash;
   // beside the one that an included file gives, a misspelt alternative is a second one: said of the whole choice

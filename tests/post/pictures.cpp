@@ -154,7 +154,9 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
   CHECK(count(s, "<polyline") == 1);
   CHECK(s.find("a &lt;b&gt; &amp; 'c' `touch broken`") != std::string::npos);
   const std::string script = gnuplot_script(drawing, "p");
-  CHECK(count(script, "set object") == 2);
+  CHECK(count(script, "0.00 50.00 16711680\n10.00 50.00 16711680\n10.00 40.00 16711680\n\n") == 1);  // the patch, y upwards, red
+  CHECK(count(script, ".50 0\n") == 4);                                                              // the stroke as a black rectangle
+  CHECK(count(script, "\n\n") == 2);
   CHECK(script.find("set label 'a <b> & ''c'' `touch broken` \"d\"'") != std::string::npos);
   if (!has_gnuplot()) return;
   const std::string where = folder("drawing");
@@ -216,4 +218,28 @@ TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, an
   const std::string said = run_gnuplot(where, "f.gp");
   setenv("PATH", path.c_str(), 1);
   CHECK(said == "there is no gnuplot on the PATH");
+}
+
+TEST_CASE("a body without a field is drawn plain, with its points, the edges at rest and what holds and moves it") {
+  const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 1, 1));
+  RenderScene scene{mesh, mesh.X, {}, "", {}};
+  for (Vec3& x : scene.x) x[0] *= 1.5;
+  RenderChoice choice;
+  CHECK(choice.complaints().empty());
+  const std::size_t plain_strokes = marks_of<Stroke>(render(scene, choice)).size();
+  for (const Patch& patch : marks_of<Patch>(render(scene, choice))) {  // shades of one paper: no colour of the scale
+    CHECK(patch.fill.r >= patch.fill.b);
+    CHECK(patch.fill.r < 1.1 * patch.fill.b);
+  }
+  choice.outline = true;
+  CHECK(marks_of<Stroke>(render(scene, choice)).size() == plain_strokes + 4 * (3 + 2 + 1));  // the box's twelve edges, cell by cell
+  scene.points = {{"B", scene.x.back()}};
+  scene.actions = {{{Vec3(4.5, 1, 0.5)}, Vec3::UnitX(), true, "u_x = 1 mm"}, {{Vec3(0, 1, 0.5)}, Vec3::UnitX(), false, "u_x = 0"}};
+  const Drawing drawing = render(scene, choice);
+  std::map<std::string, PagePoint> labels;
+  for (const Label& label : marks_of<Label>(drawing)) labels[label.text] = label.at;
+  REQUIRE(labels.count("B"));
+  REQUIRE(labels.count("u_x = 1 mm"));
+  CHECK(labels.at("u_x = 1 mm")[0] > labels.at("u_x = 0")[0]);  // x goes to the right in this view
+  CHECK(marks_of<Stroke>(drawing).size() == plain_strokes + 24 + 2);
 }

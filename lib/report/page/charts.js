@@ -114,7 +114,7 @@ L.chart = chart => {
     svg.append(L.el('path', { d: `M${box.l} ${box.t}V${H - box.b}H${W - box.r}`, fill: 'none', stroke: '#59636e' }),
       L.el('text', { x: (box.l + W - box.r) / 2, y: H - 10, 'text-anchor': 'middle' }, L.withUnit(chart.xLabel, chart.xUnit) + L.times(xw)),
       L.el('text', { transform: `translate(16 ${(box.t + H - box.b) / 2}) rotate(-90)`, 'text-anchor': 'middle' },
-        L.withUnit(chart.yLabel, chart.yUnit) + L.times(yw)));
+        (chart.yLabel.length > 38 ? L.unit(chart.yUnit) : L.withUnit(chart.yLabel, chart.yUnit)) + L.times(yw)));  // the title says it
     chart.series.forEach((s, i) => {
       if (!shown[i]) return;
       const look = L.look(chart, i);

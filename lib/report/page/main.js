@@ -18,8 +18,18 @@ const charts = group => data.charts.filter(c => c.group === group).map(L.chart);
 
 {
   const order = ['warning', 'note', 'good'], sorted = data.verdicts.slice().sort((a, b) => order.indexOf(a.level) - order.indexOf(b.level));
-  section('summary', 'Summary', ...(sorted.length ? [L.el('div', { class: 'verdicts' }, ...sorted.map(v =>
-    L.el('div', { class: 'verdict ' + v.level }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, v.text))))] : []));
+  // what is said of several members in the same words stands once
+  const alike = new Map(), key = v => v.level + v.text.replace(/[-\d.]+(e[-+]\d+)?/g, '#');
+  sorted.forEach(v => alike.set(key(v), (alike.get(key(v)) || []).concat(v)));
+  const line = v => L.el('div', { class: 'verdict ' + v.level }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, v.text));
+  const rows = [...alike.values()].map(group => {
+    if (group.length === 1) return line(group[0]);
+    const same = group.every(v => v.text === group[0].text), row = line({ ...group[0], of: `${group.length} members` });
+    if (!same) row.lastChild.replaceChildren(L.el('details', { class: 'plain' }, L.el('summary', {}, group[0].text + ' …'),
+      ...group.map(v => L.el('div', {}, `${v.of}: ${v.text}`))));
+    return row;
+  });
+  section('summary', 'Summary', ...(rows.length ? [L.el('div', { class: 'verdicts' }, ...rows)] : []));
 }
 if (data.bodies.length) {
   const place = L.el('div', { class: 'body' });
