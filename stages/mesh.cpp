@@ -10,7 +10,8 @@ namespace {
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
   for (const std::string& note : notes) job.say("{}", note);
-  job.say("{} nodes, {} hexahedra, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(), quality.volume);
+  job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(), names(mesh.type)[static_cast<int>(mesh.type)],
+          quality.volume);
   job.say("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}", quality.shortest_edge,
           quality.longest_edge, quality.largest_aspect, quality.least_scaled_jacobian);
   for (const auto& [name, nodes] : mesh.node_sets) {

@@ -75,7 +75,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, job.where);
   if (part) job.say("symmetry: {}", part->words());
   const Scene& scene = part ? part->scene() : whole;
-  Equilibrium body(part ? part->mesh() : mesh, scene.materials, config.formulation, scene.dofs, config.threads, Kernel::packets,
+  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
                    scene.fibres, part ? part->cell_share() : std::vector<double>{});
   const auto state = [&](const StepRecord& record) { return part ? part->reduced(record) : state_of(record, scene); };
   StaticsOptions options;
@@ -83,7 +83,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   Statics statics(body, scene.contacts, options);
   if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
   need_memory(statics, config.threads);
-  SolutionWriter file(job.output, header_of(mesh, config.formulation, whole, job.identity));
+  SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, job.identity));
   Progress progress(job.quiet, job.verbose, body, scene);
   const std::string held_by_contact = free_motions(mesh, whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())

@@ -65,6 +65,7 @@ class Equilibrium {
   const Mesh& mesh_;
   std::vector<Material> materials_;
   Formulation formulation_;
+  int n_nodes_, n_dofs_, n_p_;  // of a cell; dilatations
   Dofs dofs_;
   Pattern pattern_;
   int threads_;
@@ -75,9 +76,9 @@ class Equilibrium {
   std::vector<ElementGeometry> geometry_;
   std::vector<std::vector<Vec3>> fibres_;
   std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
-  std::vector<double> p_;          // per element (mean dilatation) or per Gauss point
+  std::vector<double> p_;          // n_p_ for each element: of its modes or Gauss points
   std::vector<double> J_minus_1_;  // same shape
-  std::vector<Vec24> dJ_du_;       // same shape
+  std::vector<double> dJ_du_;      // n_dofs_ for each of them
   VecX f_, K_du_;
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;

@@ -34,11 +34,13 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
         if (int r = dofs.equation[3 * b + k]; r >= c) pattern.row.push_back(r);
     pattern.column_start[c + 1] = pattern.nnz();
   }
-  pattern.slot.assign(static_cast<std::size_t>(mesh.n_cells()) * Pattern::slots_per_element, -1);
+  const int n_dofs = 3 * nodes_per_cell(mesh.type);
+  pattern.slots_per_element = n_dofs * (n_dofs + 1) / 2;
+  pattern.slot.assign(static_cast<std::size_t>(mesh.n_cells()) * pattern.slots_per_element, -1);
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const auto nodes = mesh.cell(e);
-    int* slot = pattern.slot.data() + static_cast<std::size_t>(e) * Pattern::slots_per_element;
-    for (int i = 0; i < 24; ++i)
+    int* slot = pattern.slot.data() + static_cast<std::size_t>(e) * pattern.slots_per_element;
+    for (int i = 0; i < n_dofs; ++i)
       for (int j = 0; j <= i; ++j, ++slot) {
         int r = dofs.equation[3 * dofs.node(nodes[i / 3]) + i % 3], c = dofs.equation[3 * dofs.node(nodes[j / 3]) + j % 3];
         if (r < 0 || c < 0) continue;

@@ -1,6 +1,6 @@
 // Sparsity of the symmetric tangent, made once: lower triangle by columns, and where each element's entries go.
 //   column_start (n+1), row (nnz)   compressed columns, rows ascending
-//   slot[e]                         300 entries: position in the value array of element entry (i >= j), row-wise;
+//   slot[e]                         for each element entry (i >= j), row-wise: its position in the value array;
 //                                   -1 where a prescribed dof is involved
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace langer {
 
 struct Pattern {
-  static constexpr int slots_per_element = 24 * 25 / 2;
   int n = 0;
+  int slots_per_element = 0;
   std::vector<int> column_start, row;
   std::vector<int> slot;
 

@@ -1,5 +1,6 @@
 #include "element/packet_solid.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace langer {
@@ -8,8 +9,9 @@ namespace {
 
 using P = Packet;
 
+template <int n>
 void displacement_gradient(const P* dN, const P* u, P* H) {
-  for (int a = 0; a < 8; ++a)
+  for (int a = 0; a < n; ++a)
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) H[3 * i + k] += u[3 * a + i] * dN[3 * a + k];
 }
@@ -105,35 +107,127 @@ void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
     for (int q = 0; q < p; ++q) c[6 * p + q] = c[6 * q + p];
 }
 
-// K_ab for b <= a:  B_a^T (c B_b) + (g_a . s g_b) I, with s the full Kirchhoff stress times w
-void add_stiffness(const P (*g)[3], const P* c, const P* s, P* K) {
-  for (int b = 0; b < 8; ++b) {
-    const P* gb = g[b];
-    P cB[3][6];  // columns of c B_b
-    for (int p = 0; p < 6; ++p) {
-      const P* r = c + 6 * p;
-      cB[0][p] = r[0] * gb[0] + r[3] * gb[1] + r[5] * gb[2];
-      cB[1][p] = r[1] * gb[1] + r[3] * gb[0] + r[4] * gb[2];
-      cB[2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
-    }
-    const P sg[3] = {s[0] * gb[0] + s[3] * gb[1] + s[5] * gb[2], s[3] * gb[0] + s[1] * gb[1] + s[4] * gb[2],
-                     s[5] * gb[0] + s[4] * gb[1] + s[2] * gb[2]};
-    for (int a = b; a < 8; ++a) {
-      const P* ga = g[a];
-      const P geometric = ga[0] * sg[0] + ga[1] * sg[1] + ga[2] * sg[2];
-      for (int j = 0; j < 3; ++j) {
-        const P* z = cB[j];
-        const P column[3] = {z[0] * ga[0] + z[3] * ga[1] + z[5] * ga[2], z[1] * ga[1] + z[3] * ga[0] + z[4] * ga[2],
-                             z[2] * ga[2] + z[4] * ga[1] + z[5] * ga[0]};
-        for (int i = a == b ? j : 0; i < 3; ++i) {
-          const int row = 3 * a + i;
-          P& entry = K[row * (row + 1) / 2 + 3 * b + j];
-          entry += column[i];
-          if (i == j) entry += geometric;
-        }
+// K_ab for b <= a:  B_a^T (c B_b) + (g_a . s g_b) I, with s the full Kirchhoff stress times w; the column of node b for a >= b
+template <int n>
+void add_stiffness(int b, const P (*g)[3], const P* c, const P* s, P* K) {
+  const P* gb = g[b];
+  P cB[3][6];  // columns of c B_b
+  for (int p = 0; p < 6; ++p) {
+    const P* r = c + 6 * p;
+    cB[0][p] = r[0] * gb[0] + r[3] * gb[1] + r[5] * gb[2];
+    cB[1][p] = r[1] * gb[1] + r[3] * gb[0] + r[4] * gb[2];
+    cB[2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
+  }
+  const P sg[3] = {s[0] * gb[0] + s[3] * gb[1] + s[5] * gb[2], s[3] * gb[0] + s[1] * gb[1] + s[4] * gb[2],
+                   s[5] * gb[0] + s[4] * gb[1] + s[2] * gb[2]};
+  for (int a = b; a < n; ++a) {
+    const P* ga = g[a];
+    const P geometric = ga[0] * sg[0] + ga[1] * sg[1] + ga[2] * sg[2];
+    for (int j = 0; j < 3; ++j) {
+      const P* z = cB[j];
+      const P column[3] = {z[0] * ga[0] + z[3] * ga[1] + z[5] * ga[2], z[1] * ga[1] + z[3] * ga[0] + z[4] * ga[2],
+                           z[2] * ga[2] + z[4] * ga[1] + z[5] * ga[0]};
+      for (int i = a == b ? j : 0; i < 3; ++i) {
+        const int row = 3 * a + i;
+        P& entry = K[row * (row + 1) / 2 + 3 * b + j];
+        entry += column[i];
+        if (i == j) entry += geometric;
       }
     }
   }
+}
+
+template <int n, int n_gauss>
+void packet_solid_of(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
+                     const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+  constexpr int n_dofs = 3 * n;
+  const double kappa = material.volume.quadratic.bulk_modulus();
+  const bool modal = formulation != Formulation::displacement;
+  const int n_p = n_pressures(formulation, n);
+  P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
+  P t[n_modes], b[n_modes][n_dofs];  // integrals of mode (J - 1), mode dJ/du
+  out.W = P(), out.J_min = P(1e300);
+  for (int q = 0; q < n_gauss; ++q) {
+    const P* dN = &geometry.dN_dX[q * n_dofs];
+    P H[9];
+    displacement_gradient<n>(dN, u, H);
+    J_minus_1[q] = dilatation(H);
+    const P J = 1.0 + J_minus_1[q];
+    out.J_min = P(J.v < out.J_min.v ? J.v : out.J_min.v);
+    for (int i = 0; i < 9; ++i) F[q][i] = i % 4 == 0 ? 1.0 + H[i] : H[i];
+    const P* f = F[q];
+    // cof F; dJ/du_a = cof F dN_a,  g_a = cof F dN_a / J
+    const P cof[9] = {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
+                      f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
+                      f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
+    const P inverse_J = 1.0 / J, w = geometry.w[q];
+    P weight[n_modes] = {w};
+    for (int k = 1; k < n_p && modal; ++k) weight[k] = w * geometry.mode[q * n_modes + k];
+    for (int a = 0; a < n; ++a)
+      for (int i = 0; i < 3; ++i) {
+        const P dJ = cof[3 * i] * dN[3 * a] + cof[3 * i + 1] * dN[3 * a + 1] + cof[3 * i + 2] * dN[3 * a + 2];
+        g[q][a][i] = dJ * inverse_J;
+        if (modal)
+          for (int k = 0; k < n_p; ++k) b[k][3 * a + i] += weight[k] * dJ;
+        else
+          out.dJ_du(q)[3 * a + i] = dJ;
+      }
+    for (int k = 0; k < n_p && modal; ++k) t[k] += weight[k] * J_minus_1[q];
+  }
+  std::fill(out.f.begin(), out.f.end(), P());
+  if (with_tangent) std::fill(out.K.begin(), out.K.end(), P());
+  P p[n_modes];  // of the tangent
+  if (modal) {
+    const P inverse_V = 1.0 / geometry.V;
+    for (int k = 0; k < n_p; ++k) {
+      out.J_minus_1[k] = t[k] * inverse_V;
+      const P pressure = kappa * out.J_minus_1[k];
+      p[k] = p_tangent ? p_tangent[k] : pressure;
+      out.W += 0.5 * geometry.V * pressure * out.J_minus_1[k];
+      P* dJ = out.dJ_du(k);
+      for (int i = 0; i < n_dofs; ++i) dJ[i] = b[k][i] * inverse_V, out.f[i] += pressure * b[k][i];
+      if (with_tangent)
+        for (int i = 0, entry = 0; i < n_dofs; ++i) {
+          const P row = kappa * dJ[i];
+          for (int j = 0; j <= i; ++j) out.K[entry++] += row * b[k][j];
+        }
+    }
+  } else {
+    std::copy(J_minus_1, J_minus_1 + n_gauss, out.J_minus_1.begin());
+  }
+  P c[n_gauss][36], stress[n_gauss][6];  // of the tangent
+  for (int q = 0; q < n_gauss; ++q) {
+    const P J = 1.0 + J_minus_1[q], w = geometry.w[q];
+    Spatial s;
+    law(material, F[q], J, fibres, s);
+    out.W += w * s.W;
+    P force[6];  // w times the Kirchhoff stress in the residual
+    for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
+    P bulk, p_K = p[0];
+    if (modal) {
+      for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];
+    } else {
+      const P pressure = kappa * J_minus_1[q];
+      p_K = p_tangent ? p_tangent[q] : pressure;
+      out.W += 0.5 * w * pressure * J_minus_1[q];
+      for (int i = 0; i < 3; ++i) force[i] += w * pressure * J;
+      bulk = kappa * J * J;
+    }
+    for (int a = 0; a < n; ++a) {
+      const P* ga = g[q][a];
+      out.f[3 * a] += force[0] * ga[0] + force[3] * ga[1] + force[5] * ga[2];
+      out.f[3 * a + 1] += force[3] * ga[0] + force[1] * ga[1] + force[4] * ga[2];
+      out.f[3 * a + 2] += force[5] * ga[0] + force[4] * ga[1] + force[2] * ga[2];
+    }
+    if (!with_tangent) continue;
+    const P pJ = p_K * J;
+    tangent(s, pJ, bulk, w, c[q]);
+    for (int i = 0; i < 6; ++i) stress[q][i] = w * (i < 3 ? s.tau[i] + pJ : s.tau[i]);
+  }
+  if (!with_tangent) return;
+  // node by node, so that the part of K written to stays in the nearest cache
+  for (int b = 0; b < n; ++b)
+    for (int q = 0; q < n_gauss; ++q) add_stiffness<n>(b, g[q], c[q], stress[q], out.K.data());
 }
 
 }  // namespace
@@ -145,13 +239,20 @@ bool packet_form(const Material& material) {
   return true;
 }
 
+PacketElement::PacketElement(int n_nodes, int n_pressures)
+    : n_dofs(3 * n_nodes), f(n_dofs), K(n_dofs * (n_dofs + 1) / 2), J_minus_1(n_pressures), gradients(n_pressures * n_dofs) {}
+
 PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
   PacketGeometry out;
+  out.n_nodes = geometry[0]->n_nodes(), out.n_gauss = geometry[0]->n_gauss();
+  out.dN_dX.resize(out.n_gauss * 3 * out.n_nodes), out.w.resize(out.n_gauss);
+  out.mode.resize(n_modes * geometry[0]->mode.size());
   for (int l = 0; l < P::lanes; ++l) {
-    for (int g = 0; g < 8; ++g) {
-      for (int a = 0; a < 8; ++a)
-        for (int k = 0; k < 3; ++k) out.dN_dX[g][3 * a + k].set(l, geometry[l]->dN_dX[g](a, k));
+    for (int g = 0; g < out.n_gauss; ++g) {
+      for (int a = 0; a < out.n_nodes; ++a)
+        for (int k = 0; k < 3; ++k) out.dN_dX[3 * (g * out.n_nodes + a) + k].set(l, geometry[l]->dN_dX[g](a, k));
       out.w[g].set(l, geometry[l]->w[g]);
+      for (int k = 0; k < n_modes && !out.mode.empty(); ++k) out.mode[g * n_modes + k].set(l, geometry[l]->mode[g][k]);
     }
     out.V.set(l, geometry[l]->V);
   }
@@ -159,91 +260,18 @@ PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
 }
 
 void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet* J_minus_1) {
-  for (int q = 0; q < 8; ++q) {
+  for (int q = 0; q < geometry.n_gauss; ++q) {
     P H[9];
-    displacement_gradient(geometry.dN_dX[q], u, H);
+    const P* dN = &geometry.dN_dX[q * 3 * geometry.n_nodes];
+    geometry.n_nodes == 8 ? displacement_gradient<8>(dN, u, H) : displacement_gradient<27>(dN, u, H);
     J_minus_1[q] = dilatation(H);
   }
 }
 
 void packet_solid(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
                   const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
-  const double kappa = material.volume.quadratic.bulk_modulus();
-  const bool mean = formulation == Formulation::mean_dilatation;
-  P F[8][9], g[8][8][3], J_minus_1[8];
-  out.W = P(), out.J_min = P(1e300);
-  P theta, b[24];
-  for (int q = 0; q < 8; ++q) {
-    const P* dN = geometry.dN_dX[q];
-    P H[9];
-    displacement_gradient(dN, u, H);
-    J_minus_1[q] = dilatation(H);
-    const P J = 1.0 + J_minus_1[q];
-    out.J_min = P(J.v < out.J_min.v ? J.v : out.J_min.v);
-    for (int i = 0; i < 9; ++i) F[q][i] = i % 4 == 0 ? 1.0 + H[i] : H[i];
-    const P* f = F[q];
-    // cof F; dJ/du_a = cof F dN_a,  g_a = cof F dN_a / J
-    const P cof[9] = {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
-                      f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
-                      f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
-    const P inverse_J = 1.0 / J, w = geometry.w[q];
-    for (int a = 0; a < 8; ++a)
-      for (int i = 0; i < 3; ++i) {
-        const P dJ = cof[3 * i] * dN[3 * a] + cof[3 * i + 1] * dN[3 * a + 1] + cof[3 * i + 2] * dN[3 * a + 2];
-        g[q][a][i] = dJ * inverse_J;
-        if (mean)
-          b[3 * a + i] += w * dJ;
-        else
-          out.dJ_du[q][3 * a + i] = dJ;
-      }
-    if (mean) theta += w * J_minus_1[q];
-  }
-  P p, p_K;
-  if (mean) {
-    const P inverse_V = 1.0 / geometry.V;
-    theta *= inverse_V;
-    p = kappa * theta, p_K = p_tangent ? *p_tangent : p;
-    out.J_minus_1[0] = theta;
-    out.W += 0.5 * geometry.V * p * theta;
-    for (int i = 0; i < 24; ++i) out.dJ_du[0][i] = b[i] * inverse_V, out.f[i] = p * b[i];
-    if (with_tangent)
-      for (int i = 0, k = 0; i < 24; ++i) {
-        const P row = kappa * out.dJ_du[0][i];
-        for (int j = 0; j <= i; ++j) out.K[k++] = row * b[j];
-      }
-  } else {
-    for (int q = 0; q < 8; ++q) out.J_minus_1[q] = J_minus_1[q];
-    for (P& f : out.f) f = P();
-    if (with_tangent)
-      for (P& k : out.K) k = P();
-  }
-  for (int q = 0; q < 8; ++q) {
-    const P J = 1.0 + J_minus_1[q], w = geometry.w[q];
-    Spatial s;
-    law(material, F[q], J, fibres, s);
-    out.W += w * s.W;
-    P force[6];  // w times the Kirchhoff stress in the residual
-    for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
-    P bulk;
-    if (!mean) {
-      p = kappa * J_minus_1[q], p_K = p_tangent ? p_tangent[q] : p;
-      out.W += 0.5 * w * p * J_minus_1[q];
-      for (int i = 0; i < 3; ++i) force[i] += w * p * J;
-      bulk = kappa * J * J;
-    }
-    for (int a = 0; a < 8; ++a) {
-      const P* ga = g[q][a];
-      out.f[3 * a] += force[0] * ga[0] + force[3] * ga[1] + force[5] * ga[2];
-      out.f[3 * a + 1] += force[3] * ga[0] + force[1] * ga[1] + force[4] * ga[2];
-      out.f[3 * a + 2] += force[5] * ga[0] + force[4] * ga[1] + force[2] * ga[2];
-    }
-    if (!with_tangent) continue;
-    const P pJ = p_K * J;
-    P c[36], stress[6];
-    tangent(s, pJ, bulk, w, c);
-    for (int i = 0; i < 6; ++i) stress[i] = w * (i < 3 ? s.tau[i] + pJ : s.tau[i]);
-    add_stiffness(g[q], c, stress, out.K);
-  }
+  (geometry.n_nodes == 8 ? packet_solid_of<8, 8> : packet_solid_of<27, 27>)(formulation, material, geometry, fibres, u, p_tangent,
+                                                                            with_tangent, out);
 }
 
 }  // namespace langer

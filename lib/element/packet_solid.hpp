@@ -1,10 +1,11 @@
-// The hexahedron of solid.hpp for eight elements of one material at once: same integrals over the reference volume, with
+// The cell of solid.hpp for eight elements of one material at once: same integrals over the reference volume, with
 // stress and tangent pushed forward to the deformed state, where the strain operator is sparse.   [A23] eqs 28-33
 //   K_ab = integral B_a^T c B_b + (g_a . tau g_b) I dV0,   g_a = F^-T dN_a/dX,  tau = F S F^T,  c = push-forward of D
 // Handles sums of terms in I1_bar and I4_bar; packet_form() says no to others, and solid() does them one by one.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "element/solid.hpp"
 #include "tensor/packet.hpp"
@@ -12,10 +13,11 @@
 
 namespace langer {
 
-// What eight elements bring along: gradients dN_dX[g][3 a + k], weights, volume, fibre directions a0[family][k].
+// What eight elements bring along: gradients dN_dX[n_dofs g + 3 a + k], weights, modes[n_modes g + k], volume, and the fibre
+// directions a0[family][k].
 struct PacketGeometry {
-  Packet dN_dX[Hex8::n_gauss][Hex8::n_dofs];
-  Packet w[Hex8::n_gauss];
+  int n_nodes = 0, n_gauss = 0;
+  std::vector<Packet> dN_dX, w, mode;
   Packet V;
 };
 struct PacketFibre {
@@ -23,18 +25,22 @@ struct PacketFibre {
 };
 
 struct PacketElement {
-  Packet f[24];
-  Packet K[300];  // lower triangle by rows: entry (i, j <= i) at i (i + 1) / 2 + j
+  PacketElement(int n_nodes, int n_pressures);
+  int n_dofs;
+  std::vector<Packet> f;
+  std::vector<Packet> K;  // lower triangle by rows: entry (i, j <= i) at i (i + 1) / 2 + j
   Packet W, J_min;
-  Packet J_minus_1[8];
-  Packet dJ_du[8][24];
+  std::vector<Packet> J_minus_1;  // as SolidElement has them
+  std::vector<Packet> gradients;
+  Packet* dJ_du(int k) { return gradients.data() + k * n_dofs; }
+  const Packet* dJ_du(int k) const { return gradients.data() + k * n_dofs; }
 };
 
 bool packet_form(const Material& material);
 
 PacketGeometry packed(const ElementGeometry* const geometry[Packet::lanes]);
 
-// u[3 a + k]; p_tangent: one packet (mean dilatation) or eight, or nullptr. Check J_min > 0 before using the rest.
+// u[3 a + k]; p_tangent: one packet for each dilatation, or nullptr. Check J_min > 0 before using the rest.
 void packet_solid(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
                   const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out);
 

@@ -1,6 +1,7 @@
 #include "element/point_check.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -98,34 +99,41 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
 
 void check_points(const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
                   PointCheck& out) {
-  P F[9], J;
-  for (int g = 0; g < 8; ++g) {
-    const Mat3 H = u.transpose() * geometry.dN_dX[g];
+  const int n_gauss = geometry.n_gauss();
+  out.F.resize(n_gauss), out.J.resize(n_gauss), out.stiffness.resize(n_gauss);
+  for (int g = 0; g < n_gauss; ++g) {
+    const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
     out.F[g] = Mat3::Identity() + H;
     out.J[g] = 1 + volume_change(H);
-    J.set(g, out.J[g]);
-    for (int i = 0; i < 9; ++i) F[i].set(g, out.F[g](i / 3, i % 3));
   }
   if (!packet_form(material)) {
-    for (int g = 0; g < 8; ++g) out.stiffness[g] = sampled_shear_stiffness(material, out.F[g], a, 48);
+    for (int g = 0; g < n_gauss; ++g) out.stiffness[g] = sampled_shear_stiffness(material, out.F[g], a, 48);
     return;
   }
   static const auto normals = grid<96>();
-  Term law[5];
-  P B[6], least = std::numeric_limits<double>::infinity();
-  const int n = terms(material, F, J, a, law, B);
-  for (const Normal& normal : normals) {
-    P aa, ab, bb;
-    for (int k = 0; k < n; ++k) {
-      const P s = contract(normal.sn, law[k].h), t = contract(normal.tn, law[k].h);
-      aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;
+  for (int first = 0; first < n_gauss; first += P::lanes) {
+    P F[9], J;
+    for (int l = 0; l < P::lanes; ++l) {
+      const int g = std::min(first + l, n_gauss - 1);
+      J.set(l, out.J[g]);
+      for (int i = 0; i < 9; ++i) F[i].set(l, out.F[g](i / 3, i % 3));
     }
-    const P half = 0.5 * (aa - bb);
-    const P value = contract(normal.nn, B) + 0.5 * (aa + bb) - root(half * half + ab * ab);
-    least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
+    Term law[5];
+    P B[6], least = std::numeric_limits<double>::infinity();
+    const int n = terms(material, F, J, a, law, B);
+    for (const Normal& normal : normals) {
+      P aa, ab, bb;
+      for (int k = 0; k < n; ++k) {
+        const P s = contract(normal.sn, law[k].h), t = contract(normal.tn, law[k].h);
+        aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;
+      }
+      const P half = 0.5 * (aa - bb);
+      const P value = contract(normal.nn, B) + 0.5 * (aa + bb) - root(half * half + ab * ab);
+      least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
+    }
+    least = least / J;
+    for (int l = 0; l < P::lanes && first + l < n_gauss; ++l) out.stiffness[first + l] = least[l];
   }
-  least = least / J;
-  for (int g = 0; g < 8; ++g) out.stiffness[g] = least[g];
 }
 
 }  // namespace langer

@@ -1,10 +1,13 @@
-// The 8-node hexahedron on [-1, 1]^3: nodes in VTK order, shape functions, Gauss points.
-//   N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta zeta_a) / 8
-// Gauss point g lies in the corner of node g; all weights are 1.
+// Reference cells: nodes in VTK order, shape functions, Gauss points, facets.
+//   Hex8   on [-1, 1]^3:  N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta zeta_a) / 8;  2 x 2 x 2 Gauss points of weight 1
+//   Hex27  on [-1, 1]^3:  N_a = l_a(xi) l_a(eta) l_a(zeta), quadratic Lagrange polynomials through -1, 0, 1;
+//          corners as Hex8, then the middles of edges, of facets (in the order of the facets), of the cell; 3 x 3 x 3 Gauss points
+// Gauss point g lies towards node g.
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "tensor/types.hpp"
 
@@ -43,6 +46,51 @@ struct Hex8 {
   }
 
   static Vec3 gauss(int g) { return Vec3(corner[g][0], corner[g][1], corner[g][2]) / std::sqrt(3.0); }
+  static double weight(int) { return 1; }
 };
+
+struct Hex27 {
+  static constexpr int n_nodes = 27;
+  static constexpr int n_gauss = 27;
+  static constexpr int n_dofs = 81;
+  static constexpr double node[27][3] = {
+      {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1},  // corners
+      {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},                                                  // edges: bottom,
+      {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},                                                   // top,
+      {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},                                                   // upright
+      {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},   {0, 0, -1},  {0, 0, 1}, {0, 0, 0}};
+
+  using Shape = Eigen::Matrix<double, 27, 1>;
+  using Gradient = Eigen::Matrix<double, 27, 3>;
+
+  static Shape shape(const Vec3& xi);
+  static Gradient gradient(const Vec3& xi);
+  static Vec3 gauss(int g) { return std::sqrt(0.6) * Vec3(node[g][0], node[g][1], node[g][2]); }
+  static double weight(int g) {
+    double w = 1;
+    for (double x : node[g]) w *= x == 0 ? 8. / 9 : 5. / 9;
+    return w;
+  }
+};
+
+using Gradients = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // one row per node
+
+// Any of them as tables, for loops that do not care which.
+struct ReferenceCell {
+  int n_nodes, n_gauss, n_corners;  // corners are the first nodes
+  std::vector<Vec3> node, gauss;    // xi
+  std::vector<double> weight;
+  std::vector<VecX> N;        // at the Gauss points
+  std::vector<Gradients> dN;  // dN_a/dxi_k there
+  VecX (*shape)(const Vec3& xi);
+  Gradients (*gradient)(const Vec3& xi);
+  std::vector<std::array<int, 2>> edge;     // its corners
+  std::vector<std::vector<int>> facet;      // nodes: the corners counter-clockwise from outside, then middles of edges in that
+                                            // order, then the middle
+  MatX at_nodes;                            // (nodes, Gauss points): the best trilinear field of Gauss values, taken at the nodes
+  std::vector<int> nearest_gauss;           // by node
+};
+
+const ReferenceCell& reference(int n_nodes);  // which of them, its number of nodes says
 
 }  // namespace langer

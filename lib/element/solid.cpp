@@ -11,12 +11,19 @@ namespace langer {
 
 namespace {
 
-using Mat6x24 = Eigen::Matrix<double, 6, 24>;
+template <int n>
+struct Sizes {
+  using Gradient = Eigen::Matrix<double, n, 3>;
+  using Vec = Eigen::Matrix<double, 3 * n, 1>;
+  using Mat = Eigen::Matrix<double, 3 * n, 3 * n>;
+  using Strain = Eigen::Matrix<double, 6, 3 * n>;
+};
 
 // dE = B du, engineering shear: row p = ij of node a, direction k is F_ki dN_j + F_kj dN_i
-Mat6x24 strain_operator(const Mat3& F, const Hex8::Gradient& dN) {
-  Mat6x24 B;
-  for (int a = 0; a < 8; ++a)
+template <int n>
+typename Sizes<n>::Strain strain_operator(const Mat3& F, const typename Sizes<n>::Gradient& dN) {
+  typename Sizes<n>::Strain B;
+  for (int a = 0; a < n; ++a)
     for (int k = 0; k < 3; ++k)
       for (int p = 0; p < 6; ++p) {
         const int i = voigt_i[p], j = voigt_j[p];
@@ -26,67 +33,75 @@ Mat6x24 strain_operator(const Mat3& F, const Hex8::Gradient& dN) {
 }
 
 // dJ/du of one point: cofactor of F contracted with grad(du)
-Vec24 dilatation_gradient(const Mat3& F, const Hex8::Gradient& dN) {
+template <int n>
+typename Sizes<n>::Vec dilatation_gradient(const Mat3& F, const typename Sizes<n>::Gradient& dN) {
   Mat3 cof;
   cof.col(0) = F.col(1).cross(F.col(2));
   cof.col(1) = F.col(2).cross(F.col(0));
   cof.col(2) = F.col(0).cross(F.col(1));
-  const Eigen::Matrix<double, 8, 3> g = dN * cof.transpose();
-  Vec24 v;
-  for (int a = 0; a < 8; ++a)
+  const typename Sizes<n>::Gradient g = dN * cof.transpose();
+  typename Sizes<n>::Vec v;
+  for (int a = 0; a < n; ++a)
     for (int i = 0; i < 3; ++i) v[3 * a + i] = g(a, i);
   return v;
 }
 
-void add_geometric(const Hex8::Gradient& dN, const Vec6& S, double w, Mat24& K) {
-  const Eigen::Matrix<double, 8, 8> G = w * (dN * tensor(S) * dN.transpose());
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b)
+template <int n, class Mat>
+void add_geometric(const typename Sizes<n>::Gradient& dN, const Vec6& S, double w, Mat& K) {
+  const Eigen::Matrix<double, n, n> G = w * (dN * tensor(S) * dN.transpose());
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b)
       for (int i = 0; i < 3; ++i) K(3 * a + i, 3 * b + i) += G(a, b);
 }
 
-}  // namespace
+double mode(const ElementGeometry& geometry, int g, int k) { return k == 0 ? 1 : geometry.mode[g][k]; }
 
-bool solid(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
-           const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
+// n nodes; sizes known to the compiler
+template <int n>
+bool solid_of(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
+              const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
   const double kappa = material.volume.quadratic.bulk_modulus();
-  const bool mean = formulation == Formulation::mean_dilatation;
-  out.f.setZero();
-  if (with_tangent) out.K.setZero();
+  const bool modal = formulation != Formulation::displacement;
+  const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
+  typename Sizes<n>::Vec f = Sizes<n>::Vec::Zero();
+  thread_local typename Sizes<n>::Mat K;  // 52 kB for 27 nodes
+  if (with_tangent) K.setZero();
   out.W = 0;
 
-  std::array<Mat3, 8> F;
-  std::array<double, 8> J_minus_1;
-  std::array<Vec24, 8> dJ;
+  std::vector<Mat3> F(n_gauss);
+  std::vector<double> J_minus_1(n_gauss);
+  std::vector<typename Sizes<n>::Vec> dJ(n_gauss);
+  std::vector<typename Sizes<n>::Gradient> dN(n_gauss);
   out.J_min = 1e300;
-  for (int g = 0; g < 8; ++g) {
-    const Mat3 H = u.transpose() * geometry.dN_dX[g];
+  for (int g = 0; g < n_gauss; ++g) {
+    const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
     F[g] = Mat3::Identity() + H;
     J_minus_1[g] = volume_change(H);
     out.J_min = std::min(out.J_min, 1 + J_minus_1[g]);
-    dJ[g] = dilatation_gradient(F[g], geometry.dN_dX[g]);
+    dN[g] = geometry.dN_dX[g];
+    dJ[g] = dilatation_gradient<n>(F[g], dN[g]);
   }
   if (!(out.J_min > 0)) return false;
 
-  double p = 0, p_K = 0;  // of the mean dilatation
-  if (mean) {
-    double theta = 0;
-    Vec24 b = Vec24::Zero();
-    for (int g = 0; g < 8; ++g) {
-      theta += geometry.w[g] * J_minus_1[g];
-      b += geometry.w[g] * dJ[g];
+  if (modal) {
+    out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
+    for (int k = 0; k < n_p; ++k) {
+      double& t = out.J_minus_1[k];
+      VecX& b = out.dJ_du[k];
+      for (int g = 0; g < n_gauss; ++g) {
+        const double w = geometry.w[g] * mode(geometry, g, k);
+        t += w * J_minus_1[g], b += w * dJ[g];
+      }
+      t /= geometry.V, b /= geometry.V;
+      out.W += 0.5 * geometry.V * kappa * t * t;
+      f += (geometry.V * kappa * t) * b;
+      if (with_tangent) K += (geometry.V * kappa) * b * b.transpose();
     }
-    theta /= geometry.V, b /= geometry.V;
-    p = kappa * theta, p_K = p_tangent ? *p_tangent : p;
-    out.J_minus_1[0] = theta, out.dJ_du[0] = b;
-    out.W += 0.5 * geometry.V * p * theta;
-    out.f += (geometry.V * p) * b;
-    if (with_tangent) out.K += (geometry.V * kappa) * b * b.transpose();
   } else {
-    out.J_minus_1 = J_minus_1, out.dJ_du = dJ;
+    out.J_minus_1 = J_minus_1, out.dJ_du.assign(dJ.begin(), dJ.end());
   }
 
-  for (int g = 0; g < 8; ++g) {
+  for (int g = 0; g < n_gauss; ++g) {
     const double w = geometry.w[g], J = 1 + J_minus_1[g];
     const Mat3 C = F[g].transpose() * F[g];
     Response iso = isochoric(material, C, a);
@@ -94,39 +109,64 @@ bool solid(Formulation formulation, const Material& material, const ElementGeome
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
     Vec6 S = iso.S;
-    if (!mean) {
-      p = kappa * J_minus_1[g], p_K = p_tangent ? p_tangent[g] : p;
+    double p_K = 0;
+    if (modal) {
+      for (int k = 0; k < n_p; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : kappa * out.J_minus_1[k]);
+    } else {
+      const double p = kappa * J_minus_1[g];
+      p_K = p_tangent ? p_tangent[g] : p;
       out.W += 0.5 * w * p * J_minus_1[g];
       S += p * J * Ci;
     }
-    const Mat6x24 B = strain_operator(F[g], geometry.dN_dX[g]);
-    out.f.noalias() += w * (B.transpose() * S);
+    const typename Sizes<n>::Strain B = strain_operator<n>(F[g], dN[g]);
+    f.noalias() += w * (B.transpose() * S);
     if (!with_tangent) continue;
     // dJ/dE = J C^-1,  d2J/dE2 = J (C^-1 x C^-1 - 2 C^-1 o C^-1)
     Mat6 D = iso.D + p_K * J * (Ci * Ci.transpose() - 2 * symmetric_product(C_inverse));
-    if (!mean) D += kappa * J * J * Ci * Ci.transpose();
-    const Mat6x24 DB = w * D * B;
-    out.K.noalias() += B.transpose() * DB;
-    add_geometric(geometry.dN_dX[g], iso.S + p_K * J * Ci, w, out.K);
+    if (!modal) D += kappa * J * J * Ci * Ci.transpose();
+    const typename Sizes<n>::Strain DB = w * D * B;
+    K.noalias() += B.transpose() * DB;
+    add_geometric<n>(dN[g], iso.S + p_K * J * Ci, w, K);
   }
+  out.f = f;
+  if (with_tangent) out.K = K;
   return true;
 }
 
-std::array<GaussState, 8> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
-                                       std::span<const Vec3> a, const ElementNodes& u) {
+}  // namespace
+
+int n_pressures(Formulation f, int n_nodes) {
+  return f == Formulation::mean_dilatation ? 1 : f == Formulation::linear_dilatation ? n_modes : reference(n_nodes).n_gauss;
+}
+
+Formulation usual_formulation(CellType type) {
+  return type == CellType::hex27 ? Formulation::linear_dilatation : Formulation::mean_dilatation;
+}
+
+bool solid(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
+           const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
+  return (u.rows() == 8 ? solid_of<8> : solid_of<27>)(formulation, material, geometry, a, u, p_tangent, with_tangent, out);
+}
+
+std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
+                                     std::span<const Vec3> a, const ElementNodes& u) {
   const double kappa = material.volume.quadratic.bulk_modulus();
-  std::array<GaussState, 8> states;
-  double theta = 0;
-  for (int g = 0; g < 8; ++g) {
-    const Mat3 H = u.transpose() * geometry.dN_dX[g];
+  const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
+  const bool modal = formulation != Formulation::displacement;
+  std::vector<GaussState> states(n_gauss);
+  std::array<double, n_modes> t{};
+  for (int g = 0; g < n_gauss; ++g) {
+    const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
     states[g].F = Mat3::Identity() + H;
     const double J_minus_1 = volume_change(H);
     states[g].J = 1 + J_minus_1;
     states[g].pressure = kappa * J_minus_1;
-    theta += geometry.w[g] * J_minus_1 / geometry.V;
+    for (int k = 0; k < n_p && modal; ++k) t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
   }
-  for (GaussState& s : states) {
-    if (formulation == Formulation::mean_dilatation) s.pressure = kappa * theta;
+  for (int g = 0; g < n_gauss; ++g) {
+    GaussState& s = states[g];
+    if (modal) s.pressure = 0;
+    for (int k = 0; k < n_p && modal; ++k) s.pressure += kappa * mode(geometry, g, k) * t[k];
     const Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
   }

@@ -1,12 +1,13 @@
 // A mesh with named sets and one orthonormal frame per cell.
 //   X             reference positions [mm], one per node
-//   connectivity  nodes of cell e at [e * nodes_per_cell, ...), in VTK order (hex8: xi fastest round the bottom, then the top)
+//   connectivity  nodes of cell e at [e * nodes_per_cell, ...), in VTK order (element/reference.hpp)
 //   body          per cell, index into `bodies`
 //   frames        per cell, columns e_x e_y e_z (orthonormal, right-handed); a = cos(alpha) e_x + sin(alpha) e_z   [A23] eq. 1
 //   node_sets     name -> nodes, ascending; observation points are sets of one node
 //   facet_sets    name -> (cell, local facet)
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -16,12 +17,13 @@
 
 namespace langer {
 
-enum class CellType { hex8 };
-constexpr int nodes_per_cell(CellType) { return 8; }
+enum class CellType { hex8, hex27 };
+constexpr auto names(CellType) { return std::array{"hex8", "hex27"}; }
+constexpr int nodes_per_cell(CellType type) { return type == CellType::hex8 ? 8 : 27; }
 
 struct Facet {
   int cell = 0;
-  int local = 0;  // hex8: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta
+  int local = 0;  // 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta
 };
 
 struct Mesh {

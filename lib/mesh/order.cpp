@@ -30,9 +30,9 @@ std::vector<Mat3> cube_rotations() {
   return rotations;
 }
 
-int corner_at(const Vec3& xi) {
-  for (int a = 0; a < 8; ++a)
-    if ((Vec3(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]) - xi).norm() < 0.5) return a;
+int node_at(const ReferenceCell& cell, const Vec3& xi) {
+  for (int a = 0; a < cell.n_nodes; ++a)
+    if ((cell.node[a] - xi).norm() < 0.5) return a;
   return -1;
 }
 
@@ -59,12 +59,10 @@ std::vector<int> sorted_by_place(const std::vector<Vec3>& places, double unit) {
 namespace {
 
 void turn_cell(Mesh& mesh, int e, const Mat3& R) {
-  std::array<int, 8> nodes;
-  for (int a = 0; a < 8; ++a) {
-    const Vec3 corner(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]);
-    nodes[a] = mesh.cell(e)[corner_at(R * corner)];
-  }
-  std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + 8 * e);
+  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  std::vector<int> nodes;
+  for (const Vec3& xi : cell.node) nodes.push_back(mesh.cell(e)[node_at(cell, R * xi)]);
+  std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + cell.n_nodes * e);
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ void turn_outwards(Mesh& mesh, const Vec3& axis, double core, Blocks blocks) {
   const Mat3 over{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};    // half a turn about xi
   for (int e = 0; e < mesh.n_cells(); ++e) {
     Vec3 out = Vec3::Zero();
-    for (int node : mesh.cell(e)) out += (mesh.X[node] - axis) / 8;
+    for (int node : mesh.cell(e)) out += (mesh.X[node] - axis) / nodes_per_cell(mesh.type);
     out[1] = 0;
     if (out.lpNorm<Eigen::Infinity>() < core) continue;
     const Mat3 edges = jacobian(mesh, e, Vec3::Zero()).colwise().normalized();
@@ -113,7 +111,7 @@ void number_in_order(Mesh& mesh) {
   std::vector<Vec3> centres;
   for (int e = 0; e < mesh.n_cells(); ++e) {
     Vec3 centre = Vec3::Zero();
-    for (int n : mesh.cell(e)) centre += mesh.X[n] / 8;
+    for (int n : mesh.cell(e)) centre += mesh.X[n] / nodes_per_cell(mesh.type);
     centres.push_back(centre);
   }
   std::vector<int> connectivity;

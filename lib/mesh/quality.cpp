@@ -16,22 +16,21 @@ namespace langer {
 
 namespace {
 
-// the two ends of each of the twelve edges
-constexpr int edge[12][2] = {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-
 Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
   Vec3 x = Vec3::Zero();
-  const Hex8::Shape N = Hex8::shape(xi);
-  for (int a = 0; a < 8; ++a) x += N[a] * mesh.X[mesh.cell(cell)[a]];
+  const auto nodes = mesh.cell(cell);
+  const VecX N = reference(nodes_per_cell(mesh.type)).shape(xi);
+  for (int a = 0; a < N.size(); ++a) x += N[a] * mesh.X[nodes[a]];
   return x;
 }
 
 }  // namespace
 
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
-  const Hex8::Gradient dN = Hex8::gradient(xi);
+  const auto nodes = mesh.cell(cell);
+  const Gradients dN = reference(nodes_per_cell(mesh.type)).gradient(xi);
   Mat3 J = Mat3::Zero();
-  for (int a = 0; a < 8; ++a) J += mesh.X[mesh.cell(cell)[a]] * dN.row(a);
+  for (int a = 0; a < dN.rows(); ++a) J += mesh.X[nodes[a]] * dN.row(a);
   return J;
 }
 
@@ -42,18 +41,21 @@ Quality quality(const Mesh& mesh) {
   const auto notice = [&](double det, int e, const Vec3& xi) {
     if (det < q.least_jacobian) q.least_jacobian = det, q.at_cell = e, q.at = position(mesh, e, xi);
   };
+  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    for (int a = 0; a < 8; ++a) {
-      const Vec3 corner(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2]);
-      const Mat3 J = jacobian(mesh, e, corner);
-      notice(J.determinant(), e, corner);
-      q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, J.colwise().normalized().determinant());
-      const double det = jacobian(mesh, e, Hex8::gauss(a)).determinant();
-      notice(det, e, Hex8::gauss(a));
-      q.volume += det;
+    for (int a = 0; a < cell.n_nodes; ++a) {
+      const Mat3 J = jacobian(mesh, e, cell.node[a]);
+      notice(J.determinant(), e, cell.node[a]);
+      if (a < cell.n_corners)
+        q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, J.colwise().normalized().determinant());
+    }
+    for (int g = 0; g < cell.n_gauss; ++g) {
+      const double det = jacobian(mesh, e, cell.gauss[g]).determinant();
+      notice(det, e, cell.gauss[g]);
+      q.volume += cell.weight[g] * det;
     }
     double shortest = infinity, longest = 0;
-    for (const auto& [a, b] : edge) {
+    for (const auto& [a, b] : cell.edge) {
       const double length = (mesh.X[mesh.cell(e)[b]] - mesh.X[mesh.cell(e)[a]]).norm();
       shortest = std::min(shortest, length), longest = std::max(longest, length);
     }

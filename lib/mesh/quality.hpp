@@ -13,7 +13,7 @@
 namespace langer {
 
 struct Quality {
-  double least_jacobian = 0;  // det dX/dxi over corners and Gauss points [mm^3]
+  double least_jacobian = 0;  // det dX/dxi over nodes and Gauss points [mm^3]
   int at_cell = -1;           // where that is
   Vec3 at = Vec3::Zero();
   double least_scaled_jacobian = 0;

@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "element/reference.hpp"
+#include "mesh/facets.hpp"
 
 namespace langer {
 
@@ -22,12 +22,6 @@ Bounds bounds(const Mesh& mesh) {
   Bounds b{mesh.X.at(0), mesh.X.at(0)};
   for (const Vec3& x : mesh.X) b.low = b.low.cwiseMin(x), b.high = b.high.cwiseMax(x);
   return b;
-}
-
-std::array<int, 4> nodes_of(const Mesh& mesh, const Facet& facet) {
-  std::array<int, 4> nodes;
-  for (int a = 0; a < 4; ++a) nodes[a] = mesh.cell(facet.cell)[Hex8::facet[facet.local][a]];
-  return nodes;
 }
 
 }  // namespace
@@ -91,11 +85,7 @@ std::vector<int> select(const Mesh& mesh, const Selection& selection, const std:
 std::vector<Facet> boundary(const Mesh& mesh) {
   std::map<std::array<int, 4>, std::vector<Facet>> by_nodes;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; f < 6; ++f) {
-      std::array<int, 4> nodes = nodes_of(mesh, {e, f});
-      std::sort(nodes.begin(), nodes.end());
-      by_nodes[nodes].push_back({e, f});
-    }
+    for (int f = 0; f < n_facets(mesh.type); ++f) by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
   std::vector<Facet> outer;
   for (const auto& [nodes, facets] : by_nodes)
     if (facets.size() == 1) outer.push_back(facets[0]);
@@ -107,8 +97,8 @@ std::vector<Facet> boundary(const Mesh& mesh) {
 std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<int>& nodes) {
   std::vector<Facet> chosen;
   for (const Facet& facet : facets) {
-    const auto corners = nodes_of(mesh, facet);
-    if (std::all_of(corners.begin(), corners.end(), [&](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); }))
+    const auto its = facet_nodes(mesh, facet);
+    if (std::all_of(its.begin(), its.end(), [&](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); }))
       chosen.push_back(facet);
   }
   return chosen;

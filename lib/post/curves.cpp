@@ -27,7 +27,7 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
   int cell = 0, point = 0;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     add_gauss_values(body, u, e, gauss);
-    for (int g = 0; g < 8; ++g) {
+    for (int g = 0; g < gauss[e].rows(); ++g) {
       const VecX row = gauss[e].row(g).transpose();
       const Mat3 sigma = sigma_of(row);
       if (const double s = von_mises(sigma); s > all.von_mises) all.von_mises = s, cell = e, point = g;

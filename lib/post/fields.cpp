@@ -26,16 +26,16 @@ Body::Body(const Mesh& mesh, std::vector<Material> materials, Formulation formul
   corners_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (int e = 0; e < n; ++e)
-    for (int a = 0; a < 8; ++a) {
+    for (int a = 0; a < nodes_per_cell(mesh.type); ++a) {
       const int node = mesh.cell(e)[a];
       if (region(e) == shown[node]) corners_[next[node]++] = {e, a};
     }
 }
 
 ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u, int e) {
-  ElementNodes q;
   const auto nodes = mesh.cell(e);
-  for (int a = 0; a < 8; ++a) q.row(a) = u[nodes[a]].transpose();
+  ElementNodes q(nodes.size(), 3);
+  for (std::size_t a = 0; a < nodes.size(); ++a) q.row(a) = u[nodes[a]].transpose();
   return q;
 }
 
@@ -43,8 +43,8 @@ ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) 
   const auto a = body.fibres(e);
   const auto states =
       gauss_states(body.formulation(), body.material(e), body.geometry(e), a, element_displacements(body.mesh(), u, e));
-  ElementValues values = ElementValues::Ones(8, body.n_values());
-  for (int g = 0; g < 8; ++g) {
+  ElementValues values = ElementValues::Ones(static_cast<Eigen::Index>(states.size()), body.n_values());
+  for (std::size_t g = 0; g < states.size(); ++g) {
     values.row(g).head<6>() = voigt(states[g].sigma).transpose();
     values(g, 6) = states[g].J;
     // sqrt(I4_bar) = J^(-1/3) |F a|
@@ -53,32 +53,23 @@ ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) 
   return values;
 }
 
-ElementValues at_corners(const ElementValues& gauss) {
-  // The Gauss points are the corners of a cube 1/sqrt(3) as large: seen from it, corner a lies at sqrt(3) xi_a.
-  static const Eigen::Matrix<double, 8, 8> E = [] {
-    Eigen::Matrix<double, 8, 8> E;
-    for (int a = 0; a < 8; ++a)
-      E.row(a) = Hex8::shape(std::sqrt(3.0) * Vec3(Hex8::corner[a][0], Hex8::corner[a][1], Hex8::corner[a][2])).transpose();
-    return E;
-  }();
-  return E * gauss;
-}
-
 VecX element_mean(const Body& body, int e, const ElementValues& gauss) {
   const ElementGeometry& geometry = body.geometry(e);
   VecX mean = VecX::Zero(gauss.cols());
-  for (int g = 0; g < 8; ++g) mean += geometry.w[g] / geometry.V * gauss.row(g).transpose();
+  for (int g = 0; g < geometry.n_gauss(); ++g) mean += geometry.w[g] / geometry.V * gauss.row(g).transpose();
   return mean;
 }
 
 Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e) {
   const ElementGeometry& geometry = body.geometry(e);
-  Hex8::Gradient dN = Hex8::Gradient::Zero();
-  for (int g = 0; g < 8; ++g) dN += geometry.w[g] / geometry.V * geometry.dN_dX[g];
-  return Mat3::Identity() + element_displacements(body.mesh(), u, e).transpose() * dN;
+  Gradients dN = Gradients::Zero(geometry.n_nodes(), 3);
+  for (int g = 0; g < geometry.n_gauss(); ++g) dN += geometry.w[g] / geometry.V * geometry.dN_dX[g];
+  return Mat3::Identity() + displacement_gradient(element_displacements(body.mesh(), u, e), dN);
 }
 
-Vec3 gauss_position(const Mesh& mesh, int e, int g) { return element_nodes(mesh, e).transpose() * Hex8::shape(Hex8::gauss(g)); }
+Vec3 gauss_position(const Mesh& mesh, int e, int g) {
+  return element_nodes(mesh, e).transpose() * reference(nodes_per_cell(mesh.type)).N[g];
+}
 
 void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss) {
   gauss.resize(static_cast<std::size_t>(body.mesh().n_cells()));
@@ -94,11 +85,14 @@ GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u) {
 VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at) {
   VecX sum = VecX::Zero(body.n_values());
   double V = 0;
+  const ReferenceCell& cell = reference(nodes_per_cell(body.mesh().type));
   for (const auto [e, a] : body.corners(node)) {
     const double w = body.geometry(e).V;
-    // Gauss point a lies in the corner of node a
     const ElementValues& values = gauss[e];
-    sum += w * (at == StressAt::nodal_average ? VecX(at_corners(values).row(a).transpose()) : VecX(values.row(a).transpose()));
+    if (at == StressAt::nodal_average)
+      sum += w * (cell.at_nodes.row(a) * values).transpose();
+    else
+      sum += w * values.row(cell.nearest_gauss[a]).transpose();
     V += w;
   }
   return V > 0 ? VecX(sum / V) : sum;  // a node of no cell carries nothing

@@ -1,8 +1,8 @@
 // Stress, dilatation and fibre stretch of one state of a body: at Gauss points, as element means, at nodes.   [A23] eqs 17-21
 //   a row of values   Cauchy stress 11 22 33 12 23 13 [MPa] | J [-] | fibre stretch sqrt(I4_bar) of each family [-]
 //   element mean      weighted with the Gauss points' shares of the reference volume
-//   node              nodal_average: the trilinear field through the 8 Gauss points, taken at the element's corner;
-//                     nearest_gauss: the Gauss point nearest to the corner. Both averaged over the elements at the node,
+//   node              nodal_average: the trilinear field through the 8 Gauss points (hex27: nearest to the 27), taken at the
+//                     element's node; nearest_gauss: the Gauss point nearest to the node. Both averaged over the elements at the node,
 //                     weighted with reference volume, within one region (bodies of different materials never mix;
 //                     a node between two regions shows the lower numbered one).
 // Rows are averaged; von Mises, pressure and principal stresses are taken of the averaged row, so that what a table shows
@@ -57,11 +57,10 @@ class Body {
 };
 
 // Row g: values at Gauss point g, or at local node g.
-using ElementValues = Eigen::Matrix<double, 8, Eigen::Dynamic, Eigen::RowMajor>;
+using ElementValues = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u, int e);
 ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e);  // u (n) [mm]; families a cell lacks: 1
-ElementValues at_corners(const ElementValues& gauss);                             // exact for trilinear fields
 VecX element_mean(const Body& body, int e, const ElementValues& gauss);
 Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e);
 Vec3 gauss_position(const Mesh& mesh, int e, int g);  // reference [mm]

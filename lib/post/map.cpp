@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "mesh/facets.hpp"
 
 namespace langer {
 
@@ -50,20 +51,20 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
   SurfaceMap map{name, line.label, line.unit, t, {}, {}, {}, {}, {}};
   std::vector<int> number(mesh.X.size(), -1);
   for (const Facet& facet : mesh.facet_sets.at(choice.on)) {
-    std::array<int, 4> corners{};
-    for (int k = 0; k < 4; ++k) {
-      const int node = mesh.cell(facet.cell)[Hex8::facet[facet.local][k]];
-      if (number[node] < 0) {
-        number[node] = static_cast<int>(map.places.size());
-        map.places.push_back({mesh.X[node][0], mesh.X[node][2]});
-        map.values.push_back(values[node]);
+    for (std::array<int, 4> quad : facet_quads(mesh, facet)) {
+      for (int& node : quad) {
+        if (number[node] < 0) {
+          number[node] = static_cast<int>(map.places.size());
+          map.places.push_back({mesh.X[node][0], mesh.X[node][2]});
+          map.values.push_back(values[node]);
+        }
+        node = number[node];
       }
-      corners[k] = number[node];
+      map.facets.push_back(quad);
+      if (body.n_families() == 0) continue;
+      const auto fibres = body.fibres(facet.cell);
+      map.fibres.push_back(fibres.empty() ? std::array{0.0, 0.0} : std::array{fibres[0][0], fibres[0][2]});
     }
-    map.facets.push_back(corners);
-    if (body.n_families() == 0) continue;
-    const auto fibres = body.fibres(facet.cell);
-    map.fibres.push_back(fibres.empty() ? std::array{0.0, 0.0} : std::array{fibres[0][0], fibres[0][2]});
   }
   for (const std::string& point : choice.points) {
     const Vec3& X = mesh.X[mesh.node_sets.at(point).front()];

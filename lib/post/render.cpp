@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "mesh/facets.hpp"
+
 namespace langer {
 
 namespace {
@@ -198,21 +200,18 @@ std::vector<Complaint> RenderChoice::complaints() const {
 }
 
 std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept) {
-  std::map<std::array<int, 4>, std::pair<int, std::array<int, 4>>> seen;  // sorted nodes -> how often, in order
-  for (int e = 0; e < mesh.n_cells(); ++e) {
-    if (!kept[e]) continue;
-    for (const auto& local : Hex8::facet) {
-      std::array<int, 4> nodes{};
-      for (int k = 0; k < 4; ++k) nodes[k] = mesh.cell(e)[local[k]];
-      std::array<int, 4> key = nodes;
-      std::sort(key.begin(), key.end());
-      auto& entry = seen[key];
-      ++entry.first, entry.second = nodes;
+  std::map<std::array<int, 4>, std::pair<int, Facet>> seen;  // how often, the last
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (int f = 0; kept[e] && f < n_facets(mesh.type); ++f) {
+      auto& entry = seen[facet_key(mesh, {e, f})];
+      ++entry.first, entry.second = {e, f};
     }
-  }
   std::vector<std::array<int, 4>> surface;
-  for (const auto& [key, entry] : seen)
-    if (entry.first == 1) surface.push_back(entry.second);
+  for (const auto& [key, entry] : seen) {
+    if (entry.first != 1) continue;
+    const auto quads = facet_quads(mesh, entry.second);
+    surface.insert(surface.end(), quads.begin(), quads.end());
+  }
   return surface;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "mesh/raise.hpp"
 #include "post/render.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
@@ -75,7 +76,8 @@ struct Glyphs {
 };
 
 Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surface, const Chosen& chosen) {
-  const Mesh& mesh = body.mesh();
+  const Mesh mesh = between_nodes(body.mesh());
+  const int parts = mesh.n_cells() / body.mesh().n_cells();
   Glyphs glyphs;
   std::map<std::array<int, 4>, int> place;  // sorted nodes -> facet of the surface
   for (std::size_t f = 0; f < surface.size(); ++f) {
@@ -97,7 +99,7 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
       const Vec3 normal = (mesh.X[facet[2]] - mesh.X[facet[0]]).cross(mesh.X[facet[3]] - mesh.X[facet[1]]).normalized();
       const Hex8::Gradient dN = Hex8::gradient(Vec3::Zero());
       const Mat3 jacobian = element_nodes(mesh, e).transpose() * dN;  // dX/dxi
-      for (const Vec3& a : body.fibres(e)) {
+      for (const Vec3& a : body.fibres(e / parts)) {
         if (std::abs(a.dot(normal)) > 0.7) continue;  // seen from its end
         const Eigen::Matrix<double, 8, 1> w = dN * jacobian.inverse() * a;
         glyphs.facet.push_back(found->second);
@@ -121,11 +123,12 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
 
+  const std::size_t n_corners = between_nodes(mesh).connectivity.size();
   // bytes in base64: per node and state, per node, per cell and facet
   const auto size = [&](const Chosen& nodes, int states, bool cells) {
     const double n = static_cast<double>(nodes.nodes.size());
     return 4.0 / 3 * (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
-                      (cells ? 32.0 * mesh.n_cells() : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
+                      (cells ? 4.0 * n_corners : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
   };
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
   constexpr int few = 4;
@@ -185,7 +188,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
     for (int node : facet) facets.push_back(chosen.place[node]);
   Json glyphs, connectivity;
   if (cells) {
-    for (int node : mesh.connectivity) cell_nodes.push_back(chosen.place[node]);
+    for (int node : between_nodes(mesh).connectivity) cell_nodes.push_back(chosen.place[node]);
     connectivity = packed(cell_nodes);
   }
   if (const Glyphs g = cells && body.n_families() > 0 ? glyphs_of(body, surface, chosen) : Glyphs{}; !g.facet.empty())

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "config/formula.hpp"
-#include "element/reference.hpp"
 #include "fit/csv_table.hpp"
+#include "mesh/facets.hpp"
 #include "store/h5.hpp"
 
 namespace langer {
@@ -23,7 +23,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 Vec3 cell_centre(const Mesh& mesh, int e) {
   Vec3 centre = Vec3::Zero();
-  for (int node : mesh.cell(e)) centre += mesh.X[node] / 8;
+  for (int node : mesh.cell(e)) centre += mesh.X[node] / nodes_per_cell(mesh.type);
   return centre;
 }
 
@@ -147,24 +147,19 @@ FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(i
   FibreJump jump;
   std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int axis = 0; axis < 3; ++axis)
-      for (int side : {-1, 1}) {
-        std::array<int, 4> nodes{};
-        int n = 0;
-        for (int a = 0; a < 8; ++a)
-          if (Hex8::corner[a][axis] == side) nodes[n++] = mesh.cell(e)[a];
-        std::sort(nodes.begin(), nodes.end());
-        const auto [entry, is_new] = open.try_emplace(nodes, e);
-        if (is_new) continue;
-        const auto here = fibres(e), there = fibres(entry->second);
-        for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
-          const double angle = std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
-          if (angle <= jump.degrees) continue;
-          jump = {angle, entry->second, e, static_cast<int>(k), Vec3::Zero()};
-          for (int node : nodes) jump.place += mesh.X[node] / 4;
-        }
-        open.erase(entry);
+    for (int f = 0; f < n_facets(mesh.type); ++f) {
+      const std::array<int, 4> nodes = facet_key(mesh, {e, f});
+      const auto [entry, is_new] = open.try_emplace(nodes, e);
+      if (is_new) continue;
+      const auto here = fibres(e), there = fibres(entry->second);
+      for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
+        const double angle = std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
+        if (angle <= jump.degrees) continue;
+        jump = {angle, entry->second, e, static_cast<int>(k), Vec3::Zero()};
+        for (int node : nodes) jump.place += mesh.X[node] / 4;
       }
+      open.erase(entry);
+    }
   return jump;
 }
 

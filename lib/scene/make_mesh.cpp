@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "mesh/order.hpp"
+#include "mesh/raise.hpp"
+
 namespace langer {
 
 namespace {
@@ -49,6 +52,12 @@ MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
   mesh = std::visit([&](const auto& g) { return mesh_of(g, config.positions(), result.notes); }, config.geometry);
+  if (config.cells != mesh.type) {
+    mesh = raised(mesh, config.cells);
+    number_in_order(mesh);
+    make_symmetric(mesh, std::visit([](const auto& g) { return Vec3(g.origin[0] + 0.5 * g.size[0], 0, g.origin[2] + 0.5 * g.size[2]); },
+                                    config.geometry));
+  }
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
   refuse_folded(result.quality, "geometry");

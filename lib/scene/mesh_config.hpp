@@ -49,6 +49,7 @@ struct MeshConfig {
   std::string body = "skin";
   std::vector<LayerConfig> bodies;
   Geometry geometry;
+  CellType cells = CellType::hex8;
   Frames frames = Frames::global;
   std::map<std::string, std::array<double, 3>> points;
   std::map<std::string, SetConfig> sets;
@@ -56,6 +57,9 @@ struct MeshConfig {
     v(&MeshConfig::body, "body", unit::none, "name of the body, where it is one");
     v(&MeshConfig::bodies, "bodies", unit::none, "layers from the bottom up, each a body of its own; none: one body");
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
+    v(&MeshConfig::cells, "cells", unit::none,
+      "hex8, or hex27: quadratic displacements with nodes in the middles of edges, facets and cells too; about 8 times the work of "
+      "a hex8, and far fewer are needed");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");

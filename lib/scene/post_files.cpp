@@ -68,7 +68,7 @@ Formulation formulation_of(const SolutionHeader& header, const std::string& path
   for (std::size_t i = 0; i < words.size(); ++i)
     if (header.formulation == words[i]) return static_cast<Formulation>(i);
   throw Failure(Exit::input,
-                Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation or displacement", ""});
+                Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation, displacement or linear_dilatation", ""});
 }
 
 StepState state_of(const StepRecord& record) {

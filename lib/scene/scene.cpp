@@ -99,6 +99,10 @@ std::vector<Vec3> Scene::fibres_of(const Mesh& mesh, int cell) const {
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {
   Scene scene;
   Composer composer(mesh, where);
+  scene.formulation = config.formulation.value_or(usual_formulation(mesh.type));
+  if (scene.formulation == Formulation::linear_dilatation && mesh.type == CellType::hex8)
+    composer.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
+                               "mean_dilatation", "cells: hex27 in the mesh's config"});
   std::vector<Prescribed> prescribed;
   std::vector<std::string> named_by(3 * static_cast<std::size_t>(mesh.n_nodes()));
   std::vector<double> value(named_by.size(), 0);

@@ -1,6 +1,6 @@
 // Config and files -> the value types that mechanics works on; names are resolved here, degrees and radians meet here.
 // Throws Failure(config) with the place of the key: a set that the mesh does not have, two different values for one dof,
-// fibre angles that do not match the material.
+// fibre angles that do not match the material, a formulation that does not suit the cells.
 #pragma once
 
 #include <functional>
@@ -16,6 +16,7 @@
 namespace langer {
 
 struct Scene {
+  Formulation formulation = Formulation::mean_dilatation;
   std::vector<Material> materials;        // one for each body of the mesh
   std::vector<std::vector<Vec3>> fibres;  // directions by cell where a field gives them, else empty
   Dofs dofs;

@@ -122,7 +122,7 @@ struct SolveConfig {
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
   std::map<std::string, BodyConfig> materials;
-  Formulation formulation = Formulation::mean_dilatation;
+  std::optional<Formulation> formulation;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
   std::map<std::string, ContactConfig> contacts;
@@ -144,7 +144,8 @@ struct SolveConfig {
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,
       "bodies of the mesh by name, each with its own material and fibres; the keys above stand for those not named");
-    v(&SolveConfig::formulation, "formulation", unit::none, "how the dilatation enters an element");
+    v(&SolveConfig::formulation, "formulation", unit::none,
+      "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
     v(&SolveConfig::loads, "loads", unit::none, "imposed displacements");
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");

@@ -83,10 +83,11 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
     const auto a = body.fibres(e);
     check_points(body.material(e), body.geometry(e), a, body.element_displacements(state.u, e), points);
     double cell_volume = 0;
-    for (int g = 0; g < 8; ++g) cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
+    const int n_gauss = body.geometry(e).n_gauss();
+    for (int g = 0; g < n_gauss; ++g) cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
     if (nearly_incompressible(body.material(e)) && std::abs(cell_volume - 1) > report.volume_change)
       report.volume_change = std::abs(cell_volume - 1), report.volume_place = gauss_position(body.mesh(), e, 0);
-    for (int g = 0; g < 8; ++g) {
+    for (int g = 0; g < n_gauss; ++g) {
       const double w = body.geometry(e).w[g], s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
       volume += w;
       if (s < 0) report.lost += w;

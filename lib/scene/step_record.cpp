@@ -40,9 +40,9 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
     double I4_bar = 0;
-    const double w = 1.0 / Hex8::n_gauss;
-    for (const GaussState& g :
-         gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e))) {
+    const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e));
+    const double w = 1.0 / static_cast<double>(states.size());
+    for (const GaussState& g : states) {
       sigma += w * g.sigma;
       J[e] += w * g.J;
       if (!a.empty()) I4_bar += w * (g.F * a[0]).squaredNorm() / std::cbrt(g.J * g.J);

@@ -102,7 +102,7 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
     Quotient& q = r.quotient_ = quotient(mesh, generators);
     r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], q.cell.size(), mesh.n_cells());
 
-    r.scene_.materials = scene.materials, r.scene_.stops = scene.stops;
+    r.scene_.formulation = scene.formulation, r.scene_.materials = scene.materials, r.scene_.stops = scene.stops;
     for (int e : q.cell)
       if (!scene.fibres.empty()) r.scene_.fibres.push_back(scene.fibres[e]);
     std::vector<Prescribed> prescribed;

@@ -6,13 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "mesh/facets.hpp"
+
 namespace langer {
 
 namespace {
 
 using Integers = std::vector<std::int64_t>;
-constexpr std::uint8_t vtk_hexahedron = 12;
-constexpr int facets_per_cell = 6;
+constexpr std::uint8_t vtk_type(CellType type) { return type == CellType::hex8 ? 12 : 29; }  // hexahedron, triquadratic
 constexpr const char* axes[3] = {"e_x", "e_y", "e_z"};
 
 void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape, const Integers& values) {
@@ -69,7 +70,7 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   Integers offsets(e + 1);
   for (std::size_t i = 0; i <= e; ++i) offsets[i] = static_cast<std::int64_t>(i * per_cell);
   write_integers(grid, "Offsets", {e + 1}, offsets);
-  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, vtk_hexahedron));
+  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, vtk_type(mesh.type)));
 
   const h5::Group cells = grid.make_group("CellData");
   write_integers(cells, "body", {e}, {mesh.body.begin(), mesh.body.end()});
@@ -99,15 +100,19 @@ Mesh read_grid(const h5::Group& root) {
   Mesh mesh;
   const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints")),
                     e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
+  const auto types = grid.read<std::uint8_t>("Types", {e}).values;
+  for (CellType type : {CellType::hex8, CellType::hex27})
+    if (types[0] == vtk_type(type)) mesh.type = type;
+  for (std::uint8_t type : types)
+    if (type != vtk_type(mesh.type))
+      grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron) or 29 (triquadratic hexahedron), one for all");
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
   mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));
   const auto offsets = grid.read<std::int64_t>("Offsets", {e + 1});
   for (std::size_t i = 0; i <= e; ++i)
     if (offsets.values[i] != static_cast<std::int64_t>(i) * per_cell)
-      grid.refuse("Offsets", "cells that do not have 8 nodes each");
-  for (std::uint8_t type : grid.read<std::uint8_t>("Types", {e}).values)
-    if (type != vtk_hexahedron) grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron)");
+      grid.refuse("Offsets", fmt::format("cells that do not have {} nodes each", per_cell));
 
   std::istringstream names(cells.annotation("body", "names"));
   for (std::string name; names >> name;) mesh.bodies.push_back(name);
@@ -121,10 +126,10 @@ Mesh read_grid(const h5::Group& root) {
     mesh.node_sets[name] = indices(nodes, name, {h5::any}, static_cast<std::int64_t>(n));
   for (const std::string& name : facets.datasets()) {
     const std::vector<int> pairs =
-        indices(facets, name, {h5::any, 2}, static_cast<std::int64_t>(std::max<std::size_t>(e, facets_per_cell)));
+        indices(facets, name, {h5::any, 2}, std::max(static_cast<std::int64_t>(e), std::int64_t{n_facets(mesh.type)}));
     auto& set = mesh.facet_sets[name];
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
-      if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= facets_per_cell)
+      if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= n_facets(mesh.type))
         facets.refuse(name, fmt::format("cell {}, local facet {}", pairs[i], pairs[i + 1]), "a facet of this mesh");
       set.push_back({pairs[i], pairs[i + 1]});
     }

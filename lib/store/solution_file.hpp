@@ -42,7 +42,7 @@ struct SolutionHeader {
   Material material;                                      // of the first body
   std::vector<Material> materials;                        // one for each body where they differ, else empty
   std::vector<std::vector<Vec3>> fibres;                  // directions by cell where a field gave them, else empty
-  std::string formulation;                                // "mean_dilatation" | "displacement"
+  std::string formulation;                                // element/solid.hpp
   std::map<std::string, std::vector<int>> contact_nodes;  // candidates by contact name; empty without contact
   Identity identity;
 };

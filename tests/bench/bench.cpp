@@ -80,15 +80,28 @@ void measure_sobol(const Material& skin) {
 }
 
 // Isotropic and frictionless: the force at six depths against a reference made with other elements (axisymmetric Q2P1).
-void measure_depths() {
+struct Grid {
+  CellType cells;
+  int n;
+  double h;
+  int ny;
+};
+const std::vector<Grid> fine{{CellType::hex8, 20, 0.13, 9}, {CellType::hex8, 32, 0.075, 14}, {CellType::hex8, 44, 0.05, 18}};
+const std::vector<Grid> both{{CellType::hex8, 10, 0.3, 5},   {CellType::hex8, 14, 0.2, 6},   {CellType::hex8, 20, 0.13, 9},
+                             {CellType::hex8, 28, 0.1, 12},  {CellType::hex27, 6, 0.5, 3},   {CellType::hex27, 8, 0.35, 4},
+                             {CellType::hex27, 10, 0.25, 5}, {CellType::hex27, 14, 0.2, 6}};
+
+void measure_depths(const std::vector<Grid>& grids) {
   constexpr std::array depths{0.1, 0.2, 0.3, 0.5, 0.7, 1.0}, reference{0.1668, 0.511, 1.0095, 2.507, 4.842, 10.76};
   fmt::print("isotropic, frictionless, quarter model: force [N] at six depths, deviation from the reference\n");
-  for (const auto& [n, h, ny] : {std::tuple{20, 0.13, 9}, {32, 0.075, 14}, {44, 0.05, 18}}) {
+  for (const auto& [cells, n, h, ny] : grids) {
     test::Indentation scene;
+    scene.cells = cells;
     scene.quarter = true, scene.nx = scene.nz = 2 * n, scene.h = h, scene.ny = ny, scene.mu = 0, scene.reach = 2.3;
     const double cpu = cpu_seconds();
     const auto result = scene.run(test::table1(0, 1e-6, 0));
-    fmt::print("  {} x {} x {}, finest {} mm, {:.0f} s CPU:", n, ny, n, h, cpu_seconds() - cpu);
+    fmt::print("  {} x {} x {} {}, finest {} mm, {} nodes, {:.1f} s CPU:", n, ny, n, names(cells)[static_cast<int>(cells)], h,
+               result.mesh.n_nodes(), cpu_seconds() - cpu);
     for (const auto& step : result.steps)
       for (std::size_t i = 0; i < depths.size(); ++i)
         if (std::abs(step.depth - depths[i]) < 1e-9)
@@ -100,9 +113,12 @@ void measure_depths() {
 
 // elements per second, one thread, with the tangent
 void measure_assembly(const Material& skin) {
-  const Mesh mesh = test::block(test::even(-15, 15, 56), test::even(0, 4, 4), test::even(-15, 15, 55));
-  for (Kernel kernel : {Kernel::packets, Kernel::one_by_one}) {
-    Equilibrium body(mesh, {skin}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
+  const Mesh linear = test::block(test::even(-15, 15, 56), test::even(0, 4, 4), test::even(-15, 15, 55));
+  const Mesh quadratic = test::raised_block(test::block(test::even(-15, 15, 28), test::even(0, 4, 2), test::even(-15, 15, 27)));
+  for (const auto& [cells, kernel] : {std::pair{&linear, Kernel::packets}, {&linear, Kernel::one_by_one},
+                                      {&quadratic, Kernel::packets}, {&quadratic, Kernel::one_by_one}}) {
+    const Mesh& mesh = *cells;
+    Equilibrium body(mesh, {skin}, usual_formulation(mesh.type), number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = 0.01 * mesh.X[i].cwiseProduct(Vec3(1, -1, 0.5));
     body.assemble(u, true);
@@ -110,9 +126,9 @@ void measure_assembly(const Material& skin) {
     const int rounds = kernel == Kernel::packets ? 20 : 5;
     for (int k = 0; k < rounds; ++k) body.assemble(u, true);
     const double seconds = (cpu_seconds() - start) / rounds;
-    fmt::print("assembly, {}: {:.4f} s CPU for {} hexahedra, {:.2f} million elements per second\n",
+    fmt::print("assembly, {}: {:.4f} s CPU for {} {} with {} nodes, {:.3f} million elements per second\n",
                kernel == Kernel::packets ? "eight at a time" : "one by one", seconds, mesh.n_cells(),
-               1e-6 * mesh.n_cells() / seconds);
+               names(mesh.type)[static_cast<int>(mesh.type)], mesh.n_nodes(), 1e-6 * mesh.n_cells() / seconds);
   }
 }
 
@@ -155,7 +171,8 @@ int main(int argc, char** argv) {
   if (wanted("fit")) measure_fit();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper")) measure("the paper's 100 steps of 0.01 mm", paper_block(), skin);
-  if (asked.count("depths")) measure_depths();
+  if (asked.count("depths")) measure_depths(fine);
+  if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);
   if (asked.count("grading")) {
     test::Indentation scene;

@@ -21,6 +21,22 @@ TEST_CASE("mean dilatation: the force of an indentation stays within 2 % from d 
   }
 }
 
+TEST_CASE("hex27 with linear dilatation: the force of an indentation stays within 0.5 % from d = 1e-4 to 1e-9, at the same cost") {
+  test::Indentation scene;
+  scene.cells = CellType::hex27, scene.quarter = true;
+  scene.nx = scene.nz = 10, scene.ny = 2, scene.h = 0.7, scene.depth = 0.4, scene.step = 0.2;
+  const auto reference = scene.run(test::table1(0, 1e-6));
+  REQUIRE(reference.path.complete);
+  for (double d : {1e-4, 1e-7, 1e-9}) {
+    const auto result = scene.run(test::table1(0, d));
+    CAPTURE(d);
+    REQUIRE(result.path.complete);
+    CHECK(result.steps.back().force == doctest::Approx(reference.steps.back().force).epsilon(0.005));
+    CHECK(result.path.iterations <= reference.path.iterations + 3);
+    CHECK(result.n_indefinite == 0);
+  }
+}
+
 TEST_CASE("full integration locks: the force grows many times as d falls") {
   test::Indentation scene;
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 0.2, scene.step = 0.05;

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <memory>
 #include <random>
 
 #include "support/laws.hpp"
@@ -26,50 +25,57 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
         with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
     REQUIRE(packet_form(material));
     const auto a = fibre_directions(material);
-    std::vector<ElementGeometry> geometry;
-    std::vector<ElementNodes> u(8);
-    for (int l = 0; l < 8; ++l) {
-      ElementNodes X;
-      for (int n = 0; n < 8; ++n)
-        for (int k = 0; k < 3; ++k) X(n, k) = 0.5 * Hex8::corner[n][k] + near(random), u[l](n, k) = small(random);
-      geometry.push_back(element_geometry(X));
-    }
-    const ElementGeometry* pointers[8];
-    Packet moved[24];
-    PacketFibre fibre[1];
-    for (int l = 0; l < 8; ++l) {
-      pointers[l] = &geometry[l];
-      for (int i = 0; i < 24; ++i) moved[i].set(l, u[l](i / 3, i % 3));
-      for (int k = 0; k < 3 && !a.empty(); ++k) fibre[0].a[k].set(l, a[0][k]);
-    }
-    const PacketGeometry together = packed(pointers);
-    for (Formulation formulation : {Formulation::mean_dilatation, Formulation::displacement})
+    for (const auto& [n, formulation] : {std::pair{8, Formulation::mean_dilatation},
+                                         {8, Formulation::displacement},
+                                         {27, Formulation::linear_dilatation},
+                                         {27, Formulation::mean_dilatation},
+                                         {27, Formulation::displacement}}) {
+      const double spread = n == 8 ? 1 : 0.4;
+      const int n_p = n_pressures(formulation, n);
+      std::vector<ElementGeometry> geometry;
+      std::vector<ElementNodes> u(8, ElementNodes(n, 3));
+      for (int l = 0; l < 8; ++l) {
+        ElementNodes X(n, 3);
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < 3; ++k)
+            X(i, k) = 0.5 * reference(n).node[i][k] + spread * near(random), u[l](i, k) = spread * small(random);
+        geometry.push_back(element_geometry(X));
+      }
+      const ElementGeometry* pointers[8];
+      std::vector<Packet> moved(3 * n);
+      PacketFibre fibre[1];
+      for (int l = 0; l < 8; ++l) {
+        pointers[l] = &geometry[l];
+        for (int i = 0; i < 3 * n; ++i) moved[i].set(l, u[l](i / 3, i % 3));
+        for (int k = 0; k < 3 && !a.empty(); ++k) fibre[0].a[k].set(l, a[0][k]);
+      }
+      const PacketGeometry together = packed(pointers);
       for (bool given_pressure : {false, true}) {
-        Packet p[8];
-        double pressure[8][8];
+        std::vector<Packet> p(n_p);
+        MatX pressure(n_p, 8);
         for (int l = 0; l < 8; ++l)
-          for (int k = 0; k < 8; ++k) pressure[l][k] = near(random), p[k].set(l, pressure[l][k]);
-        auto out = std::make_unique<PacketElement>();
-        packet_solid(formulation, material, together, fibre, moved, given_pressure ? p : nullptr, true, *out);
+          for (int k = 0; k < n_p; ++k) pressure(k, l) = near(random), p[k].set(l, pressure(k, l));
+        PacketElement out(n, n_p);
+        packet_solid(formulation, material, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
         for (int l = 0; l < 8; ++l) {
           SolidElement one;
-          REQUIRE(solid(formulation, material, geometry[l], a, u[l], given_pressure ? pressure[l] : nullptr, true, one));
-          CHECK(out->W[l] == doctest::Approx(one.W).epsilon(1e-12));
-          CHECK(out->J_min[l] == doctest::Approx(one.J_min).epsilon(1e-13));
+          REQUIRE(solid(formulation, material, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true, one));
+          CHECK(out.W[l] == doctest::Approx(one.W).epsilon(1e-12));
+          CHECK(out.J_min[l] == doctest::Approx(one.J_min).epsilon(1e-13));
           const double f = one.f.lpNorm<Eigen::Infinity>(), K = one.K.lpNorm<Eigen::Infinity>();
           double worst_f = 0, worst_K = 0, worst_dJ = 0;
-          for (int i = 0; i < 24; ++i) {
-            worst_f = std::max(worst_f, std::abs(out->f[i][l] - one.f[i]));
-            for (int j = 0; j <= i; ++j) worst_K = std::max(worst_K, std::abs(out->K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
-            for (int k = 0; k < n_pressures(formulation); ++k)
-              worst_dJ = std::max(worst_dJ, std::abs(out->dJ_du[k][i][l] - one.dJ_du[k][i]));
+          for (int i = 0; i < 3 * n; ++i) {
+            worst_f = std::max(worst_f, std::abs(out.f[i][l] - one.f[i]));
+            for (int j = 0; j <= i; ++j) worst_K = std::max(worst_K, std::abs(out.K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
+            for (int k = 0; k < n_p; ++k) worst_dJ = std::max(worst_dJ, std::abs(out.dJ_du(k)[i][l] - one.dJ_du[k][i]));
           }
-          for (int k = 0; k < n_pressures(formulation); ++k) CHECK(std::abs(out->J_minus_1[k][l] - one.J_minus_1[k]) < 1e-14);
+          for (int k = 0; k < n_p; ++k) CHECK(std::abs(out.J_minus_1[k][l] - one.J_minus_1[k]) < 1e-14);
           CHECK(worst_f <= 1e-12 * f);
           CHECK(worst_K <= 1e-12 * K);
           CHECK(worst_dJ <= 1e-13);
         }
       }
+    }
   }
 }
 

@@ -17,7 +17,7 @@ TEST_CASE("eight points at once: never below the exact smallest shear stiffness 
   Material general;  // a law of I2, point by point
   general.matrix = {MooneyRivlin{0.2, 0.1}};
   general.volume.quadratic.d = 1e-3;
-  ElementNodes X;
+  ElementNodes X(8, 3);
   for (int a = 0; a < 8; ++a)
     for (int k = 0; k < 3; ++k) X(a, k) = 0.5 * Hex8::corner[a][k];
   const ElementGeometry geometry = element_geometry(X);
@@ -28,7 +28,7 @@ TEST_CASE("eight points at once: never below the exact smallest shear stiffness 
   for (const Material& material : {test::table1(0, 1e-6), test::stable(35, 1e-6), two, general}) {
     const std::vector<Vec3> a = fibre_directions(material);
     for (int trial = 0; trial < 20; ++trial) {
-      ElementNodes u;
+      ElementNodes u(8, 3);
       for (int i = 0; i < 24; ++i) u(i / 3, i % 3) = uniform(random);
       u.col(0) += 0.8 * trial / 20 * X.col(0), u.rightCols<2>() -= 0.25 * trial / 20 * X.rightCols<2>();
       PointCheck points;

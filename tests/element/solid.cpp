@@ -1,10 +1,11 @@
-// Element tests: patch, rigid motion, tangent, both formulations.
+// Element tests: patch, rigid motion, tangent, all formulations.
 #include "element/solid.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <cmath>
 #include <random>
 
@@ -24,38 +25,51 @@ struct One {
   Material material;
 };
 
-One distorted(double d, unsigned seed = 5) {
+// a cell type by its number of nodes, and how the dilatation enters
+struct Kind {
+  int n;
+  Formulation formulation;
+};
+const Kind kinds[] = {{8, Formulation::mean_dilatation},
+                      {8, Formulation::displacement},
+                      {27, Formulation::linear_dilatation},
+                      {27, Formulation::mean_dilatation},
+                      {27, Formulation::displacement}};
+
+One distorted(int n_nodes, double d, unsigned seed = 5) {
   One one;
+  const auto& node = reference(n_nodes).node;
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> u(-0.15, 0.15);
-  for (int n = 0; n < 8; ++n)
-    for (int k = 0; k < 3; ++k) one.X(n, k) = 0.5 * Hex8::corner[n][k] + u(random);
+  const double most = n_nodes == 8 ? 0.15 : 0.06;
+  std::uniform_real_distribution<double> u(-most, most);
+  one.X.resize(n_nodes, 3);
+  for (int n = 0; n < n_nodes; ++n)
+    for (int k = 0; k < 3; ++k) one.X(n, k) = 0.5 * node[n][k] + u(random);
   one.geometry = element_geometry(one.X);
   one.material = test::stable(30, d);
   one.a = fibre_directions(one.material);
   return one;
 }
 
-ElementNodes some_displacement(unsigned seed, double size) {
-  ElementNodes u;
+ElementNodes some_displacement(int n_nodes, unsigned seed) {
+  ElementNodes u(n_nodes, 3);
   std::mt19937 random(seed);
+  const double size = n_nodes == 8 ? 0.1 : 0.04;
   std::uniform_real_distribution<double> r(-size, size);
   for (auto& v : u.reshaped()) v = r(random);
   return u;
 }
 
-const Formulation formulations[] = {Formulation::mean_dilatation, Formulation::displacement};
-
 }  // namespace
 
 TEST_CASE("the internal force is the gradient of the stored energy") {
-  const One one = distorted(1e-2);
-  for (Formulation formulation : formulations) {
-    const ElementNodes u = some_displacement(1, 0.1);
+  for (const auto& [n, formulation] : kinds) {
+    const One one = distorted(n, 1e-2);
+    const ElementNodes u = some_displacement(n, 1);
     SolidElement at, plus, minus;
     REQUIRE(solid(formulation, one.material, one.geometry, one.a, u, nullptr, false, at));
     const double h = 1e-6, scale = at.f.lpNorm<Eigen::Infinity>();
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < 3 * n; ++i) {
       ElementNodes up = u, down = u;
       up(i / 3, i % 3) += h, down(i / 3, i % 3) -= h;
       solid(formulation, one.material, one.geometry, one.a, up, nullptr, false, plus);
@@ -67,14 +81,14 @@ TEST_CASE("the internal force is the gradient of the stored energy") {
 
 TEST_CASE("the tangent is the derivative of the force, and symmetric") {
   for (double d : {1.0, 1e-2, 1e-4}) {
-    const One one = distorted(d);
-    for (Formulation formulation : formulations) {
-      const ElementNodes u = some_displacement(2, 0.1);
+    for (const auto& [n, formulation] : kinds) {
+      const One one = distorted(n, d);
+      const ElementNodes u = some_displacement(n, 2);
       SolidElement at, plus, minus;
       REQUIRE(solid(formulation, one.material, one.geometry, one.a, u, nullptr, true, at));
       const double scale = at.K.lpNorm<Eigen::Infinity>(), h = 3e-6;
       CHECK((at.K - at.K.transpose()).lpNorm<Eigen::Infinity>() <= 1e-13 * scale);
-      for (int j = 0; j < 24; ++j) {
+      for (int j = 0; j < 3 * n; ++j) {
         ElementNodes up = u, down = u;
         up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
         solid(formulation, one.material, one.geometry, one.a, up, nullptr, false, plus);
@@ -86,32 +100,32 @@ TEST_CASE("the tangent is the derivative of the force, and symmetric") {
 }
 
 TEST_CASE("the dilatation's gradient is its derivative") {
-  const One one = distorted(1e-2);
-  for (Formulation formulation : formulations) {
-    const ElementNodes u = some_displacement(3, 0.1);
+  for (const auto& [n, formulation] : kinds) {
+    const One one = distorted(n, 1e-2);
+    const ElementNodes u = some_displacement(n, 3);
     SolidElement at, plus, minus;
     solid(formulation, one.material, one.geometry, one.a, u, nullptr, false, at);
     const double h = 1e-6;
-    for (int j = 0; j < 24; ++j) {
+    for (int j = 0; j < 3 * n; ++j) {
       ElementNodes up = u, down = u;
       up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
       solid(formulation, one.material, one.geometry, one.a, up, nullptr, false, plus);
       solid(formulation, one.material, one.geometry, one.a, down, nullptr, false, minus);
-      for (int k = 0; k < n_pressures(formulation); ++k)
+      for (int k = 0; k < n_pressures(formulation, n); ++k)
         CHECK((plus.J_minus_1[k] - minus.J_minus_1[k]) / (2 * h) == doctest::Approx(at.dJ_du[k][j]).epsilon(1e-7).scale(1));
     }
   }
 }
 
 TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no more") {
-  const One one = distorted(1e-2);
-  for (Formulation formulation : formulations) {
+  for (const auto& [n, formulation] : kinds) {
+    const One one = distorted(n, 1e-2);
     SolidElement rest;
-    solid(formulation, one.material, one.geometry, one.a, ElementNodes::Zero(), nullptr, true, rest);
-    const Eigen::SelfAdjointEigenSolver<Mat24> eigen(rest.K);
-    const double largest = eigen.eigenvalues()[23];
+    solid(formulation, one.material, one.geometry, one.a, ElementNodes::Zero(n, 3), nullptr, true, rest);
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest.K);
+    const double largest = eigen.eigenvalues()[3 * n - 1];
     int zeros = 0;
-    for (double value : eigen.eigenvalues()) zeros += std::abs(value) < 1e-12 * largest;
+    for (double value : eigen.eigenvalues().eval()) zeros += std::abs(value) < 1e-12 * largest;
     CHECK(zeros == 6);
     CHECK(eigen.eigenvalues()[6] > 1e-6 * largest);
 
@@ -122,18 +136,20 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
     CHECK(turned.W < 1e-13);
     CHECK(turned.f.lpNorm<Eigen::Infinity>() < 1e-11 * largest);
     // the tangent turns with the body: same eigenvalues
-    const Eigen::SelfAdjointEigenSolver<Mat24> after(turned.K);
+    const Eigen::SelfAdjointEigenSolver<MatX> after(turned.K);
     CHECK((after.eigenvalues() - eigen.eigenvalues()).lpNorm<Eigen::Infinity>() < 1e-9 * largest);
   }
 }
 
 TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: the patch test") {
-  Mesh mesh = test::cube(3);
-  test::distort(mesh, 0.08);
   Mat3 H;
   H << 0.2, 0.1, -0.05, 0.03, -0.1, 0.07, -0.02, 0.04, 0.05;
   const Material material = test::stable(40, 1e-2);
-  for (Formulation formulation : formulations) {
+  for (const auto& [n, formulation] : kinds) {
+    // hex27: corners are moved before the other nodes are put between them, and then these too: curved edges and faces
+    Mesh mesh = test::cube(3);
+    test::distort(mesh, 0.08);
+    if (n == 27) mesh = test::raised_block(mesh), test::distort(mesh, 0.02, 4);
     Equilibrium body(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), {}).dofs);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = H * mesh.X[i];
@@ -142,8 +158,13 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
     std::vector<char> outer(mesh.n_nodes(), 0);
     for (const auto& [name, nodes] : mesh.node_sets)
       for (int i : nodes) outer[i] = 1;
+    int inner = 0;
     for (int i = 0; i < mesh.n_nodes(); ++i)
-      if (!outer[i]) CHECK(body.f_int().segment<3>(3 * i).norm() < 1e-13 * body.f_int().norm());
+      if (!outer[i]) {
+        ++inner;
+        CHECK(body.f_int().segment<3>(3 * i).norm() < 1e-13 * body.f_int().norm());
+      }
+    CHECK(inner == (n == 8 ? 8 : 125));
     const Mat3 F = Mat3::Identity() + H;
     const Mat3 sigma = cauchy(F, response(material, F.transpose() * F, fibre_directions(material)).S);
     for (int e = 0; e < mesh.n_cells(); ++e)
@@ -154,10 +175,33 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
 }
 
 TEST_CASE("an element turned inside out is refused") {
-  const One one = distorted(1e-2);
-  ElementNodes u = ElementNodes::Zero();
-  u.row(0) = Eigen::RowVector3d(3, 3, 3);
-  SolidElement out;
-  for (Formulation formulation : formulations)
+  for (const auto& [n, formulation] : kinds) {
+    const One one = distorted(n, 1e-2);
+    ElementNodes u = ElementNodes::Zero(n, 3);
+    u.row(0) = Eigen::RowVector3d(3, 3, 3);
+    SolidElement out;
     CHECK_FALSE(solid(formulation, one.material, one.geometry, one.a, u, nullptr, true, out));
+  }
+}
+
+TEST_CASE("modes of the dilatation: orthonormal, and linear in X, in cells of any shape") {
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (double aspect : {1.0, 1e3, 1e6}) {
+    ElementNodes X = distorted(27, 1e-2).X;
+    X.col(1) /= aspect;
+    X = (X * turn).rowwise() + Eigen::RowVector3d(100, -50, 30);
+    const ElementGeometry geometry = element_geometry(X);
+    const ReferenceCell& cell = reference(27);
+    Eigen::Matrix4d product = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 27, 4> mode, linear;
+    for (int g = 0; g < 27; ++g) {
+      mode.row(g) = Eigen::Map<const Eigen::RowVector4d>(geometry.mode[g].data());
+      const Vec3 x = turn * (X.transpose() * cell.N[g] - Vec3(100, -50, 30));
+      linear.row(g) << 1, x[0], x[1] * aspect, x[2];
+      product += geometry.w[g] / geometry.V * mode.row(g).transpose() * mode.row(g);
+    }
+    CHECK((product - Eigen::Matrix4d::Identity()).norm() < 1e-13);
+    const Eigen::Matrix4d by = linear.colPivHouseholderQr().solve(mode);
+    CHECK((linear * by - mode).norm() < 1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
+  }
 }

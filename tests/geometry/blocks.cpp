@@ -49,11 +49,12 @@ Vec3 at(const MadeMesh& made, const std::string& point) {
 }  // namespace
 
 TEST_CASE("every mesh config makes a mesh that fills its block, whose cells are not folded and turn with the axes") {
-  for (const char* name : {"cube_1_8", "indentation", "brick_regular", "brick_graded", "indentation_56x4x55", "smoke"}) {
+  for (const char* name :
+       {"cube_1_8", "indentation", "indentation_hex27", "brick_regular", "brick_graded", "indentation_56x4x55", "smoke"}) {
     CAPTURE(std::string(name));
     const MadeMesh m = from_file(name);
     const double volume = std::string(name) == "smoke" ? 12 * 4 * 12 : 30 * 4 * 30;
-    const double rounding = 8 * m.mesh.n_cells() * 2.2e-16;  // of a sum over all Gauss points
+    const double rounding = nodes_per_cell(m.mesh.type) * m.mesh.n_cells() * 2.2e-16;  // of a sum over all Gauss points
     CHECK(std::abs(m.quality.volume - volume) <= rounding * volume);
     CHECK(m.quality.least_jacobian > 0);  // so gmsh's node order became ours
     CHECK(m.quality.least_scaled_jacobian > 0.7);
@@ -73,12 +74,14 @@ TEST_CASE("a block has the cells it was asked for") {
   const MadeMesh m = from_file("indentation");
   CHECK(m.mesh.n_cells() == 22 * 5 * 22);
   CHECK(m.mesh.n_nodes() == 23 * 6 * 23);
+  CHECK(from_file("indentation_hex27").mesh.n_cells() == 12 * 4 * 12);
+  CHECK(from_file("indentation_hex27").mesh.n_nodes() == 25 * 9 * 25);
   const MadeMesh ring = from_file("brick_graded");
   CHECK(ring.mesh.n_cells() == 5 * (8 * 8 + 4 * 8 * (5 + 3 + 6)));
 }
 
 TEST_CASE("observation points are nodes, to the last digit") {
-  for (const char* name : {"indentation", "brick_regular", "brick_graded", "smoke"}) {
+  for (const char* name : {"indentation", "indentation_hex27", "brick_regular", "brick_graded", "smoke"}) {
     CAPTURE(std::string(name));
     const MadeMesh m = from_file(name);
     CHECK(at(m, "M") == Vec3(0, 4, 0));
@@ -91,7 +94,7 @@ TEST_CASE("observation points are nodes, to the last digit") {
 }
 
 TEST_CASE("meshes around a centre are mirrored in x and z and unchanged when x and z change places, to the last digit") {
-  for (const char* name : {"indentation", "brick_regular", "brick_graded", "smoke"}) {
+  for (const char* name : {"indentation", "indentation_hex27", "brick_regular", "brick_graded", "smoke"}) {
     CAPTURE(std::string(name));
     const MadeMesh m = from_file(name);
     const std::set<Vec3, Less> places(m.mesh.X.begin(), m.mesh.X.end());

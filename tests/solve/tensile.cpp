@@ -17,7 +17,7 @@ struct Tensile {
   Mesh mesh = test::block({0, 30}, {0, 4}, {0, 30});
   VecX u;
   PathReport path;
-  std::array<GaussState, 8> gauss;
+  std::vector<GaussState> gauss;
 };
 
 Tensile pull(const Material& material, Formulation formulation, double travel = 18) {

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "example.hpp"
+#include "mesh/raise.hpp"
 #include "store/curves_file.hpp"
 #include "store/h5.hpp"
 #include "store/material_file.hpp"
@@ -72,6 +73,21 @@ TEST_CASE("a mesh comes back as written, with its content id") {
   CHECK(origin.identity.config == example::identity().config);
   CHECK(origin.identity.inputs == example::identity().inputs);
   CHECK(origin.identity.command == example::identity().command);
+}
+
+TEST_CASE("a mesh of hex27 comes back as written, with VTK's cell type 29") {
+  const std::string path = example::folder("mesh_hex27") + "/mesh.h5";
+  Mesh mesh = raised(example::bar(), CellType::hex27);
+  mesh.body = {0, 1}, mesh.bodies = example::bar().bodies, mesh.frames = example::bar().frames;
+  mesh.facet_sets = example::bar().facet_sets, mesh.node_sets = {{"M", {4}}};
+  write_mesh(path, mesh, example::identity());
+  const Mesh back = read_mesh(path).mesh;
+  CHECK(back.type == CellType::hex27);
+  CHECK(back.n_cells() == 2);
+  CHECK(example::same(back, mesh));
+  const h5::Group grid = h5::File::open(path).root().group("VTKHDF");
+  CHECK(grid.read<std::uint8_t>("Types", {2}).values == std::vector<std::uint8_t>{29, 29});
+  CHECK(grid.read<std::int64_t>("Offsets", {3}).values == std::vector<std::int64_t>{0, 27, 54});
 }
 
 TEST_CASE("content ids know the stage, the config, the schema version and every input") {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "mesh/mesh.hpp"
+#include "mesh/raise.hpp"
 
 namespace langer::test {
 
@@ -34,6 +35,18 @@ inline Mesh block(const std::vector<double>& x, const std::vector<double>& y, co
   mesh.bodies = {"block"};
   mesh.body.assign(mesh.n_cells(), 0);
   mesh.frames.assign(mesh.n_cells(), Mat3::Identity());
+  return mesh;
+}
+
+// of quadratic cells, with the same faces
+inline Mesh raised_block(const Mesh& linear, CellType to = CellType::hex27) {
+  Mesh mesh = raised(linear, to);
+  mesh.bodies = linear.bodies, mesh.body = linear.body, mesh.frames = linear.frames;
+  for (const auto& [name, nodes] : linear.node_sets) {
+    const int axis = name[0] - 'x';
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      if (std::abs(mesh.X[i][axis] - linear.X[nodes[0]][axis]) < 1e-12) mesh.node_sets[name].push_back(i);
+  }
   return mesh;
 }
 

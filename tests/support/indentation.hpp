@@ -21,7 +21,8 @@ struct Indentation {
   double reach = 2.6;             // candidates within this radius
   std::vector<Waypoint> motion;   // in place of straight down to `depth`
   double step = 0.1;              // [mm]
-  Formulation formulation = Formulation::mean_dilatation;
+  CellType cells = CellType::hex8;
+  std::optional<Formulation> formulation;  // none: as suits the cells
   int threads = 1;
   bool extrapolate = true;
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
@@ -57,6 +58,7 @@ struct Indentation {
     auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx), z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
     if (quarter) x.erase(x.begin(), x.begin() + nx / 2), z.erase(z.begin(), z.begin() + nz / 2);
     result.mesh = block(x, even(0, 4, ny), z);
+    if (cells != CellType::hex8) result.mesh = raised_block(result.mesh, cells);
     std::vector<Prescribed> held;
     for (int i : result.mesh.node_sets["y_min"])
       for (int k = 0; k < 3; ++k)
@@ -69,7 +71,8 @@ struct Indentation {
     if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
-    Equilibrium body(result.mesh, {material}, formulation, number_dofs(result.mesh.n_nodes(), held).dofs, threads);
+    Equilibrium body(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
+                     number_dofs(result.mesh.n_nodes(), held).dofs, threads);
     StaticsOptions options;
     options.threads = threads, options.extrapolate = extrapolate;
     Statics statics(body, {contact}, options);

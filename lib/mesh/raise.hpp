@@ -1,0 +1,15 @@
+// Cells of second order from those of first order, with straight edges: the new nodes lie in the middles of edges, facets and
+// cells. For meshes whose nodes and cells have no names yet (sets, bodies, frames come later).
+#pragma once
+
+#include "mesh/mesh.hpp"
+
+namespace langer {
+
+Mesh raised(const Mesh& mesh, CellType to);
+
+// What draws straight-edged cells only sees those between neighbouring nodes: the mesh itself, or eight hex8 for each hex27, one
+// after the other. Nodes, positions and connectivity; bodies, frames and sets are left out.
+Mesh between_nodes(const Mesh& mesh);
+
+}  // namespace langer
