@@ -12,7 +12,6 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
   text +=
       "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1]   STRICT: a rebuilt program makes its results again\n"
       ".DELETE_ON_ERROR:\n"
-      ".SECONDARY:\n"
       ".SUFFIXES:\n"
       "MAKEFLAGS += --no-builtin-rules\n"
       "LAUNCH ?=\n";

@@ -13,6 +13,11 @@ expect_pending("at first" ${all})
 run(0 make -j2 -C ${run})
 expect_pending("after a run")
 
+# what was deleted is made again, and what read it
+file(REMOVE ${WORK}/project/${run}/table/sweep.h5)
+expect_pending("after a result was deleted" report/report.html table/sweep.h5)
+run(0 make -j2 -C ${run})
+
 file(APPEND ${WORK}/project/configs/solve/smoke.yaml "\n# a comment\n")
 file(APPEND ${WORK}/project/pipelines/smoke.yaml "\n# a comment\n")
 expect_pending("after comments")
