@@ -13,6 +13,7 @@ function value(file, key, column,   line, head, cell, n, m, i, at, row, found) {
   close(file)
   return at ? found : ""
 }
+function sentence(s) { return toupper(substr(s, 1, 1)) substr(s, 2) }
 function shown(x,   a) {
   a = x < 0 ? -x : x
   if (a == 0) return "0"
@@ -39,6 +40,6 @@ $1 == "F" {
   picture = run "/" $3
   if ((getline line < picture) < 0) { missing++; print picture ": missing" > "/dev/stderr" }
   close(picture)
-  printf "\n## Figure %s: %s\n\n%s.\n\n![figure %s](paper/figure_%s.png)\n", $2, $4, $5, $2, $2
+  printf "\n## Figure %s: %s\n\n%s.\n\n![figure %s](paper/figure_%s.png)\n", $2, $4, sentence($5), $2, $2
 }
 END { exit missing > 0 }

@@ -77,9 +77,13 @@ Window window_of(const std::vector<MapPanel>& panels, const MapStyle& style) {
 
 Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const Window& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto seen = [&](const PlanePoint& at) { return window.has(at); };
+  const bool none = std::none_of(panels.begin(), panels.end(), [&](const MapPanel& p) {  // a window within one cell
+    return std::any_of(p.map->places.begin(), p.map->places.end(), seen);
+  });
   for (const MapPanel& panel : panels)
     for (std::size_t i = 0; i < panel.map->places.size(); ++i)
-      if (window.has(panel.map->places[i]))
+      if (none || seen(panel.map->places[i]))
         low = std::min(low, panel.map->values[i]), high = std::max(high, panel.map->values[i]);
   const double least = low, most = high;
   if (style.range) low = (*style.range)[0], high = (*style.range)[1];
@@ -186,7 +190,11 @@ class Painter {
       }
     }
     if (x_axis) drawing_.marks.push_back(Label{{0.5 * (a[0] + b[0]), b[1] + 36}, "x (mm)", 13, Label::Anchor::middle});
-    if (z_axis) drawing_.marks.push_back(Label{{a[0] - 8, a[1] + 4}, "z (mm)", 13, Label::Anchor::end});
+    if (z_axis) {  // clear of the numbers: between the upper two
+      const std::vector<double> at = ticks(window_.z_low, window_.z_high, 4);
+      const double z = at.size() < 2 ? window_.z_low : 0.5 * (at[0] + at[1]);
+      drawing_.marks.push_back(Label{{a[0] - 8, page({0, z})[1] + 4}, "z (mm)", 13, Label::Anchor::end});
+    }
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "post/drawing.hpp"
 #include "post/figure.hpp"
 #include "post/gnuplot.hpp"
+#include "post/map.hpp"
 #include "post/render.hpp"
 #include "support/block.hpp"
 
@@ -242,4 +243,22 @@ TEST_CASE("a body without a field is drawn plain, with its points, the edges at 
   REQUIRE(labels.count("u_x = 1 mm"));
   CHECK(labels.at("u_x = 1 mm")[0] > labels.at("u_x = 0")[0]);  // x goes to the right in this view
   CHECK(marks_of<Stroke>(drawing).size() == plain_strokes + 24 + 2);
+}
+
+TEST_CASE("no label of a map's axes stands on another, whatever the reach") {
+  SurfaceMap map;
+  map.places = {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}};
+  map.values = {0, 1, 2, 3};
+  map.facets.push_back({0, 1, 2, 3});
+  for (const double reach : {1.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.5, 10.0}) {
+    MapStyle style;
+    style.reach = reach;
+    std::vector<Label> labels = marks_of<Label>(map_drawing({{"", &map}}, style));
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (labels[i].anchor == Label::Anchor::end && labels[k].at[0] == labels[i].at[0]) {  // those of the z axis
+          INFO(reach << " " << labels[i].text << " " << labels[k].text);
+          CHECK(std::abs(labels[i].at[1] - labels[k].at[1]) >= 14);
+        }
+  }
 }
