@@ -1,13 +1,30 @@
 // langer-mesh: a mesh with named sets and local fibre frames.
 //   langer-mesh indentation.yaml -o mesh.h5
+#include <filesystem>
+
 #include "scene/make_mesh.hpp"
 #include "stage.hpp"
 #include "store/mesh_file.hpp"
+#include "store/seal.hpp"
 
 namespace langer {
 namespace {
 
+std::string beside(const std::string& output, MeshFormat format) {
+  return std::filesystem::path(output).replace_extension(names(format)[static_cast<int>(format)]).string();
+}
+
+// an exported file may not stand where the mesh comes from
+void spare_input(const Job<MeshConfig>& job) {
+  const auto* from = std::get_if<FromFile>(&job.config.geometry);
+  std::error_code unreadable;
+  for (const MeshFormat format : job.config.exports)
+    if (const std::string path = beside(job.output, format); from && std::filesystem::equivalent(path, from->file.path, unreadable))
+      throw Failure(Exit::config, Error{job.where("export"), "export", path + " is the file that geometry names", "another name of the output", ""});
+}
+
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
+  spare_input(job);
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
   for (const std::string& note : notes) job.say("{}", note);
   job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(), names(mesh.type)[static_cast<int>(mesh.type)],
@@ -25,6 +42,14 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
                                      {"longest_edge", quality.longest_edge, "mm"},
                                      {"aspect", quality.largest_aspect, "-"},
                                      {"scaled_jacobian", quality.least_scaled_jacobian, "-"}};
+  for (const MeshFormat format : job.config.exports) {
+    const std::string path = beside(job.output, format);
+    if (format == MeshFormat::msh)
+      write_msh(path, mesh);
+    else
+      write_text_file(path, inp_text(mesh));
+    job.say("{}", path);
+  }
   write_mesh(job.output, mesh, job.identity, summary);
   return summary;
 }

@@ -2,7 +2,8 @@
 //   Block        hexahedra on three families of grid lines: even, or refined towards the centre in x and z and to the top in y
 //   IndentedBlock  a Block whose cells follow from the indenter and one number
 //   GradedBlock  square core, rings and outer blocks in the x-z plane (an O-grid), extruded along y: edges turn with the rings
-// Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock must have nodes there.
+//   FromFile     what another program meshed
+// Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock or a file must have nodes there.
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "base/input_path.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/order.hpp"
 
@@ -111,7 +113,24 @@ struct IndentedBlock {
   std::vector<Complaint> complaints() const;
 };
 
-using Geometry = std::variant<Block, GradedBlock, IndentedBlock>;
+// A mesh that another program made, with its sets and bodies (geometry/exchange.hpp).
+struct FromFile {
+  static constexpr const char* key = "file";
+  InputPath file;
+  double scale = 1;
+  static void fields(auto& v) {
+    v(&FromFile::file, "path", unit::none,
+      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies) or .inp of Abaqus or CalculiX", required);
+    v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+using Geometry = std::variant<Block, GradedBlock, IndentedBlock, FromFile>;
+struct Box {
+  std::array<double, 3> origin{}, size{};
+};
+Box box(const Geometry& geometry);  // what it spans; of a file, not read yet, nothing
 using Points = std::map<std::string, Vec3>;
 
 // Mesh with positions and cells, numbered in order, exactly symmetric where it is symmetric; no sets, bodies or frames yet.
@@ -119,11 +138,13 @@ using Points = std::map<std::string, Vec3>;
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const GradedBlock& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const IndentedBlock& block, const Points& points, std::vector<std::string>& notes);
+Mesh mesh_of(const FromFile& file, const Points& points, std::vector<std::string>& notes);  // with its sets and bodies, in its own order
 
 // What can be seen to be wrong before meshing: refinements that do not fit, points outside or too close to each other.
 std::vector<Complaint> contradictions(const Block& block, const Points& points);
 std::vector<Complaint> contradictions(const GradedBlock& block, const Points& points);
 std::vector<Complaint> contradictions(const IndentedBlock& block, const Points& points);
+std::vector<Complaint> contradictions(const FromFile& file, const Points& points);
 
 // Sets each point's node set, the node exactly there; throws Failure(config) with the nearest node where there is none.
 void name_points(Mesh& mesh, const Points& points);

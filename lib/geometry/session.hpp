@@ -4,6 +4,7 @@
 
 #include <gmsh.h>
 
+#include <array>
 #include <string>
 
 #include "base/error.hpp"
@@ -27,6 +28,9 @@ class GmshSession {
 // runs `build` in a session and returns the mesh that it leaves behind, before any sets and frames
 template <class Build>
 Mesh meshed_by_gmsh(const std::string& key, Build build);
+
+// our corner a of a hexahedron is gmsh's local node order[a]
+std::array<int, 8> hexahedron_order(int type);
 
 // hexahedra of the current model, in VTK order; throws where there are none, or other cells beside them
 Mesh to_mesh();

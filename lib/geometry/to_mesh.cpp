@@ -9,9 +9,6 @@
 
 namespace langer {
 
-namespace {
-
-// our corner a is gmsh's local node order[a]
 std::array<int, 8> hexahedron_order(int type) {
   std::string name;
   int dim = 0, order = 0, n_nodes = 0, n_primary = 0;
@@ -26,8 +23,6 @@ std::array<int, 8> hexahedron_order(int type) {
         found[a] = g;
   return found;
 }
-
-}  // namespace
 
 Mesh to_mesh() {
   const int hexahedron = gmsh::model::mesh::getElementType("Hexahedron", 1);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "mesh/order.hpp"
 #include "mesh/raise.hpp"
 
@@ -23,12 +25,20 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
 }
 
 void name_bodies(Mesh& mesh, const MeshConfig& config) {
+  if (!mesh.bodies.empty()) {  // those of a file
+    for (std::string& body : mesh.bodies)
+      if (body.empty()) body = config.body;
+    if (std::set<std::string>(mesh.bodies.begin(), mesh.bodies.end()).size() != mesh.bodies.size())
+      throw Failure(Exit::config, Error{{}, "body", "found the name of another body of the file", "another name", ""});
+    return;
+  }
   mesh.bodies = {config.body};
   mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
   if (config.bodies.empty()) return;
   mesh.bodies.clear();
-  const auto [bottom, height] = std::visit([](const auto& g) { return std::pair(g.origin[1], g.size[1]); }, config.geometry);
-  double low = bottom;
+  const auto [origin, size] = box(config.geometry);
+  const double height = size[1];
+  double low = origin[1];
   for (std::size_t b = 0; b < config.bodies.size(); ++b) {
     mesh.bodies.push_back(config.bodies[b].name);
     const double high = low + config.bodies[b].thickness, slack = 1e-9 * height;
@@ -55,15 +65,21 @@ MadeMesh made(const MeshConfig& config) {
   if (config.cells != mesh.type) {
     mesh = raised(mesh, config.cells);
     number_in_order(mesh);
-    make_symmetric(mesh, std::visit([](const auto& g) { return Vec3(g.origin[0] + 0.5 * g.size[0], 0, g.origin[2] + 0.5 * g.size[2]); },
-                                    config.geometry));
+    const auto [origin, size] = box(config.geometry);
+    make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
   }
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
   refuse_folded(result.quality, "geometry");
   name_bodies(mesh, config);
   mesh.frames = frames(mesh, config.frames);
+  const auto node_sets = mesh.node_sets;
+  const auto facet_sets = mesh.facet_sets;
   name_sides(mesh);
+  for (const auto& [name, set] : node_sets) mesh.node_sets[name] = set;  // a file's own sides come before ours
+  for (const auto& [name, set] : facet_sets) mesh.facet_sets[name] = set;
+  for (const auto& [name, set] : config.sets)
+    if (node_sets.count(name)) throw Failure(Exit::config, Error{{}, "sets." + name, "found the name of a set of the file", "another name", ""});
   name_sets(mesh, config);
   return result;
 }

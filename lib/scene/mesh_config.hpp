@@ -11,6 +11,7 @@
 
 #include "base/fields.hpp"
 #include "geometry/block.hpp"
+#include "geometry/exchange.hpp"
 #include "mesh/frames.hpp"
 #include "mesh/select.hpp"
 
@@ -53,8 +54,9 @@ struct MeshConfig {
   Frames frames = Frames::global;
   std::map<std::string, std::array<double, 3>> points;
   std::map<std::string, SetConfig> sets;
+  std::vector<MeshFormat> exports;
   static void fields(auto& v) {
-    v(&MeshConfig::body, "body", unit::none, "name of the body, where it is one");
+    v(&MeshConfig::body, "body", unit::none, "name of the body, where it is one, or of what a file gives no name");
     v(&MeshConfig::bodies, "bodies", unit::none, "layers from the bottom up, each a body of its own; none: one body");
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
     v(&MeshConfig::cells, "cells", unit::none,
@@ -64,6 +66,8 @@ struct MeshConfig {
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
     v(&MeshConfig::sets, "sets", unit::none, "further sets by name: nodes, and the facets of the surface between them");
+    v(&MeshConfig::exports, "export", unit::none,
+      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
   }
   Points positions() const {
     Points positions;
@@ -80,10 +84,15 @@ struct MeshConfig {
           found.push_back(
               {"bodies[" + std::to_string(i) + "].name", "found \"" + bodies[i].name + "\" again", "another name", ""});
     }
-    const double height = std::visit([](const auto& g) { return g.size[1]; }, geometry);
-    if (!bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
+    if (std::holds_alternative<FromFile>(geometry)) {
+      const std::string expected = "none, where geometry is a file";
+      if (!bodies.empty()) found.push_back({"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
+      if (cells != CellType::hex8) found.push_back({"cells", "found " + std::string(names(cells)[static_cast<int>(cells)]), "hex8, where geometry is a file", ""});
+    } else if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
       found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                        std::to_string(height) + " mm, the height of the geometry", ""});
+    if (!exports.empty() && cells != CellType::hex8)
+      found.push_back({"export", "found beside cells: " + std::string(names(cells)[static_cast<int>(cells)]), "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
     for (const auto& [name, x] : points)

@@ -166,6 +166,7 @@ struct SolveConfig {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (loads.empty() && contacts.empty()) found.push_back({"", "nothing moves", "loads or contacts", ""});
+    if (mesh && !mesh->exports.empty()) found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
     if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     if (accuracy && !percent_of(*accuracy))
       found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});

@@ -34,6 +34,7 @@ set(long ${BIN}/langer-solve configs/solve/smoke.yaml --mesh fine.h5 --material 
 run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o fine.h5 --quiet --set "geometry.block.divisions=[40, 8, 40]" --set geometry.block.centre.edge=0.25)
 file(WRITE ${WORK}/twice.sh "\"$@\" 2> ${WORK}/said & p=$!
 while kill -0 $p 2>/dev/null && ! grep -q '^solve:' ${WORK}/said; do sleep 0.02; done
+sleep 0.2  # into the first step
 kill -INT $p; sleep 0.3; kill -INT $p
 wait $p\n")
 execute_process(COMMAND sh ${WORK}/twice.sh env --default-signal=INT ${long} WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)

@@ -1,0 +1,34 @@
+// Meshes of other programs: Gmsh (.msh, by gmsh itself, any version that it reads; written as 4.1) and Abaqus or CalculiX (.inp).
+// 8-node hexahedra only. What has a name there has it here:
+//   bodies      .msh: physical volumes; .inp: element sets of *SOLID SECTION, without any those of *ELEMENT
+//   facet sets  .msh: physical surfaces; .inp: *SURFACE of elements; their nodes are a node set of the same name
+//   node sets   .msh: physical points and curves too; .inp: *NSET, *SURFACE of nodes
+// Nodes and cells keep the file's order; nodes that no cell has are left out. Reading fails as Failure(input) with the line of an .inp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "mesh/mesh.hpp"
+
+namespace langer {
+
+enum class MeshFormat { msh, inp };
+constexpr auto names(MeshFormat) { return std::array{"msh", "inp"}; }
+
+// X, connectivity, body and bodies (one of no name where the file names none), sets; no frames. `notes`: what was left out.
+Mesh read_msh(const std::string& path, std::vector<std::string>& notes);
+Mesh read_inp(const std::string& path, std::vector<std::string>& notes);
+Mesh parse_inp(const std::string& text, const std::string& shown_name, std::vector<std::string>& notes);
+
+// Bodies and sets as above; a node set that is no more than the nodes of the facet set of its name is not written twice.
+// hex8 only. Failure(config) for a name that the format cannot hold.
+void write_msh(const std::string& path, const Mesh& mesh);
+std::string inp_text(const Mesh& mesh);
+
+std::vector<int> nodes_of(const Mesh& mesh, const std::vector<Facet>& facets);  // ascending
+// as a facet set, and its nodes as a node set
+void name_facets(Mesh& mesh, const std::string& name, const std::vector<Facet>& facets);
+
+}  // namespace langer

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "geometry/block.hpp"
+#include "geometry/exchange.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string kind_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  std::string kind = dot == std::string::npos ? "" : path.substr(dot + 1);
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return kind;
+}
+
+// names stand in paths of keys and of HDF5
+std::string tame(const std::string& name, std::vector<std::string>& notes) {
+  std::string s = name;
+  for (char& c : s)
+    if (c == ' ' || c == '\t' || c == '/' || c == '.') c = '_';
+  if (s != name) notes.push_back(fmt::format("\"{}\" is called {} here", name, s));
+  return s;
+}
+
+template <class Sets>
+void tame_names(Sets& sets, std::vector<std::string>& notes) {
+  Sets renamed;
+  for (auto& [name, set] : sets) renamed[tame(name, notes)] = std::move(set);
+  sets = std::move(renamed);
+}
+
+}  // namespace
+
+std::vector<Complaint> FromFile::complaints() const {
+  const std::string kind = kind_of(file.path);
+  if (kind == "msh" || kind == "inp") return {};
+  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX",
+           "other formats and CAD: make a hexahedral mesh of them with gmsh"}};
+}
+
+Mesh mesh_of(const FromFile& from, const Points&, std::vector<std::string>& notes) {
+  Mesh mesh = kind_of(from.file.path) == "msh" ? read_msh(from.file.path, notes) : read_inp(from.file.path, notes);
+  for (Vec3& x : mesh.X) x *= from.scale;
+  std::vector<std::string> said;
+  tame_names(mesh.facet_sets, said);
+  tame_names(mesh.node_sets, said);
+  for (std::string& body : mesh.bodies) body = tame(body, said);
+  for (const std::string& note : said)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  if (std::set<std::string>(mesh.bodies.begin(), mesh.bodies.end()).size() != mesh.bodies.size())
+    throw Failure(Exit::input, Error{{from.file.path}, "", "two bodies of one name", "bodies of different names", ""});
+  return mesh;
+}
+
+Box box(const Geometry& geometry) {
+  return std::visit(
+      [](const auto& g) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
+          return Box{};
+        else
+          return Box{g.origin, g.size};
+      },
+      geometry);
+}
+
+std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }
+
+}  // namespace langer
