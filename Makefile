@@ -89,7 +89,7 @@ paper:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/paper.yaml
 	@mkdir -p docs/paper && awk -F'|' '$$1 == "F" { print $$3, "docs/paper/figure_" $$2 ".png" }' docs/paper.csv | \
 	  while read -r from to; do cp runs/paper/$$from $$to || exit 1; done
-	@! command -v mogrify > /dev/null || mogrify -resize '1200x>' -define png:compression-level=9 -colors 250 docs/paper/*.png  # imagemagick
+	@! command -v mogrify > /dev/null || mogrify -strip -define png:exclude-chunks=date,time -resize '1200x>' -define png:compression-level=9 -colors 250 docs/paper/*.png  # imagemagick
 	@awk -v run=runs/paper -f docs/paper.awk docs/paper.csv > runs/paper/paper.md && cp runs/paper/paper.md docs/paper.md
 
 # the section "Ladder" of docs/reliability.md from a run of pipelines/extremes.yaml

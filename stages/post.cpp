@@ -187,7 +187,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     if (choice.field) {
       const QuantityLine& field = line_of(*choice.field);
       scene.values = picture_values(body, state, *choice.field, choice.family, config.stress);
-      scene.label = plain(with_unit(field.label, field.unit));
+      scene.label = with_unit(field.label, field.unit);
     }
     pictures.draw(name, render(scene, choice));
   }

@@ -29,6 +29,43 @@ std::string escaped(const std::string& text) {
   return s;
 }
 
+// σ_{xx} (MPa) -> σ, xx below the line, (MPa)
+struct Piece {
+  std::string text;
+  int below = 0;  // 1 a subscript, -1 a superscript
+};
+std::vector<Piece> pieces(const std::string& text) {
+  std::vector<Piece> found(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 1 < text.size())
+      found.back().text += text[++i];
+    else if ((text[i] == '_' || text[i] == '^') && i + 1 < text.size()) {
+      found.push_back({"", text[i] == '_' ? 1 : -1});
+      const std::size_t from = i + 1, end = text[from] == '{' ? std::min(text.find('}', from), text.size()) : from;
+      if (text[from] == '{')
+        found.back().text = text.substr(from + 1, end - from - 1);
+      else
+        found.back().text = text[from];
+      i = end;
+      found.push_back({});
+    } else if (text[i] != '{' && text[i] != '}')
+      found.back().text += text[i];
+  }
+  return found;
+}
+std::string with_subscripts(const Label& label) {
+  std::string s;
+  int line = 0;
+  for (const Piece& piece : pieces(label.text)) {
+    if (piece.text.empty()) continue;
+    const double dy = 0.25 * label.size * (piece.below - line);
+    line = piece.below;
+    s += dy == 0 ? escaped(piece.text)
+                 : fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy, (piece.below ? 0.7 : 1) * label.size, escaped(piece.text));
+  }
+  return s;
+}
+
 std::string points_text(const std::vector<PagePoint>& points) {
   std::string s;
   for (const PagePoint& p : points) s += fmt::format("{}{:.2f},{:.2f}", s.empty() ? "" : " ", p[0], p[1]);
@@ -48,7 +85,7 @@ struct SvgWriter {
   void operator()(const Label& t) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
     s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", t.at[0], t.at[1],
-                     t.size, anchors[static_cast<int>(t.anchor)], escaped(t.text));
+                     t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? with_subscripts(t) : escaped(t.text));
   }
 };
 
@@ -86,8 +123,8 @@ struct GnuplotWriter {
   void operator()(const Label& t) {
     constexpr const char* anchors[] = {"left", "center", "right"};
     // SVG places the base line, gnuplot the middle of the letters
-    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front noenhanced font ',{}'\n", gnuplot_string(t.text), t.at[0],
-                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], 0.75 * t.size);
+    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front {}enhanced font ',{}'\n", gnuplot_string(t.text), t.at[0],
+                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? "" : "no", 0.75 * t.size);
   }
 };
 

@@ -31,6 +31,7 @@ struct Label {
   std::string text;
   double size = 14;
   enum class Anchor { start, middle, end } anchor = Anchor::start;
+  bool enhanced = false;  // with gnuplot's marks, as σ_{xx}: shown as subscripts
 };
 
 struct Drawing {

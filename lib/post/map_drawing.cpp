@@ -273,7 +273,7 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
     if (std::abs(std::remainder(std::round(scale.levels[i] / (scale.levels[1] - scale.levels[0])), double(every))) < 0.5)
       drawing.marks.push_back(Label{{x + width + 8, at + 4.4}, texts[i], 12});
   }
-  drawing.marks.push_back(Label{{drawing.width - 10, top - tip - 14}, label, 13, Label::Anchor::end});
+  drawing.marks.push_back(Label{{drawing.width - 10, top - tip - 14}, label, 13, Label::Anchor::end, true});
 }
 
 }  // namespace
@@ -308,7 +308,7 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
   const double bar = std::min(360.0, drawing.height - title_room - bottom_room - 60);
   const double free = drawing.height - title_room - bottom_room - bar;
   const SurfaceMap& first = *panels.front().map;
-  add_colour_bar(drawing, scale, plain(with_unit(first.label, first.unit)), drawing.width - bar_room + 20,
+  add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20,
                  title_room + free / 2 + 14, bar);
   if (!style.title.empty())
     drawing.marks.push_back(Label{{(drawing.width - bar_room) / 2, 24}, style.title, 16, Label::Anchor::middle});

@@ -109,7 +109,7 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
     drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
     drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, texts[i], 13});
   }
-  drawing.marks.push_back(Label{{page_width - margin, top - 16}, label, 14, Label::Anchor::end});
+  drawing.marks.push_back(Label{{page_width - margin, top - 16}, label, 14, Label::Anchor::end, true});
 }
 
 void add_axes(Drawing& drawing, const Mat3& R) {
@@ -184,7 +184,7 @@ void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, cons
     const PagePoint at = page(R * Vec3(end + 0.035 * size * out));
     const double side = (R * out)[0];
     drawing.marks.push_back(Label{{at[0], at[1] + 5}, action.says, 16,
-                                  side > 0.3 ? Label::Anchor::start : side < -0.3 ? Label::Anchor::end : Label::Anchor::middle});
+                                  side > 0.3 ? Label::Anchor::start : side < -0.3 ? Label::Anchor::end : Label::Anchor::middle, true});
   }
 }
 

@@ -75,7 +75,7 @@ struct RenderScene {
   const Mesh& mesh;
   std::vector<Vec3> x;         // deformed positions (n) [mm]
   std::vector<double> values;  // of the field (n); empty without one
-  std::string label;           // of the colour bar, with unit
+  std::string label;           // of the colour bar, with unit; enhanced text
   std::optional<Ball> ball;
   std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
   std::vector<Action> actions = {};

@@ -167,6 +167,19 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
   CHECK_FALSE(std::filesystem::exists(where + "/broken"));
 }
 
+TEST_CASE("labels of quantities have subscripts in both pictures, other labels stand as they are") {
+  Drawing drawing{100, 50, {}};
+  drawing.marks = {Label{{5, 5}, "stress σ_{xx} (mm^2, a\\_b) < u_y", 20, Label::Anchor::end, true}, Label{{5, 25}, "my_file_{x}", 12}};
+  const std::string s = svg(drawing);
+  CHECK(s.find(">stress σ<tspan dy=\"5.00\" font-size=\"14.00\">xx</tspan><tspan dy=\"-5.00\" font-size=\"20.00\"> (mm</tspan>"
+               "<tspan dy=\"-5.00\" font-size=\"14.00\">2</tspan><tspan dy=\"5.00\" font-size=\"20.00\">, a_b) &lt; u</tspan>"
+               "<tspan dy=\"5.00\" font-size=\"14.00\">y</tspan></text>") != std::string::npos);
+  CHECK(s.find(">my_file_{x}</text>") != std::string::npos);
+  const std::string script = gnuplot_script(drawing, "p");
+  CHECK(script.find("right front enhanced") != std::string::npos);
+  CHECK(script.find("set label 'my_file_{x}' at 5.00,29.20 left front noenhanced") != std::string::npos);
+}
+
 TEST_CASE("a figure takes its columns by name, labels carry units, legends are the columns or what the user says") {
   const auto column = [](Quantity quantity, const char* at = nullptr) {
     ColumnChoice c;

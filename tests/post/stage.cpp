@@ -164,7 +164,7 @@ TEST_CASE("figures and the picture stand beside the table, without gnuplot it sa
   const Run run = post(where, config, "--set snapshots=[]");
   CHECK(run.code == 0);
   CHECK(fs::exists(where + "/out/force.gp"));
-  CHECK(text_of(where + "/out/render.svg").find("displacement u_x (mm)") != std::string::npos);
+  CHECK(text_of(where + "/out/render.svg").find("displacement u<tspan") != std::string::npos);
   if (std::system("command -v gnuplot > /dev/null 2>&1") == 0)
     for (const char* name : {"force.svg", "force.png", "render.png"}) CHECK(fs::exists(where + "/out/" + name));
 

@@ -12,7 +12,7 @@ foreach(picture code_ANSYS/alpha_000/tension_post/held code_ANSYS/alpha_000/tens
   endforeach()
 endforeach()
 file(READ ${WORK}/project/runs/paper/code_ANSYS/alpha_000/tension_post/held.svg held)
-foreach(text "u_x = 18 mm" "u_x = 0" "u_y = 0" "u_z = 0" ">B<")
+foreach(text ">x</tspan>" ">y</tspan>" ">z</tspan>" "> = 18 mm</tspan>" "> = 0</tspan>" ">B<")
   string(FIND "${held}" "${text}" at)
   if(at EQUAL -1)
     message(FATAL_ERROR "held.svg does not say: ${text}")
