@@ -192,7 +192,8 @@ L.polar = polar => {
       if (!shown[i]) return;
       const look = L.look(chart, i);
       const round = polar.angle.map((a, k) => ({ a, v: s.y[k], computed: true }));
-      if (half) polar.angle.forEach((a, k) => a > 0 && a < 180 && round.push({ a: a + 180, v: s.y[k], computed: false }));
+      const opposite = a => (a + 180) % 360;  // the same fibres
+      if (half) polar.angle.forEach((a, k) => polar.angle.includes(opposite(a)) || round.push({ a: opposite(a), v: s.y[k], computed: false }));
       round.sort((p, q) => p.a - q.a);
       const at = round.map(p => ({ ...p, px: cx + r(p.v) * Math.cos(p.a * Math.PI / 180), py: cy - r(p.v) * Math.sin(p.a * Math.PI / 180) }));
       svg.append(L.el('path', { d: 'M' + at.map(p => `${p.px.toFixed(1)} ${p.py.toFixed(1)}`).join('L') + (half ? 'Z' : ''), fill: 'none',
