@@ -38,13 +38,22 @@ void tame_names(Sets& sets, std::vector<std::string>& notes) {
 
 std::vector<Complaint> FromFile::complaints() const {
   const std::string kind = kind_of(file.path);
-  if (kind == "msh" || kind == "inp") return {};
-  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX",
-           "other formats and CAD: make a hexahedral mesh of them with gmsh"}};
+  if (kind == "msh" || kind == "inp") {
+    if (edge) return {{"edge", "found beside a mesh", "none: its cells are there", ""}};
+    return {};
+  }
+  if (kind == "step" || kind == "stp") {
+    if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
+    return {};
+  }
+  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, or a .step",
+           "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
 Mesh mesh_of(const FromFile& from, const Points&, std::vector<std::string>& notes) {
-  Mesh mesh = kind_of(from.file.path) == "msh" ? read_msh(from.file.path, notes) : read_inp(from.file.path, notes);
+  const std::string& path = from.file.path;
+  const std::string kind = kind_of(path);
+  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_step(path, *from.edge / from.scale, notes);
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);

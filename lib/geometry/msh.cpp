@@ -181,6 +181,34 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
   return reader.read();
 }
 
+Mesh read_step(const std::string& path, double edge, std::vector<std::string>& notes) {
+  const GmshSession session;
+  MshReader reader(path, notes);
+  try {
+    gmsh::vectorpair shapes, surfaces, volumes;
+    gmsh::model::occ::importShapes(path, shapes);
+    if (shapes.size() > 1) gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
+    gmsh::model::occ::synchronize();
+    gmsh::model::getEntities(volumes, 3);
+    for (const auto& [dim, tag] : volumes)
+      if (volumes.size() > 1) gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {tag}), fmt::format("body_{}", tag));
+    gmsh::model::getEntities(surfaces, 2);
+    for (const auto& [dim, tag] : surfaces) gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {tag}), fmt::format("face_{}", tag));
+    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);  // every tetrahedron into four hexahedra, of half its size
+    gmsh::option::setNumber("Mesh.MeshSizeMin", 2 * edge);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 2 * edge);
+    if (volumes.empty()) reader.refuse("no solid body", "a STEP file with a solid");
+    gmsh::model::mesh::generate(3);
+  } catch (const Failure&) {
+    throw;
+  } catch (...) {
+    std::string words;
+    gmsh::logger::getLastError(words);
+    reader.refuse("gmsh cannot mesh it: " + (words.empty() ? "no reason given" : words));
+  }
+  return reader.read();
+}
+
 void write_msh(const std::string& path, const Mesh& mesh) {
   const GmshSession session;
   // one volume for each body, all nodes with the first

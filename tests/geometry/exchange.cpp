@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "geometry/exchange.hpp"
+#include "geometry/session.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/select.hpp"
@@ -167,4 +168,42 @@ TEST_CASE("a .msh without hexahedra, or none at all, is refused") {
   CHECK(said(head + "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n").find("found cells of the kind Tetrahedron 4; expected 8-node hexahedra only") != std::string::npos);
   CHECK(said(head).find("no cells") != std::string::npos);
   CHECK(said("no mesh\n") != "");
+}
+
+TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies that share their nodes") {
+  const std::string path = folder() + "/two.step";
+  {
+    const GmshSession session;  // a cylinder of radius 6 on a box
+    gmsh::model::occ::addBox(-8, 0, -8, 16, 2, 16);
+    gmsh::model::occ::addCylinder(0, 2, 0, 0, 2, 0, 6);
+    gmsh::model::occ::synchronize();
+    gmsh::write(path);
+  }
+  std::vector<std::string> notes;
+  const Mesh mesh = read_step(path, 1.5, notes);
+  CHECK(mesh.bodies.size() == 2);
+  const Quality q = quality(mesh);
+  CHECK(q.least_jacobian > 0);  // flat tetrahedra make flat hexahedra, none is folded
+  CHECK(q.volume == doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.02));
+  CHECK(q.longest_edge < 4.5);
+  CHECK_FALSE(coincident_nodes(mesh, 1e-6));
+  CHECK(mesh.facet_sets.size() == 6 + 2 + 1);  // box, cylinder, the circle between them once
+  const std::vector<Facet> outer = boundary(mesh);
+  for (const Facet& f : outer) {
+    int named = 0;
+    for (const auto& [name, facets] : mesh.facet_sets)
+      for (const Facet& g : facets) named += g.cell == f.cell && g.local == f.local;
+    CHECK(named == 1);
+  }
+  {
+    const GmshSession session;
+    gmsh::model::occ::addSphere(0, 0, 0, 5);
+    gmsh::model::occ::synchronize();
+    gmsh::write(path);
+  }
+  const Mesh ball = read_step(path, 1, notes);
+  CHECK(ball.bodies == std::vector<std::string>{""});
+  CHECK(quality(ball).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  std::ofstream(folder() + "/no.step") << "nothing";
+  CHECK_THROWS_AS(read_step(folder() + "/no.step", 1, notes), Failure);
 }
