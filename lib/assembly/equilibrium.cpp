@@ -220,7 +220,7 @@ double Equilibrium::smallest_J(const VecX& u) const {
 
 void Equilibrium::predict_pressures(const VecX& du, double step) {
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = material(e).volume.quadratic.bulk_modulus();
+    const double kappa = pressure_modulus(formulation_, material(e));
     const ElementNodes q = element_displacements(du, e);
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
@@ -234,7 +234,7 @@ void Equilibrium::predict_pressures(const VecX& du, double step) {
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
   for (std::size_t i = 0; i < p_.size(); ++i)
-    p_[i] = material(static_cast<int>(i) / n_p_).volume.quadratic.bulk_modulus() * J_minus_1_[i];
+    p_[i] = pressure_modulus(formulation_, material(static_cast<int>(i) / n_p_)) * J_minus_1_[i];
 }
 
 }  // namespace langer

@@ -141,7 +141,7 @@ template <int n, int n_gauss>
 void packet_solid_of(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
                      const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
   constexpr int n_dofs = 3 * n;
-  const double kappa = material.volume.quadratic.bulk_modulus();
+  const double kappa = pressure_modulus(formulation, material), local = local_modulus(formulation, material);
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
   P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
@@ -203,15 +203,17 @@ void packet_solid_of(Formulation formulation, const Material& material, const Pa
     out.W += w * s.W;
     P force[6];  // w times the Kirchhoff stress in the residual
     for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
-    P bulk, p_K = p[0];
+    P bulk, p_K;
     if (modal) {
+      p_K = p[0];
       for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];
-    } else {
-      const P pressure = kappa * J_minus_1[q];
-      p_K = p_tangent ? p_tangent[q] : pressure;
+    }
+    if (const double at_point = modal ? local : kappa; at_point != 0) {
+      const P pressure = at_point * J_minus_1[q];
+      p_K += p_tangent && !modal ? p_tangent[q] : pressure;
       out.W += 0.5 * w * pressure * J_minus_1[q];
       for (int i = 0; i < 3; ++i) force[i] += w * pressure * J;
-      bulk = kappa * J * J;
+      bulk = at_point * J * J;
     }
     for (int a = 0; a < n; ++a) {
       const P* ga = g[q][a];

@@ -60,7 +60,7 @@ double mode(const ElementGeometry& geometry, int g, int k) { return k == 0 ? 1 :
 template <int n>
 bool solid_of(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
               const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
-  const double kappa = material.volume.quadratic.bulk_modulus();
+  const double kappa = pressure_modulus(formulation, material), local = local_modulus(formulation, material);
   const bool modal = formulation != Formulation::displacement;
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
   typename Sizes<n>::Vec f = Sizes<n>::Vec::Zero();
@@ -109,21 +109,18 @@ bool solid_of(Formulation formulation, const Material& material, const ElementGe
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
     Vec6 S = iso.S;
-    double p_K = 0;
-    if (modal) {
-      for (int k = 0; k < n_p; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : kappa * out.J_minus_1[k]);
-    } else {
-      const double p = kappa * J_minus_1[g];
-      p_K = p_tangent ? p_tangent[g] : p;
-      out.W += 0.5 * w * p * J_minus_1[g];
-      S += p * J * Ci;
-    }
+    const double at_point = modal ? local : kappa, p = at_point * J_minus_1[g];
+    double p_K = p;
+    out.W += 0.5 * w * p * J_minus_1[g];
+    S += p * J * Ci;
+    for (int k = 0; k < n_p && modal; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : kappa * out.J_minus_1[k]);
+    if (!modal && p_tangent) p_K = p_tangent[g];
     const typename Sizes<n>::Strain B = strain_operator<n>(F[g], dN[g]);
     f.noalias() += w * (B.transpose() * S);
     if (!with_tangent) continue;
     // dJ/dE = J C^-1,  d2J/dE2 = J (C^-1 x C^-1 - 2 C^-1 o C^-1)
     Mat6 D = iso.D + p_K * J * (Ci * Ci.transpose() - 2 * symmetric_product(C_inverse));
-    if (!modal) D += kappa * J * J * Ci * Ci.transpose();
+    if (at_point != 0) D += at_point * J * J * Ci * Ci.transpose();
     const typename Sizes<n>::Strain DB = w * D * B;
     K.noalias() += B.transpose() * DB;
     add_geometric<n>(dN[g], iso.S + p_K * J * Ci, w, K);
@@ -134,6 +131,19 @@ bool solid_of(Formulation formulation, const Material& material, const ElementGe
 }
 
 }  // namespace
+
+double local_modulus(Formulation f, const Material& material) {
+  if (f != Formulation::linear_dilatation) return 0;
+  // with 0 and 2 shear moduli some cells under a sphere buckle within themselves, with 3 none; pipelines/trade.yaml
+  constexpr double shear_moduli = 4;
+  double mu = 0;
+  for (const MatrixTerm& term : material.matrix) mu += shear_modulus(term);
+  return std::min(material.volume.quadratic.bulk_modulus(), shear_moduli * std::abs(mu));
+}
+
+double pressure_modulus(Formulation f, const Material& material) {
+  return material.volume.quadratic.bulk_modulus() - local_modulus(f, material);
+}
 
 int n_pressures(Formulation f, int n_nodes) {
   return f == Formulation::mean_dilatation ? 1 : f == Formulation::linear_dilatation ? n_modes : reference(n_nodes).n_gauss;
@@ -150,7 +160,7 @@ bool solid(Formulation formulation, const Material& material, const ElementGeome
 
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
                                      std::span<const Vec3> a, const ElementNodes& u) {
-  const double kappa = material.volume.quadratic.bulk_modulus();
+  const double kappa = pressure_modulus(formulation, material), local = local_modulus(formulation, material);
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
   const bool modal = formulation != Formulation::displacement;
   std::vector<GaussState> states(n_gauss);
@@ -160,12 +170,11 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
     states[g].F = Mat3::Identity() + H;
     const double J_minus_1 = volume_change(H);
     states[g].J = 1 + J_minus_1;
-    states[g].pressure = kappa * J_minus_1;
+    states[g].pressure = (modal ? local : kappa) * J_minus_1;
     for (int k = 0; k < n_p && modal; ++k) t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
   }
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
-    if (modal) s.pressure = 0;
     for (int k = 0; k < n_p && modal; ++k) s.pressure += kappa * mode(geometry, g, k) * t[k];
     const Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
