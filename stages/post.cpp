@@ -194,6 +194,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.cost = header.identity.cost;
+  for (const Summary& s : read_summary(job.input("solution"))) curves.summary.push_back(s);  // its errors
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(),

@@ -12,8 +12,9 @@ Limit richardson(double coarse, double middle, double fine, double ratio) {
   if (second == 0) return {fine, 0, 0};
   const double shrinks = first / second;
   if (!(shrinks > 1)) return {fine, 0, std::abs(second)};
-  const double limit = fine - second / (shrinks - 1);  // r^p is the ratio of the differences
-  return {limit, std::log(shrinks) / std::log(ratio), std::abs(limit - fine)};
+  const double order = std::log(shrinks) / std::log(ratio), limit = fine - second / (shrinks - 1);  // r^p is the ratio of the differences
+  if (order < 0.5) return {fine, 0, std::abs(second)};  // chance rather than a law: the limit would lie far away
+  return {limit, order, std::abs(limit - fine)};
 }
 
 std::vector<int> pareto_front(const std::vector<double>& cost, const std::vector<double>& error) {

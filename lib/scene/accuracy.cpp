@@ -37,6 +37,8 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config) {
   std::get<IndentedBlock>(config.mesh->geometry).edge = chosen.rung.edge;
   config.path.first = std::min(chosen.rung.step, 1.0);
   config.path.largest = chosen.rung.step;
+  config.mesh->cells = CellType::hex27;
+  if (!config.estimate) config.estimate = EstimateBy::second_rung;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format("{:g} % wanted: cells of {:g} contact radii, increments of {:g}; on the ladder's three scenes the force "
                              "was within {:g} %{}",

@@ -114,10 +114,15 @@ struct BodyConfig {
 enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
+// How the errors of a result are estimated (scene/error_estimate.hpp).
+enum class EstimateBy { none, second_rung };
+constexpr auto names(EstimateBy) { return std::array{"none", "second_rung"}; }
+
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
   std::optional<std::string> accuracy;  // "1%"
   std::optional<Fidelity> fidelity;
+  std::optional<EstimateBy> estimate;
   std::optional<Material> material;
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
@@ -138,6 +143,10 @@ struct SolveConfig {
       "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and the "
       "symmetry from what was measured (pipelines/trade.yaml)");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
+    v(&SolveConfig::estimate, "estimate", unit::none,
+      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
+      "sqrt 2, and with friction once more there in other increments; wants mesh.geometry.indented_block, and is taken where "
+      "accuracy or fidelity is asked for");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
@@ -170,6 +179,9 @@ struct SolveConfig {
     if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     if (accuracy && !percent_of(*accuracy))
       found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
+    if (estimate == EstimateBy::second_rung && (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry)))
+      found.push_back({"estimate", "second_rung, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
+                       "the key mesh with geometry: {indented_block: ...}", "coarser cells are made from it"});
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
       if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
       if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))

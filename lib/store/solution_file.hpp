@@ -12,6 +12,7 @@
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 #include "store/identity.hpp"
+#include "store/provenance.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -58,7 +59,8 @@ class SolutionWriter {
   std::optional<StepRecord> before_resumed() const;  // the record before that, from which extrapolation starts
   int n_steps() const;
   void append(const StepRecord& record);
-  void finish(const std::optional<Cost>& cost = {});  // none where the work was done in several runs
+  // cost: none where the work was done in several runs; summary: what is said of the result as a whole
+  void finish(const std::optional<Cost>& cost = {}, const std::vector<Summary>& summary = {});
 
  private:
   struct State;

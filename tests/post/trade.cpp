@@ -22,6 +22,9 @@ TEST_CASE("members that do not approach a limit give the finest and their last d
   CHECK(turns.value == 1.1);
   CHECK(turns.order == 0);
   CHECK(turns.uncertainty == doctest::Approx(0.1));
+  const Limit slow = richardson(10.7951, 10.7810, 10.7676, 1.4142);
+  CHECK(slow.value == 10.7676);
+  CHECK(slow.uncertainty == doctest::Approx(0.0134));
   CHECK(grows.value == 1.4);
   CHECK(grows.uncertainty == doctest::Approx(0.3));
   CHECK(richardson(1, 2, 2, 2).uncertainty == 0);

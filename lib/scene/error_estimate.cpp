@@ -1,0 +1,109 @@
+#include "scene/error_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/equilibrium.hpp"
+#include "post/fields.hpp"
+#include "scene/equilibrium_by.hpp"
+#include "scene/make_mesh.hpp"
+#include "scene/step_record.hpp"
+#include "scene/symmetry.hpp"
+#include "solve/load_path.hpp"
+#include "solve/statics.hpp"
+#include "tensor/stress.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double ratio = 1.4142135623730951;
+
+std::vector<Valued> end_of(const SolveConfig& config, const std::optional<Material>& material,
+                           const std::function<Place(const std::string&)>& where) {
+  const Mesh mesh = make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
+  const Scene whole = make_scene(config, mesh, material, where);
+  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
+  const Scene& scene = part ? part->scene() : whole;
+  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
+                   scene.fibres, part ? part->cell_share() : std::vector<double>{});
+  StaticsOptions options;
+  options.threads = config.blas_threads;
+  Statics statics(body, scene.contacts, options);
+  StepRecord last;
+  const PathReport path = load_path(
+      config.path, 0, std::nullopt, scene.stops,
+      [&](double t) {
+        statics.begin(t);
+        return equilibrium_by(config.solver, statics.problem(), statics.trial());
+      },
+      [&](double t, double taken, double next, const SolveReport& report) {
+        statics.accept();
+        if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
+        return true;
+      });
+  if (!path.complete)
+    throw Failure(Exit::not_converged, Error{{}, "", fmt::format("the coarser scene has no equilibrium at t = {:.6g}: {}", path.t, path.why),
+                                             "", "estimate: none does without it"});
+  return valued(whole, mesh, part ? part->whole(last) : last);
+}
+
+bool has_friction(const SolveConfig& config) {
+  return std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.friction > 0; });
+}
+
+void set_increment(LoadPathOptions& path, double increment) {
+  path.steps.reset();
+  path.first = path.largest = increment;
+}
+
+}  // namespace
+
+std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
+  std::vector<Valued> found;
+  if (!scene.contacts.empty()) found.push_back({"force", "N", state.force_ind.norm()});
+  std::vector<std::vector<Vec3>> fibres(static_cast<std::size_t>(mesh.n_cells()));
+  for (int e = 0; e < mesh.n_cells(); ++e) fibres[static_cast<std::size_t>(e)] = scene.fibres_of(mesh, e);
+  const Body body(mesh, scene.materials, scene.formulation, fibres);
+  const GaussValues gauss = gauss_values(body, state.u);
+  double most = 0;
+  for (int n = 0; n < mesh.n_nodes(); ++n)
+    most = std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
+  found.push_back({"von_mises_max", "MPa", most});
+  for (const auto& [name, nodes] : mesh.node_sets)
+    if (nodes.size() == 1) found.push_back({"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
+  return found;
+}
+
+std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
+                                           const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
+                                           double residual) {
+  if (!config.mesh || !std::holds_alternative<IndentedBlock>(config.mesh->geometry))
+    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block of this config", "", ""});
+  SolveConfig coarser = config;
+  std::get<IndentedBlock>(coarser.mesh->geometry).edge *= ratio;
+  const std::vector<Valued> coarse = end_of(coarser, material, where);
+  std::vector<Valued> path = coarse;
+  double per_change = 0;
+  if (has_friction(config)) {
+    const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
+    per_change = increment > 0.5 ? 2 : 1;
+    set_increment(coarser.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
+    path = end_of(coarser, material, where);
+  }
+  std::vector<ErrorEstimate> estimates;
+  for (const Valued& q : found) {
+    const auto same = [&](const Valued& other) { return other.name == q.name; };
+    const auto at = std::find_if(coarse.begin(), coarse.end(), same);
+    const auto along = std::find_if(path.begin(), path.end(), same);
+    if (at == coarse.end() || along == path.end()) continue;
+    const double order = q.name == "von_mises_max" ? 1 : 2;
+    estimates.push_back({q, std::abs(at->value - q.value) / (std::pow(ratio, order) - 1), per_change * std::abs(along->value - at->value),
+                         residual * std::abs(q.value)});
+  }
+  return estimates;
+}
+
+}  // namespace langer

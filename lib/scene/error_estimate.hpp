@@ -1,0 +1,39 @@
+// What a result is worth: the scene is solved again on coarser cells, and there in increments of another length.
+//   cells       |q(r h) - q(h)| / (r^p - 1),  r = sqrt 2: forces and displacements fall with p = 2, the greatest stress with p = 1
+//   increments  |q(2 dt) - q(dt)| on the coarser cells (first order); nothing where no friction makes the path matter.
+//               Of a single increment: twice what halving it changes
+//   solver      the last residual relative to the forces that it balances
+// For meshes of the kind indented_block, whose cells one number scales.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/solve_config.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer {
+
+struct Valued {
+  std::string name, unit;
+  double value = 0;
+};
+// of a state of the whole body: force on the indenter, greatest von Mises stress of the nodes, displacement of each named point
+std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
+
+struct ErrorEstimate {
+  Valued of;
+  double cells = 0, increments = 0, solver = 0;  // in the unit of the quantity
+  double total() const { return cells + increments + solver; }
+};
+
+// Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no equilibrium,
+// Failure(config) for another kind of mesh.
+std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
+                                           const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
+                                           double residual);
+
+}  // namespace langer
