@@ -1,7 +1,7 @@
 # Tables of docs/trade.md.   awk -v what=front -f docs/trade.awk runs/trade/<scene>/trade.csv
 #   front     rungs on the front of the force, by cost
 #   rungs     one line per rung: errors of the force in all scenes given, seconds and memory of the last one
-#   accuracy  asked against fine, of runs/accuracy/<law>_table/table.csv
+#   accuracy  asked against a finer mesh's limit, of runs/accuracy/<law>_table/table.csv
 BEGIN { FS = "," }
 FNR == 1 { ++file; delete head; for (i = 1; i <= NF; ++i) head[$i] = i; next }
 what == "front" && $head["force_front"] == 1 {
@@ -13,7 +13,8 @@ what == "rungs" {
   error[$1, file] = $head["force_error_percent"], cpu[$1, file] = $head["cpu_s"], files = file
 }
 what == "accuracy" {
-  if ($1 == "asked") asked[$2] = $head["force_N"]; else fine[$2] = $head["force_N"]
+  if ($1 == "asked") asked[$2] = $head["force_N"], said[$2] = $head["force_error_N"], limit[$2] = $head["force_extrapolated_N"]
+  else fine[$2] = $head["force_extrapolated_N"], unsure[$2] = $head["force_error_N"]
   if (!($2 in seen)) order[++n] = $2, seen[$2] = FILENAME
 }
 END {
@@ -34,12 +35,14 @@ END {
     }
   }
   if (what == "accuracy") {
-    print "| scene | law | force N | asked for 1 %: off by % |\n| --- | --- | --- | --- |"
+    print "| scene | law | force N, finer mesh | its own +- % | asked for 1 %: off by % | estimated +- % | limit of two meshes: off by % |\n| --- | --- | --- | --- | --- | --- | --- |"
     for (k = 1; k <= n; ++k) {
       s = order[k]; law = seen[s]; sub(/_table\/table.csv$/, "", law); sub(/.*\//, "", law)
-      off = 100 * (asked[s] / fine[s] - 1); if (off < 0 ? off > -1 : off < 1) ++hits
-      printf "| %s | %s | %.4g | %+.2f |\n", s, law, fine[s], off
+      off = 100 * (asked[s] / fine[s] - 1); size = off < 0 ? -off : off; est = 100 * said[s] / fine[s]
+      hits += size < 1; good += est < 3 * size && est > size / 3; safe += est > size / 3
+      lim = 100 * (limit[s] / fine[s] - 1)
+      printf "| %s | %s | %.4g | %.2g | %+.2f | %.2g | %+.2f |\n", s, law, fine[s], 100 * unsure[s] / fine[s], off, est, lim
     }
-    printf "\n%d of %d within 1 %%.\n", hits, n
+    printf "\n%d of %d within 1 %%; the estimate within a factor of three of the error in %d, below a third of it in %d.\n", hits, n, good, n - safe
   }
 }

@@ -56,13 +56,22 @@ Mesh mesh_in(const SolveConfig& config, const Where& where) {
 }
 
 // "force 10.7 N +- 0.9 % (cells 0.8, increments 0.1, solver 1e-7 %)", a line for each quantity; what gather can collect
-std::vector<Summary> say_errors(const Job<SolveConfig>& job, const std::vector<ErrorEstimate>& estimates) {
+std::vector<Summary> say_errors(const Job<SolveConfig>& job, const SolveConfig& config, const std::optional<Material>& material,
+                                const std::vector<Valued>& found, double residual) {
   std::vector<Summary> summary;
+  std::vector<ErrorEstimate> estimates;
+  try {
+    estimates = estimate_errors(config, material, job.where, found, residual);
+  } catch (const Failure& failure) {  // the result itself stands
+    if (failure.code() != Exit::not_converged) throw;
+    job.say("warning: errors are not estimated: {}", failure.what());
+  }
   for (const ErrorEstimate& e : estimates) {
     const double whole = 100 / std::max(std::abs(e.of.value), 1e-300);
-    job.say("{} {:.4g} {} +- {:.2g} % (cells {:.2g}, increments {:.2g}, solver {:.1g} %)", e.of.name, e.of.value, e.of.unit,
-            whole * e.total(), whole * e.cells, whole * e.increments, whole * e.solver);
+    job.say("{} {:.4g} {} +- {:.2g} % (cells {:.2g}, increments {:.2g}, solver {:.1g} %); limit of two meshes {:.4g}", e.of.name,
+            e.of.value, e.of.unit, whole * e.total(), whole * e.cells, whole * e.increments, whole * e.solver, e.extrapolated);
     summary.push_back({e.of.name + "_error", e.total(), e.of.unit});
+    summary.push_back({e.of.name + "_extrapolated", e.extrapolated, e.of.unit});
     summary.push_back({e.of.name + "_error_cells", e.cells, e.of.unit});
     summary.push_back({e.of.name + "_error_increments", e.increments, e.of.unit});
     summary.push_back({e.of.name + "_error_solver", e.solver, e.of.unit});
@@ -185,7 +194,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
                 file.n_steps(), job.output)});
   std::vector<Summary> errors;
   if (config.estimate == EstimateBy::second_rung)
-    errors = say_errors(job, estimate_errors(config, material, job.where, valued(whole, mesh, last), last.residual));
+    errors = say_errors(job, config, material, valued(whole, mesh, last), last.residual);
   // the processor's time before this function is that of loading the program
   file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt, errors);
   progress.finished(path, statics, files);

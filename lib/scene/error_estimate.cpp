@@ -21,8 +21,19 @@ namespace {
 
 constexpr double ratio = 1.4142135623730951;
 
-std::vector<Valued> end_of(const SolveConfig& config, const std::optional<Material>& material,
-                           const std::function<Place(const std::string&)>& where) {
+bool has_friction(const SolveConfig& config) {
+  return std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.friction > 0; });
+}
+
+void set_increment(LoadPathOptions& path, double increment) {
+  path.steps.reset();
+  path.first = path.largest = increment;
+}
+
+}  // namespace
+
+std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
+                                const std::function<Place(const std::string&)>& where) {
   const Mesh mesh = make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
   const Scene whole = make_scene(config, mesh, material, where);
   const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
@@ -45,21 +56,10 @@ std::vector<Valued> end_of(const SolveConfig& config, const std::optional<Materi
         return true;
       });
   if (!path.complete)
-    throw Failure(Exit::not_converged, Error{{}, "", fmt::format("the coarser scene has no equilibrium at t = {:.6g}: {}", path.t, path.why),
-                                             "", "estimate: none does without it"});
+    throw Failure(Exit::not_converged,
+                  Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
   return valued(whole, mesh, part ? part->whole(last) : last);
 }
-
-bool has_friction(const SolveConfig& config) {
-  return std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.friction > 0; });
-}
-
-void set_increment(LoadPathOptions& path, double increment) {
-  path.steps.reset();
-  path.first = path.largest = increment;
-}
-
-}  // namespace
 
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
@@ -84,14 +84,14 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
     throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block of this config", "", ""});
   SolveConfig coarser = config;
   std::get<IndentedBlock>(coarser.mesh->geometry).edge *= ratio;
-  const std::vector<Valued> coarse = end_of(coarser, material, where);
+  const std::vector<Valued> coarse = end_of_path(coarser, material, where);
   std::vector<Valued> path = coarse;
   double per_change = 0;
   if (has_friction(config)) {
     const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
     per_change = increment > 0.5 ? 2 : 1;
     set_increment(coarser.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
-    path = end_of(coarser, material, where);
+    path = end_of_path(coarser, material, where);
   }
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
@@ -100,8 +100,8 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
     const auto along = std::find_if(path.begin(), path.end(), same);
     if (at == coarse.end() || along == path.end()) continue;
     const double order = q.name == "von_mises_max" ? 1 : 2;
-    estimates.push_back({q, std::abs(at->value - q.value) / (std::pow(ratio, order) - 1), per_change * std::abs(along->value - at->value),
-                         residual * std::abs(q.value)});
+    const double beyond = (q.value - at->value) / (std::pow(ratio, order) - 1);
+    estimates.push_back({q, std::abs(beyond), per_change * std::abs(along->value - at->value), residual * std::abs(q.value), q.value + beyond});
   }
   return estimates;
 }

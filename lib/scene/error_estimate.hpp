@@ -2,6 +2,7 @@
 //   cells       |q(r h) - q(h)| / (r^p - 1),  r = sqrt 2: forces and displacements fall with p = 2, the greatest stress with p = 1
 //   increments  |q(2 dt) - q(dt)| on the coarser cells (first order); nothing where no friction makes the path matter.
 //               Of a single increment: twice what halving it changes
+//   extrapolated  q(h) - (q(r h) - q(h)) / (r^p - 1), the limit of the two
 //   solver      the last residual relative to the forces that it balances
 // For meshes of the kind indented_block, whose cells one number scales.
 #pragma once
@@ -24,9 +25,15 @@ struct Valued {
 // of a state of the whole body: force on the indenter, greatest von Mises stress of the nodes, displacement of each named point
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
+// of the state at t = 1 of a config that holds its mesh; nothing is written
+// Throws Failure(not_converged) where there is none.
+std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
+                                const std::function<Place(const std::string&)>& where);
+
 struct ErrorEstimate {
   Valued of;
   double cells = 0, increments = 0, solver = 0;  // in the unit of the quantity
+  double extrapolated = 0;
   double total() const { return cells + increments + solver; }
 };
 
