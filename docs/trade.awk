@@ -9,13 +9,13 @@ what == "front" && $head["force_front"] == 1 {
   cost[n] = $head["cpu_s"]
 }
 what == "rungs" {
-  if (!($1 in at)) order[++n] = $1, at[$1] = n
-  error[$1, file] = $head["force_error_percent"], cpu[$1, file] = $head["cpu_s"], files = file
+  if (!($1 in at)) { order[++n] = $1; at[$1] = n }
+  error[$1, file] = $head["force_error_percent"]; cpu[$1, file] = $head["cpu_s"]; files = file
 }
 what == "accuracy" {
-  if ($1 == "asked") asked[$2] = $head["force_N"], said[$2] = $head["force_error_N"], limit[$2] = $head["force_extrapolated_N"]
-  else fine[$2] = $head["force_extrapolated_N"], unsure[$2] = $head["force_error_N"]
-  if (!($2 in seen)) order[++n] = $2, seen[$2] = FILENAME
+  if ($1 == "asked") { asked[$2] = $head["force_N"]; said[$2] = $head["force_error_N"]; limit[$2] = $head["force_extrapolated_N"] }
+  else { fine[$2] = $head["force_extrapolated_N"]; unsure[$2] = $head["force_error_N"] }
+  if (!($2 in seen)) { order[++n] = $2; seen[$2] = FILENAME }
 }
 END {
   if (what == "front") {
@@ -39,7 +39,7 @@ END {
     for (k = 1; k <= n; ++k) {
       s = order[k]; law = seen[s]; sub(/_table\/table.csv$/, "", law); sub(/.*\//, "", law)
       off = 100 * (asked[s] / fine[s] - 1); size = off < 0 ? -off : off; est = 100 * said[s] / fine[s]
-      hits += size < 1; good += est < 3 * size && est > size / 3; safe += est > size / 3
+      if (size < 1) ++hits; if (est < 3 * size && est > size / 3) ++good; if (est > size / 3) ++safe
       lim = 100 * (limit[s] / fine[s] - 1)
       printf "| %s | %s | %.4g | %.2g | %+.2f | %.2g | %+.2f |\n", s, law, fine[s], 100 * unsure[s] / fine[s], off, est, lim
     }
