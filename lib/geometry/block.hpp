@@ -122,8 +122,8 @@ struct FromFile {
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
       "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies) or .inp of Abaqus or CalculiX; or a solid "
-      "of CAD, .step, whose faces are the sets face_1, face_2, ...", required);
-    v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step is meshed with, about", positive);
+      "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...", required);
+    v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step or .stl is meshed with, about", positive);
     v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
   }
   std::vector<Complaint> complaints() const;

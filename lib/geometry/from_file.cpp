@@ -42,18 +42,18 @@ std::vector<Complaint> FromFile::complaints() const {
     if (edge) return {{"edge", "found beside a mesh", "none: its cells are there", ""}};
     return {};
   }
-  if (kind == "step" || kind == "stp") {
+  if (kind == "step" || kind == "stp" || kind == "stl") {
     if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
     return {};
   }
-  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, or a .step",
+  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
 Mesh mesh_of(const FromFile& from, const Points&, std::vector<std::string>& notes) {
   const std::string& path = from.file.path;
   const std::string kind = kind_of(path);
-  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_step(path, *from.edge / from.scale, notes);
+  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_solid(path, kind == "stl", *from.edge / from.scale, notes);
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -181,14 +182,27 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
   return reader.read();
 }
 
-Mesh read_step(const std::string& path, double edge, std::vector<std::string>& notes) {
+Mesh read_solid(const std::string& path, bool facets, double edge, std::vector<std::string>& notes) {
   const GmshSession session;
   MshReader reader(path, notes);
   try {
     gmsh::vectorpair shapes, surfaces, volumes;
-    gmsh::model::occ::importShapes(path, shapes);
-    if (shapes.size() > 1) gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
-    gmsh::model::occ::synchronize();
+    if (facets) {
+      gmsh::merge(path);
+      constexpr double edge_angle = 40 * std::numbers::pi / 180;  // faces meet where triangles turn by more
+      gmsh::model::mesh::classifySurfaces(edge_angle, true, true);
+      gmsh::model::mesh::createGeometry();
+      gmsh::model::getEntities(surfaces, 2);
+      std::vector<int> loop;
+      for (const auto& [dim, tag] : surfaces) loop.push_back(tag);
+      if (!loop.empty()) gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(loop)});
+      gmsh::model::geo::synchronize();
+      surfaces.clear();
+    } else {
+      gmsh::model::occ::importShapes(path, shapes);
+      if (shapes.size() > 1) gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
+      gmsh::model::occ::synchronize();
+    }
     gmsh::model::getEntities(volumes, 3);
     for (const auto& [dim, tag] : volumes)
       if (volumes.size() > 1) gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {tag}), fmt::format("body_{}", tag));
@@ -197,7 +211,7 @@ Mesh read_step(const std::string& path, double edge, std::vector<std::string>& n
     gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);  // every tetrahedron into four hexahedra, of half its size
     gmsh::option::setNumber("Mesh.MeshSizeMin", 2 * edge);
     gmsh::option::setNumber("Mesh.MeshSizeMax", 2 * edge);
-    if (volumes.empty()) reader.refuse("no solid body", "a STEP file with a solid");
+    if (volumes.empty()) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
     gmsh::model::mesh::generate(3);
   } catch (const Failure&) {
     throw;

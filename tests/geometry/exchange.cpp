@@ -180,7 +180,7 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     gmsh::write(path);
   }
   std::vector<std::string> notes;
-  const Mesh mesh = read_step(path, 1.5, notes);
+  const Mesh mesh = read_solid(path, false, 1.5, notes);
   CHECK(mesh.bodies.size() == 2);
   const Quality q = quality(mesh);
   CHECK(q.least_jacobian > 0);  // flat tetrahedra make flat hexahedra, none is folded
@@ -201,9 +201,28 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     gmsh::model::occ::synchronize();
     gmsh::write(path);
   }
-  const Mesh ball = read_step(path, 1, notes);
+  const Mesh ball = read_solid(path, false, 1, notes);
   CHECK(ball.bodies == std::vector<std::string>{""});
   CHECK(quality(ball).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  // the same ball and a box as triangles
+  const std::string facets = folder() + "/facets.stl";
+  const auto meshed = [&](auto add) {
+    const GmshSession session;
+    add();
+    gmsh::model::occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 1);
+    gmsh::model::mesh::generate(2);
+    gmsh::write(facets);
+  };
+  meshed([] { gmsh::model::occ::addBox(0, 0, 0, 6, 2, 4); });
+  const Mesh box = read_solid(facets, true, 1, notes);
+  CHECK(quality(box).volume == doctest::Approx(48).epsilon(1e-6));
+  CHECK(quality(box).least_jacobian > 0);
+  CHECK(box.facet_sets.size() >= 6);  // gmsh may cut a face of triangles into several
+  meshed([] { gmsh::model::occ::addSphere(0, 0, 0, 5); });
+  CHECK(quality(read_solid(facets, true, 1, notes)).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  std::ofstream(folder() + "/no.stl") << "nothing";
+  CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, notes), Failure);
   std::ofstream(folder() + "/no.step") << "nothing";
-  CHECK_THROWS_AS(read_step(folder() + "/no.step", 1, notes), Failure);
+  CHECK_THROWS_AS(read_solid(folder() + "/no.step", false, 1, notes), Failure);
 }
