@@ -1,8 +1,10 @@
 // langer-post: curves, snapshots and figures of a solution.
 //   langer-post indentation.yaml --solution solution.h5 -o curves.h5
+//   langer-post --solution solution.h5 --export scene.inp --export scene.feb
 #include <set>
 
 #include "material/ellipticity.hpp"
+#include "scene/export_scene.hpp"
 #include "scene/pictures.hpp"
 #include "scene/post_config.hpp"
 #include "scene/post_files.hpp"
@@ -202,7 +204,43 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   return curves.summary;
 }
 
+// --export: the solved scene as decks of other programs, and nothing else
+int export_scene(int argc, char** argv) {
+  const Usage usage = usage_of(*find_stage("post"), top_keys<PostConfig>(), "");
+  CLI::App app{usage.sentence, usage.program};
+  std::string solution, log;
+  std::vector<std::string> files;
+  bool quiet = false;
+  app.add_option("--solution", solution)->required();
+  app.add_option("--export", files)->required()->allow_extra_args(false);
+  app.add_flag("--quiet", quiet);
+  app.add_option("--log", log);
+  app.set_help_flag("-h,--help");
+  app.set_version_flag("--version", version_line(usage.program));
+  RunLog kept;
+  return guarded(usage.program, [&] {
+    int code = 0;
+    if (!parsed(app, usage, argc, argv, code)) return code;
+    if (!log.empty()) kept.open(log, command_line(argc, argv), false);
+    need_file(solution);
+    for (const std::string& file : files)
+      if (const auto ending = std::filesystem::path(file).extension(); ending != ".inp" && ending != ".feb")
+        throw Failure(Exit::config, Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
+    const Deck deck = deck_of(SolutionReader(solution), solution);
+    for (const std::string& file : files) {
+      const bool calculix = std::filesystem::path(file).extension() == ".inp";
+      write_text_file(file, calculix ? calculix_deck(deck) : febio_deck(deck));
+      if (!quiet) say_line("post: {} for {}", file, calculix ? "CalculiX" : "FEBio 4");
+    }
+    return static_cast<int>(Exit::ok);
+  });
+}
+
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post); }
+int main(int argc, char** argv) {
+  const auto exports = [](const char* a) { return std::string_view(a).starts_with("--export"); };
+  if (std::any_of(argv + 1, argv + argc, exports)) return langer::export_scene(argc, argv);
+  return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post);
+}

@@ -187,6 +187,9 @@ Card febio(const Material& m) {
   if (m.fibres.empty() && linear) {
     type = "Mooney-Rivlin";
     line("c1", p->I1[0]), line("c2", p->I2[0]);
+  } else if (m.fibres.empty() && p && p->I2[0] == 0 && p->I2[1] == 0 && p->I2[2] == 0) {
+    type = "Yeoh";
+    line("c1", p->I1[0]), line("c2", p->I1[1]), line("c3", p->I1[2]);
   } else if (const auto* t = only<Ogden>(m); t && m.fibres.empty() && ogden_parts(*t) > 0) {
     type = "Ogden";
     int i = 1;

@@ -106,12 +106,14 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   u.options.push_back({"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
   u.options.push_back({"--dry-run", "", stage.foretells ? "check all, say which parts the scene has, memory and time; write nothing"
                                                        : "check config and inputs, say what would be made; write nothing", "", {}});
+  if (*stage.exports) u.options.push_back({"--export", "FILE", stage.exports, "inp feb", {}});
   u.options.push_back({"--json", "", "print the results as one JSON object on stdout", "", {}});
   u.options.push_back({"--log", "FILE", "write what is said to this file, too", "log", {}});
   u.options.push_back({"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
   u.keys = std::move(keys), u.reference = std::move(reference);
   u.examples = stage_example(stage);
+  if (*stage.exports) u.examples += fmt::format("\n{} --solution solution.h5 --export scene.inp --export scene.feb", u.program);
   return u;
 }
 

@@ -43,6 +43,10 @@ TEST_CASE("isotropic laws stand in Abaqus and CalculiX with the same keywords") 
   }
 }
 
+TEST_CASE("FEBio has a Yeoh of its own") {
+  holds(card({{NeoHooke{0.1}, Yeoh{0.3, 0.2, 0.1}}, {}, volume}, "FEBio"), "type=\"Yeoh\">\n  <c1>0.4</c1>\n  <c2>0.2</c2>\n  <c3>0.1</c3>\n  <k>2000</k>");
+}
+
 TEST_CASE("HGO and GOH stand in Abaqus and FEBio, HGO-Yeoh does not") {
   const Material goh{{NeoHooke{0.3}}, {hgo_fibre(0.2, 0.5, 90, FibreSwitch::I4_bar, 0.1)}, volume};
   holds(card(goh, "Abaqus"), "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=1\n0.3, 0.001, 0.2, 0.5, 0.1\n");

@@ -1,0 +1,101 @@
+# Solved scenes as decks of other programs: what CalculiX makes of them is what Langer found, the .feb names only what it has, and
+# what a program lacks is refused.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(volume "volume: {quadratic: {d: 1.0e-4}}")
+set(law "{matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, ${volume}}")
+# uniaxial
+file(WRITE ${WORK}/project/tension.yaml "stability: off
+mesh: {geometry: {block: {size: [3, 2, 1], divisions: [3, 2, 2]}}}
+supports:
+  - {on: x_min, hold: [x]}
+  - {on: y_min, hold: [y]}
+  - {on: z_min, hold: [z]}
+loads:
+  - {on: x_max, displacement: {x: 0.9}}
+path: {steps: 6}
+material: ${law}
+")
+# stretched and sheared along z, free along y: homogeneous under any angle
+file(WRITE ${WORK}/project/sheared.yaml "stability: off
+mesh: {geometry: {block: {size: [3, 2, 1], divisions: [1, 2, 1]}}}
+supports:
+  - {on: x_min, hold: [x, z]}
+  - {on: y_min, hold: [y]}
+loads:
+  - {on: x_max, displacement: {x: 0.9, z: 0.3}}
+path: {steps: 6}
+")
+set(neo "{neo_hooke: {a1: 0.312}}")
+set(family "{hgo: {c1: 0.297, c2: 0.87}, alpha: 30}")
+file(WRITE ${WORK}/project/fibres.yaml "include: sheared.yaml
+material: {matrix: ${neo}, fibres: [${family}, {hgo: {c1: 0.1, c2: 0.5}, alpha: 100}], ${volume}}
+")
+file(WRITE ${WORK}/project/field.yaml "include: tension.yaml
+material: {matrix: {yeoh: {a1: 0.312, a2: 0, a3: 0}}, fibres: [${family}], ${volume}}
+fibre_field: {formula: {alpha: \"20 * x\"}}
+")
+# hex27 and C3D20R, in half of the sphere's body
+file(WRITE ${WORK}/project/sphere.yaml "include: configs/solve/indentation.yaml
+stability: off
+symmetry: auto
+mesh: {include: configs/mesh/smoke.yaml, cells: hex27}
+fibre_angles: []
+material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-2}}}
+contacts: {sphere: {friction: 0.2, motion: [{t: 0.5, to: [0, -0.2, 0]}, {t: 1, to: [0, -0.5, 0]}]}}
+path: {first: 0.25, largest: 0.25}
+")
+foreach(scene tension fibres field sphere)
+  run(0 ${BIN}/langer-solve ${scene}.yaml -o ${scene}.h5 --quiet)
+  run(0 ${BIN}/langer-post --solution ${scene}.h5 --export ${scene}.inp --export ${scene}.feb)
+  expect_said("${scene}.feb for FEBio 4")
+endforeach()
+file(STRINGS ${WORK}/project/sphere.inp head LIMIT_COUNT 8)
+if(NOT "${head}" MATCHES "mirror x and mirror z through \\(0, 0\\): 48 of 192 cells: forces here are 1/4")
+  message(FATAL_ERROR "the head of the deck does not tell of its symmetry:\n${head}")
+endif()
+# a whole turn of the path is a step of its own
+file(STRINGS ${WORK}/project/sphere.inp steps REGEX "^\\*STEP")
+list(LENGTH steps n)
+expect_equal(${n} 2 "steps of the deck")
+
+# what is no scene of theirs
+run(2 ${BIN}/langer-post --solution tension.h5 --export tension.txt)
+expect_said("a file ending with .inp (CalculiX) or .feb (FEBio 4)")
+run(3 ${BIN}/langer-post --solution missing.h5 --export x.inp)
+run(2 ${BIN}/langer-post configs/post/tensile.yaml --solution tension.h5 --export x.inp)
+run(0 ${BIN}/langer-solve sheared.yaml -o table1.h5 --quiet --set "material={include: configs/material/abdomen_hgo_yeoh.yaml}")
+run(2 ${BIN}/langer-post --solution table1.h5 --export x.inp)
+expect_said("fibres in a matrix other than neo-Hookean")
+run(2 ${BIN}/langer-post --solution table1.h5 --export x.feb)
+expect_said("FEBio refuses fibres (ksi) below 0")
+run(0 ${BIN}/langer-solve sphere.yaml -o punch.h5 --quiet --set "path.first=1" --set "path.largest=1"
+  --set "contacts.sphere.rigid={cylinder: {radius: 1, edge: 0.5, face: [0, 4, 0]}}" --set "contacts.sphere.motion=[{t: 1, to: [0, -0.01, 0]}]")
+run(2 ${BIN}/langer-post --solution punch.h5 --export x.inp)
+expect_said("contacts.sphere.rigid: an indenter of another shape")
+if(EXISTS ${WORK}/project/x.inp OR EXISTS ${WORK}/project/x.feb)
+  message(FATAL_ERROR "a refused deck was written")
+endif()
+
+find_program(PYTHON python3)
+if(PYTHON)
+  foreach(scene tension fibres field sphere)
+    run(0 ${PYTHON} ${ROOT}/tests/support/check_feb.py ${scene}.feb)
+  endforeach()
+else()
+  message("the .feb files were not looked at: no python3")
+endif()
+find_program(CCX ccx)
+if(NOT CCX)
+  message("not given to CalculiX: no ccx (calculix-ccx)")
+  return()
+endif()
+function(by_calculix scene set axis share tolerance)
+  run(0 ${CMAKE_COMMAND} -E env OMP_NUM_THREADS=1 ${CCX} -i ${scene})
+  run(0 awk -v set=${set} -v axis=${axis} -v share=${share} -v tolerance=${tolerance} -f ${ROOT}/tests/support/ccx_force.awk ${scene}.inp ${scene}.dat)
+  message("${scene}: ${said}")
+endfunction()
+by_calculix(tension x_max 1 1 1e-4)
+by_calculix(fibres x_max 1 1 1e-4)
+by_calculix(fibres x_max 3 1 1e-4)
+by_calculix(sphere RIGID_SPHERE 2 -4 3e-2)  # other cells, and a penalty that lets the sphere in
