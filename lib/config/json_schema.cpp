@@ -2,24 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "base/quoted.hpp"
+
 namespace langer {
 
 namespace {
-
-std::string json_text_of(const std::string& s) {
-  std::string q = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\')
-      q += std::string("\\") + c;
-    else if (c == '\n')
-      q += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      q += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      q += c;
-  }
-  return q + "\"";
-}
 
 // in one line where that is short
 std::string flat(const Tree& t) {
@@ -28,12 +15,12 @@ std::string flat(const Tree& t) {
     case Tree::Kind::null:
       return "null";
     case Tree::Kind::scalar:
-      return t.quoted ? json_text_of(t.scalar) : t.scalar;
+      return t.quoted ? quoted(t.scalar) : t.scalar;
     case Tree::Kind::list:
       for (const Tree& item : t.list) s += (s.empty() ? "" : ", ") + flat(item);
       return "[" + s + "]";
     case Tree::Kind::map:
-      for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ", ") + json_text_of(key) + ": " + flat(value);
+      for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ", ") + quoted(key) + ": " + flat(value);
       return "{" + s + "}";
   }
   return s;
@@ -49,7 +36,7 @@ std::string json_of(const Tree& t, int indent) {
   std::string s;
   for (const Tree& item : t.list) s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
   for (const auto& [key, value] : t.map)
-    s += (s.empty() ? "" : ",\n") + margin + json_text_of(key) + ": " + json_of(value, indent + 2);
+    s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
   const std::string end(static_cast<std::size_t>(indent), ' ');
   return t.kind == Tree::Kind::map ? "{\n" + s + "\n" + end + "}" : "[\n" + s + "\n" + end + "]";
 }

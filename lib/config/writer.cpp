@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/quoted.hpp"
+
 namespace langer {
 
 namespace fs = std::filesystem;
@@ -39,23 +41,6 @@ bool is_safe_plain(const std::string& s) {
   for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   if (std::find(taken.begin(), taken.end(), lower) != taken.end()) return false;
   return (letter(s[0]) || s[0] == '/' || s.rfind("../", 0) == 0) && plain_letters(s);
-}
-
-std::string quoted(const std::string& s) {
-  std::string q = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\')
-      q += std::string("\\") + c;
-    else if (c == '\n')
-      q += "\\n";
-    else if (c == '\t')
-      q += "\\t";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      q += fmt::format("\\x{:02x}", c);
-    else
-      q += c;
-  }
-  return q + "\"";
 }
 
 std::string in_line(const Tree& t) {

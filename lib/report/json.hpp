@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/quoted.hpp"
+
 namespace langer::report {
 
 struct Json {
@@ -16,18 +18,8 @@ struct Json {
 
 inline Json number(double x) { return {std::isfinite(x) ? fmt::format("{:.9g}", x) : "null"}; }
 
-inline Json words(const std::string& s) {
-  std::string text = "\"";
-  for (const unsigned char c : s) {
-    if (c == '"' || c == '\\')
-      text += std::string("\\") + static_cast<char>(c);
-    else if (c < 0x20 || c == '<')  // "</script" and "<!--" mean something to HTML even inside of a string
-      text += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      text += static_cast<char>(c);
-  }
-  return {text + "\""};
-}
+// "</script" and "<!--" mean something to HTML even inside of a string
+inline Json words(const std::string& s) { return {quoted(s, "<")}; }
 
 // each item of a range by a function that makes it a Json
 Json list(const auto& range, auto&& each) {
