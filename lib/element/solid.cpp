@@ -136,9 +136,7 @@ double local_modulus(Formulation f, const Material& material) {
   if (f != Formulation::linear_dilatation) return 0;
   // with 0 and 2 shear moduli some cells under a sphere buckle within themselves, with 3 none; pipelines/trade.yaml
   constexpr double shear_moduli = 4;
-  double mu = 0;
-  for (const MatrixTerm& term : material.matrix) mu += shear_modulus(term);
-  return std::min(material.volume.quadratic.bulk_modulus(), shear_moduli * std::abs(mu));
+  return std::min(material.volume.quadratic.bulk_modulus(), shear_moduli * std::abs(shear_modulus(material)));
 }
 
 double pressure_modulus(Formulation f, const Material& material) {

@@ -31,6 +31,12 @@ double shear_modulus(const MatrixTerm& term) {
       term);
 }
 
+double shear_modulus(const Material& material) {
+  double sum = 0;
+  for (const MatrixTerm& term : material.matrix) sum += shear_modulus(term);
+  return sum;
+}
+
 namespace {
 
 // At rest I4_bar is 1 up to the rounding of a a^T: such a fibre counts as stretched, so that the tangent at rest does

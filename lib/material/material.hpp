@@ -28,8 +28,7 @@ namespace langer {
 // Each alternative has `static constexpr Invariant of`; those of one invariant are an EnergyTerm.
 using MatrixTerm = std::variant<NeoHooke, Yeoh, YeohI2, MooneyRivlin, Signorini, Ogden, ArrudaBoyce, Gent>;
 
-// of one term at rest [MPa]; the matrix has the sum
-double shear_modulus(const MatrixTerm& term);
+double shear_modulus(const MatrixTerm& term);  // at rest [MPa]
 
 enum class FibreSwitch { I4_bar, I4, off };  // off: the fibre also acts in compression
 constexpr auto names(FibreSwitch) { return std::array{"I4_bar", "I4", "off"}; }
@@ -64,6 +63,8 @@ struct Material {
     v(&Material::volume, "volume", unit::none, "how volume change is resisted", required);
   }
 };
+
+double shear_modulus(const Material& material);  // of its matrix at rest [MPa]
 
 struct Response {
   double W = 0;

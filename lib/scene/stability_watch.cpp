@@ -29,9 +29,7 @@ double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) 
 
 // its volume should not change visibly at stresses of the order of its shear modulus
 bool nearly_incompressible(const Material& material) {
-  double mu = 0;
-  for (const MatrixTerm& term : material.matrix) mu += shear_modulus(term);
-  return material.volume.quadratic.bulk_modulus() > 1000 * std::abs(mu);
+  return material.volume.quadratic.bulk_modulus() > 1000 * std::abs(shear_modulus(material));
 }
 
 std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
