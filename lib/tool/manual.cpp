@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/split.hpp"
 #include "base/version.hpp"
 #include "config/member.hpp"
 #include "pipeline/effective.hpp"
@@ -114,22 +115,14 @@ std::string man_text(const Usage& u) {
       s += ".SS " + roff(synopsis(c)) + "\n" + roff(c.sentence) + "\n";
       options(c);
     }
-  if (!u.reference.empty()) s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n.nf\n" + [&] {
-    std::string lines;
-    for (std::size_t i = 0; i < u.reference.size();) {
-      const std::size_t end = std::min(u.reference.find('\n', i), u.reference.size());
-      lines += roff(u.reference.substr(i, end - i)) + "\n";
-      i = end + 1;
-    }
-    return lines;
-  }() + ".fi\n";
-  s += ".SH EXAMPLES\n.nf\n";
-  for (std::size_t i = 0; i < u.examples.size();) {
-    const std::size_t end = std::min(u.examples.find('\n', i), u.examples.size());
-    s += roff(u.examples.substr(i, end - i)) + "\n";
-    i = end + 1;
-  }
-  s += ".fi\n.SH EXIT STATUS\n" + roff(exit_codes) + "\n";
+  const auto as_it_is = [&s](const std::string& lines) {
+    s += ".nf\n";
+    for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
+    s += ".fi\n";
+  };
+  if (!u.reference.empty()) s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n", as_it_is(u.reference);
+  s += ".SH EXAMPLES\n", as_it_is(u.examples);
+  s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
   s += ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
   if (!u.more.empty()) s += ".SH NOTES\n" + roff(u.more) + "\n";
   s += ".SH SEE ALSO\n";

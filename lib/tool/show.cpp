@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "base/split.hpp"
 #include "config/writer.hpp"
 #include "material/material.hpp"
 #include "store/curves_file.hpp"
@@ -88,12 +89,7 @@ void show_mesh(Page& page, const Mesh& mesh) {
 
 void show_law(Page& page, const Material& material) {
   page.text += "law\n";
-  const std::string yaml = to_yaml(material);
-  for (std::size_t i = 0; i < yaml.size();) {
-    const std::size_t end = std::min(yaml.find('\n', i), yaml.size());
-    page.text += "  " + yaml.substr(i, end - i) + "\n";
-    i = end + 1;
-  }
+  for (const std::string& line : split(to_yaml(material), '\n')) page.text += "  " + line + "\n";
 }
 
 void show_material(Page& page, const std::string& path) {
@@ -185,13 +181,7 @@ void show_sweep(Page& page, const h5::Group& root) {
     const h5::Group group = root.group(kind);
     for (const std::string& name : group.datasets()) {
       std::vector<std::string> column{with_unit(name, group.unit(name))};
-      std::vector<std::string> words;
-      const std::string list = group.annotation(name, "words");
-      for (std::size_t i = 0; i < list.size();) {
-        const std::size_t end = std::min(list.find(' ', i), list.size());
-        words.push_back(list.substr(i, end - i));
-        i = end + 1;
-      }
+      const std::vector<std::string> words = split(group.annotation(name, "words"), ' ');
       if (words.empty())
         for (double x : group.read<double>(name, {h5::any}).values) column.push_back(std::isfinite(x) ? number(x) : "-");
       else

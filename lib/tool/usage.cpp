@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/split.hpp"
+
 namespace langer {
 
 const char* const exit_codes =
@@ -15,12 +17,9 @@ constexpr std::size_t width = 108;
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   std::vector<std::string> lines(1);
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find(' ', i), text.size());
-    const std::string word = text.substr(i, end - i);
+  for (const std::string& word : split(text, ' ')) {
     if (!lines.back().empty() && lines.back().size() + 1 + word.size() > columns) lines.emplace_back();
     lines.back() += (lines.back().empty() ? "" : " ") + word;
-    i = end + 1;
   }
   return lines;
 }
@@ -87,11 +86,8 @@ std::string stage_example(const StageSpec& stage) {
 
 const UsageOption* Usage::find(const std::string& flag) const {
   for (const UsageOption& o : options)
-    for (std::size_t i = 0; i <= o.flags.size();) {
-      const std::size_t end = std::min(o.flags.find(',', i), o.flags.size());
-      if (o.flags.substr(i, end - i) == flag) return &o;
-      i = end + 1;
-    }
+    for (const std::string& f : split(o.flags, ','))
+      if (f == flag) return &o;
   return nullptr;
 }
 
@@ -151,11 +147,7 @@ std::string help_text(const Usage& u) {
     }
   }
   s += std::string("\nExample:\n");
-  for (std::size_t i = 0; i < u.examples.size();) {
-    const std::size_t end = std::min(u.examples.find('\n', i), u.examples.size());
-    s += "  " + u.examples.substr(i, end - i) + "\n";
-    i = end + 1;
-  }
+  for (const std::string& line : split(u.examples, '\n')) s += "  " + line + "\n";
   if (!u.more.empty())
     for (const std::string& line : wrapped(u.more, width)) s += (line == wrapped(u.more, width).front() ? "\n" : "") + line + "\n";
   return s + "\nExit codes: " + exit_codes + "\n";
