@@ -195,8 +195,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
-  identity.cost = header.identity.cost;
-  for (const Summary& s : read_summary(job.input("solution"))) curves.summary.push_back(s);  // its errors
+  identity.solution_cost = header.identity.solution_cost;
+  for (const Summary& s : solution.reader.summary()) curves.summary.push_back(s);  // its errors
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(),

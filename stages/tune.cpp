@@ -39,7 +39,7 @@ Ladder ladder_of(const Job<TuneConfig>& job) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {files[i]}, read_summary(files[i])};
     if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
-    const std::optional<Cost> cost = read_origin(files[i]).identity.cost;
+    const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
     if (!cost) job.say("{}: its solution was made in several runs, or by an older version: what it took is not known", member.path);
     ladder.members.push_back(std::move(member));
     ladder.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));

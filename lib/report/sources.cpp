@@ -97,9 +97,8 @@ void add_origin(ReportPage& page, const Source& source) {
     const h5::Group p = file.root().group("provenance");
     const auto text = [&](const char* name) { return p.has(name) ? p.read_text(name) : std::string(); };
     o.made = text("created_utc"), o.host = text("host"), o.version = text("code_version"), o.libraries = text("libraries");
-    for (auto& [name, seconds] : {std::pair<const char*, double&>{"wall_seconds", o.wall}, {"cpu_seconds", o.cpu}})
-      if (p.has_attribute(name) && !is_number(p.text_attribute(name), seconds)) seconds = unknown;
   }
+  if (origin.cost) o.wall = origin.cost->wall, o.cpu = origin.cost->cpu;
   page.origins.push_back(std::move(o));
 }
 

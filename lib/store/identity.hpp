@@ -7,7 +7,7 @@
 
 namespace langer {
 
-// What a solution took, of one run from start to end; another run of the same takes a little more or less.
+// What a run of a program took; another run of the same takes a little more or less.
 struct Cost {
   double cpu = 0;     // all threads [s]
   double wall = 0;    // [s]
@@ -20,7 +20,7 @@ struct Identity {
   std::string config_hash;                    // FNV-1a 64 of `config` with input files by name: what they hold is in `inputs`
   std::map<std::string, std::string> inputs;  // port -> content id of the input file
   std::string command;                        // command line as typed
-  std::optional<Cost> cost;                   // of solution.h5, and of what is made of it
+  std::optional<Cost> solution_cost;          // of the solution it is made of, where that took one run from start to end
 };
 
 // 16 hex digits of FNV-1a 64

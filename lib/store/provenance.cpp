@@ -3,13 +3,14 @@
 #include <unistd.h>
 
 #include <Eigen/Core>
-#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "base/memory.hpp"
+#include "base/stopwatch.hpp"
 #include "base/version.hpp"
 
 namespace langer {
@@ -37,6 +38,19 @@ std::map<std::string, std::string> separated(const std::string& text) {
   return inputs;
 }
 
+void write(const h5::Group& group, const Cost& cost) {
+  group.write_scalar("cpu", cost.cpu, "s");
+  group.write_scalar("wall", cost.wall, "s");
+  group.write_scalar("memory", cost.memory, "MB");
+}
+
+std::optional<Cost> read_cost(const h5::Group& provenance, const char* name) {
+  if (!provenance.has(name)) return {};
+  const h5::Group cost = provenance.group(name);
+  const auto number = [&](const char* part) { return cost.read_finite(part, {}).at(0); };
+  return Cost{number("cpu"), number("wall"), number("memory")};
+}
+
 }  // namespace
 
 std::string utc_now() {
@@ -47,8 +61,6 @@ std::string utc_now() {
   if (gmtime_r(&now, &parts)) std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
 }
-
-const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  // nearly that of the program
 
 std::string host_name() {
   char name[256] = "";
@@ -74,24 +86,18 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   provenance.write_text("created_utc", utc_now());
   provenance.write_text("host", host_name());
   provenance.write_text("command", identity.command);
-  write_times(root);
-  if (identity.cost) write_cost(root, *identity.cost);
-}
-
-void write_times(const h5::Group& root) {
   if (std::getenv("SOURCE_DATE_EPOCH")) return;
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  const h5::Group provenance = root.group("provenance");
-  provenance.attribute("wall_seconds", fmt::format("{:.3f}", wall.count()));
-  provenance.attribute("cpu_seconds", fmt::format("{:.3f}", static_cast<double>(std::clock()) / CLOCKS_PER_SEC));
+  write(provenance.make_group("cost"), cost_so_far());
+  if (identity.solution_cost) write(provenance.make_group("solution_cost"), *identity.solution_cost);
 }
 
-void write_cost(const h5::Group& root, const Cost& cost) {
+Cost cost_so_far() { return {cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}; }
+
+void write_cost(const h5::Group& root, const Cost& cost, bool continued) {
   if (std::getenv("SOURCE_DATE_EPOCH")) return;
   const h5::Group group = root.group("provenance").make_group("cost");
-  group.write_scalar("cpu", cost.cpu, "s");
-  group.write_scalar("wall", cost.wall, "s");
-  group.write_scalar("memory", cost.memory, "MB");
+  write(group, cost);
+  if (continued) group.attribute("continued", std::int64_t{1});
 }
 
 namespace {
@@ -109,10 +115,12 @@ Origin origin(const h5::Group& root) {
     const h5::Group provenance = root.group("provenance");
     if (provenance.has("config")) identity.config = provenance.read_text("config");
     if (provenance.has("command")) identity.command = provenance.read_text("command");
-    if (provenance.has("cost")) {
-      const h5::Group cost = provenance.group("cost");
-      identity.cost = Cost{cost.read_scalar("cpu"), cost.read_scalar("wall"), cost.read_scalar("memory")};
-    }
+    origin.cost = read_cost(provenance, "cost");
+    const bool whole = origin.cost && !provenance.group("cost").has_attribute("continued");
+    if (origin.schema == solution_schema.name)
+      identity.solution_cost = whole ? origin.cost : std::nullopt;
+    else
+      identity.solution_cost = read_cost(provenance, "solution_cost");
   }
   origin.content_id = content_id(identity, origin.version);
   return origin;

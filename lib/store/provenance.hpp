@@ -20,12 +20,12 @@ std::string utc_now();  // SOURCE_DATE_EPOCH where that is set
 std::string host_name();
 
 // SOURCE_DATE_EPOCH, where set, is the time that /provenance/created_utc shows
-// and at which /provenance/{wall,cpu}_seconds are left out
+// and at which what the work took is left out
 void write_identity(const h5::Group& root, const Schema& schema, const Identity& identity);
 
-// seconds since the program began, of all its threads for the CPU; again where a file grows over the whole run
-void write_times(const h5::Group& root);
-void write_cost(const h5::Group& root, const Cost& cost);  // beside the identity, when the work is done
+Cost cost_so_far();  // of this program
+// in place of what write_identity said when the file was begun; continued: earlier runs are not in it
+void write_cost(const h5::Group& root, const Cost& cost, bool continued);
 
 // refuses another schema or version by name; `config` and `command` stay empty where /provenance is missing
 Identity read_identity(const h5::Group& root, const Schema& schema);
@@ -45,6 +45,7 @@ struct Origin {
   std::string schema;
   int version = 0;
   Identity identity;
+  std::optional<Cost> cost;  // of the program that wrote it
   std::string content_id;
 };
 Origin read_origin(const std::string& path);

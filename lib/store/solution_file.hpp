@@ -75,6 +75,7 @@ class SolutionReader {
   const SolutionHeader& header() const;
   int n_steps() const;
   StepRecord step(int i) const;
+  std::vector<Summary> summary() const;  // said of the result as a whole: its errors
   const std::string& content_id() const;
 
  private:

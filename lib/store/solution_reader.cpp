@@ -91,6 +91,7 @@ SolutionReader::~SolutionReader() = default;
 
 const SolutionHeader& SolutionReader::header() const { return state_->header; }
 int SolutionReader::n_steps() const { return static_cast<int>(state_->n_steps); }
+std::vector<Summary> SolutionReader::summary() const { return read_summary(state_->file.root()); }
 const std::string& SolutionReader::content_id() const { return state_->id; }
 
 StepRecord SolutionReader::step(int index) const {

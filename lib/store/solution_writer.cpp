@@ -260,8 +260,7 @@ void SolutionWriter::State::contact(const StepRecord& record) {
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
 void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary) {
-  write_times(state_->file.root());
-  if (cost) write_cost(state_->file.root(), *cost);
+  write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
   if (!summary.empty()) write_summary(state_->file.root(), summary);
   state_->file.commit();
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <thread>
 
-#include "example.hpp"
 #include "mesh/raise.hpp"
+#include "solution_example.hpp"
 #include "store/curves_file.hpp"
 #include "store/h5.hpp"
 #include "store/material_file.hpp"
@@ -205,4 +205,28 @@ TEST_CASE("curves, columns and summary come back, the CSV names carry units") {
   CHECK(read_summary(folder + "/curves.h5").size() == 2);
   CHECK(bytes(folder + "/curves.csv") == "u_ind_mm,force_N,contact_nodes\n0,0,0\n0.1,0.3333333333333333,12\n");
   CHECK(csv_name("d", "1/MPa") == "d_per_MPa");
+}
+
+TEST_CASE("what a solution took comes back where it took one run, and its curves pass it on") {
+  const std::string folder = example::folder("cost");
+  const auto solution = [&](const std::optional<Cost>& cost) {
+    const std::string path = folder + "/solution.h5";
+    SolutionWriter file(path, example::header(false));
+    file.append(example::step(0, false));
+    file.finish(cost);
+    return path;
+  };
+  const Origin whole = read_origin(solution(Cost{1.5, 2.5, 64}));
+  REQUIRE((whole.cost && whole.identity.solution_cost));
+  CHECK(whole.cost->cpu == 1.5);
+  CHECK(whole.identity.solution_cost->memory == 64);
+  Identity identity = example::identity();
+  identity.solution_cost = whole.identity.solution_cost;
+  write_curves(folder + "/curves.h5", {}, identity);
+  const Origin curves = read_origin(folder + "/curves.h5");
+  REQUIRE((curves.cost && curves.identity.solution_cost));
+  CHECK(curves.identity.solution_cost->wall == 2.5);
+  const Origin continued = read_origin(solution({}));
+  CHECK(continued.cost);
+  CHECK_FALSE(continued.identity.solution_cost);
 }
