@@ -2,14 +2,12 @@
 // The long rungs are in pipelines/extremes.yaml; what meshes refuse is in tests/stages/extremes.cmake.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "material/uniaxial.hpp"
 #include "mesh/quality.hpp"
-#include "solve/free_motions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
@@ -327,112 +325,4 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
   const auto straight = run(false, 1.2), round = run(true, 1.2);
   CHECK(round.first == doctest::Approx(straight.first).epsilon(1e-7));
   CHECK((round.second - straight.second).norm() < 1e-6 * straight.second.norm());
-}
-
-TEST_CASE("extremes: a body that may spin under a frictionless sphere: it converges, or the free motion is named") {
-  Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4));
-  std::vector<Prescribed> held;
-  for (int i : mesh.node_sets["y_min"]) held.push_back({3 * i + 1, 0});
-  const auto words = [&] { return free_motions(mesh, number_dofs(mesh.n_nodes(), held).dofs); };
-  CHECK(words() == "the supports leave the body 3 rigid motions (2 along, 1 about an axis)");
-  int middle = -1;
-  for (int i : mesh.node_sets["y_min"])
-    if (mesh.X[i].norm() < 1e-9) middle = i;
-  REQUIRE(middle >= 0);
-  held.push_back({3 * middle, 0}), held.push_back({3 * middle + 2, 0});
-  CHECK(words() == "the supports leave the body free to turn about the axis (0, 1, 0) through (0, 1, 0) mm");
-  held.push_back({3 * (middle + 1) + 2, 0});
-  CHECK(words() == "");
-  held.clear();
-  CHECK(words() == "the supports leave the body 6 rigid motions (3 along, 3 about an axis)");
-}
-
-TEST_CASE("NaN in the residual of a real scene, whenever and with whichever solver: never a success, never a hang") {
-  const Material skin = test::stable(30, 1e-4);
-  Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4));
-  std::vector<Prescribed> held;
-  for (int i : mesh.node_sets["y_min"])
-    for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-  const RigidContact contact{"sphere", Sphere{3, {0, 5, 0}}, 0.3, mesh.node_sets["y_max"], {{1, Vec3(0, -0.3, 0)}}};
-  const Dofs dofs = number_dofs(mesh.n_nodes(), held).dofs;
-  std::vector<std::variant<NewtonOptions, KinsolOptions>> solvers{NewtonOptions{}};
-  for (KinsolStrategy s : {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point})
-    solvers.push_back(KinsolOptions{.strategy = s, .iterations = 30, .rounds = 6});
-  for (const auto& solver : solvers)
-    for (int from : {0, 1, 2, 3, 5}) {
-      CAPTURE(solver.index());
-      CAPTURE(from);
-      Equilibrium body(mesh, {skin}, Formulation::mean_dilatation, dofs);
-      Statics statics(body, {contact}, {});
-      int calls = 0;
-      const Problem clean = statics.problem();
-      Problem spoilt = clean;
-      spoilt.assess = [&](const VecX& x, bool with_tangent) {
-        Assessment a = clean.assess(x, with_tangent);
-        if (calls++ >= from) a.residual = std::nan("");
-        return a;
-      };
-      spoilt.residual = [&](const VecX& x, VecX& f) {
-        const bool ok = clean.residual(x, f);
-        if (ok && calls++ >= from) f[0] = std::nan("");
-        return ok;
-      };
-      LoadPathOptions options;
-      options.first = options.largest = 0.5, options.smallest = 0.1;
-      const PathReport path = load_path(
-          options, 0, {}, {},
-          [&](double t) {
-            statics.begin(t);
-            if (const auto* o = std::get_if<KinsolOptions>(&solver)) return kinsol(spoilt, statics.trial(), *o);
-            return newton(spoilt, statics.trial(), std::get<NewtonOptions>(solver));
-          },
-          [&](double, double, double, const SolveReport&) {
-            statics.accept();
-            return true;
-          });
-      CHECK_FALSE(path.complete);
-      CHECK_FALSE(path.why.empty());
-      CHECK(calls < 3000);
-      CHECK(statics.accepted().u.allFinite());
-    }
-}
-
-TEST_CASE("props: an indefinite matrix solved by Cholesky and a few springs taken out again") {
-  const Mesh mesh = test::block(test::even(0, 1, 3), test::even(0, 1.3, 3), test::even(0, 0.8, 3));  // no two alike
-  std::vector<Prescribed> held;
-  for (int i : mesh.node_sets.at("y_min"))
-    for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-  Equilibrium body(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
-  REQUIRE(body.assemble(VecX::Zero(body.dofs().n), true));
-  const Pattern& p = body.pattern();
-  const auto dense = [&](const std::vector<double>& values) {
-    MatX K = MatX::Zero(p.n, p.n);
-    for (int c = 0; c < p.n; ++c)
-      for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k) K(p.row[k], c) = K(c, p.row[k]) = values[k];
-    return K;
-  };
-  const VecX e = Eigen::SelfAdjointEigenSolver<MatX>(dense(body.K())).eigenvalues();
-  std::vector<int> last;
-  for (int i : mesh.node_sets.at("y_max"))
-    for (int k = 0; k < 3; ++k) last.push_back(body.dofs().equation[3 * i + k]);
-  LinearSolver linear(p, last);
-  const VecX b = VecX::LinSpaced(p.n, -1, 2);
-  for (int negative : {0, 1, 3, 7}) {
-    CAPTURE(negative);
-    std::vector<double> values = body.K();
-    const double shift = negative == 0 ? 0 : 0.5 * (e[negative - 1] + e[negative]);
-    for (int c = 0; c < p.n; ++c) values[p.column_start[c]] -= shift;
-    CHECK(linear.factorize(values) == (negative == 0));
-    REQUIRE(linear.factorize_propped(values));
-    const MatX K = dense(values);
-    CHECK((K * linear.solve(b) - b).norm() < 1e-9 * b.norm());
-    const MatX B = MatX::Identity(static_cast<Eigen::Index>(last.size()), 5);
-    MatX wide = MatX::Zero(p.n, 5);
-    for (int c = 0; c < 5; ++c) wide(last[static_cast<std::size_t>(c)], c) = 1;
-    const MatX W = wide.transpose() * K.partialPivLu().solve(wide);
-    CHECK((linear.compliance(B) - W).norm() < 1e-8 * W.norm());
-  }
-  std::vector<double> values = body.K();
-  for (double& v : values) v = -v;
-  CHECK_FALSE(linear.factorize_propped(values, 5));
 }
