@@ -7,17 +7,32 @@ set(solve ${BIN}/langer-solve configs/solve/smoke.yaml --mesh mesh.h5 --material
   --set path.first=0.0025 --set path.largest=0.0025 -o)
 run(0 ${solve} whole/solution.h5 --quiet)
 
+# Programs are watched by what they have said and stopped (SIGSTOP) where a test needs them to be somewhere, however slow the machine.
+#   runs p  freeze p  thaw p  said p text    a shell without job control starts background jobs with SIGINT ignored; env gives it back
+file(WRITE ${WORK}/watch.sh [=[
+state() { sed -n 's/^State:[^A-Z]*\(.\).*/\1/p' /proc/$1/status 2>/dev/null; }
+runs() { case $(state $1) in ''|Z|X) return 1;; esac; }
+freeze() { kill -STOP $1; while runs $1 && [ "$(state $1)" != T ]; do sleep 0.01; done; }
+thaw() { kill -CONT $1; while [ "$(state $1)" = T ]; do sleep 0.01; done; }
+said() { while runs $1 && ! grep -q "$2" said; do sleep 0.02; done; }
+delivered() { while runs $1 && ! grep -q '^ShdPnd:[[:space:]]*0*$' /proc/$1/status; do sleep 0.01; done; }  # no signal waits for $1
+]=])
+
 # a signal once the first steps are in: the step is finished and kept, the next run continues from there
 macro(stop_by signal expected)
-  file(WRITE ${WORK}/stop.sh "\"$@\" 2> ${WORK}/said & p=$!
-while kill -0 $p 2>/dev/null && ! grep -q '^step   3' ${WORK}/said; do sleep 0.02; done
-kill -${signal} $p
-wait $p\n")
-  # a shell without job control starts background jobs with SIGINT ignored; env gives it back
-  execute_process(COMMAND sh ${WORK}/stop.sh env --default-signal=INT ${solve} ${signal}/solution.h5 WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
-  file(READ ${WORK}/said said)
+  file(WRITE ${WORK}/stop.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
+\"$@\" 2> said & p=$!
+said $p '^step   3'; freeze $p; before=$(grep -c '^step' said)
+kill -${signal} $p; thaw $p
+wait $p; code=$?
+echo steps $(($(grep -c '^step' said) - before)); exit $code\n")
+  execute_process(COMMAND sh ${WORK}/stop.sh env --default-signal=INT ${solve} ${signal}/solution.h5 RESULT_VARIABLE code OUTPUT_VARIABLE steps)
+  file(READ ${folder}/said said)
   expect_equal(${code} ${expected} "exit code after SIG${signal}")
-  expect_said("stopped by SIG${signal} at t = 0.0")
+  if(NOT steps MATCHES "^steps [01]\n")
+    message(FATAL_ERROR "after SIG${signal}: ${steps}")
+  endif()
+  expect_said("stopped by SIG${signal} at t = 0.")
   expect_said("kept: ${signal}/solution.h5.part (the next run continues from there)")
   if(EXISTS ${folder}/${signal}/solution.h5 OR EXISTS ${folder}/${signal}/solution.h5.lock)
     message(FATAL_ERROR "SIG${signal} left more than the unfinished file")
@@ -29,16 +44,18 @@ endmacro()
 stop_by(INT 130)
 stop_by(TERM 143)
 
-# a second signal ends a long step at once, with the same code, and the steps before it are kept
-set(long ${BIN}/langer-solve configs/solve/smoke.yaml --mesh fine.h5 --material configs/material/abdomen_hgo_yeoh.yaml -o twice/solution.h5)
+# a second signal ends a long step at once, with the same code, and the steps before it are kept; while the program is stopped
+# between the two, only the clock goes on
+set(long ${BIN}/langer-solve configs/solve/smoke.yaml --mesh fine.h5 --material configs/material/abdomen_hgo_yeoh.yaml -v -o twice/solution.h5)
 run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o fine.h5 --quiet --set "geometry.block.divisions=[40, 8, 40]" --set geometry.block.centre.edge=0.25)
-file(WRITE ${WORK}/twice.sh "\"$@\" 2> ${WORK}/said & p=$!
-while kill -0 $p 2>/dev/null && ! grep -q '^solve:' ${WORK}/said; do sleep 0.02; done
-sleep 0.2  # into the first step
-kill -INT $p; sleep 0.3; kill -INT $p
+file(WRITE ${WORK}/twice.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
+\"$@\" 2> said & p=$!
+said $p 'iteration 0'  # it is in the first step
+kill -INT $p; delivered $p
+while runs $p; do freeze $p; sleep 0.3; kill -INT $p; thaw $p; delivered $p; done
 wait $p\n")
-execute_process(COMMAND sh ${WORK}/twice.sh env --default-signal=INT ${long} WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
-file(READ ${WORK}/said said)
+execute_process(COMMAND sh ${WORK}/twice.sh env --default-signal=INT ${long} RESULT_VARIABLE code)
+file(READ ${folder}/said said)
 expect_equal(${code} 130 "exit code after two signals")
 expect_said("ended by SIGINT")
 if(said MATCHES "\nstep")
@@ -60,13 +77,14 @@ endforeach()
 file(SHA256 ${folder}/mesh.h5 after)
 expect_equal(${after} ${before} "the old file")
 
-# two runs of one output: the second names the first and stops; the first does not notice
-file(WRITE ${WORK}/two.sh "\"$@\" --quiet 2> ${WORK}/first & p=$!
-while kill -0 $p 2>/dev/null && ! [ -s two/solution.h5.lock ]; do sleep 0.01; done
+# two runs of one output: the second names the first, which is stopped meanwhile, and ends; the first does not notice
+file(WRITE ${WORK}/two.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
+\"$@\" --quiet 2> first & p=$!
+while runs $p && ! [ -s two/solution.h5.lock ]; do sleep 0.01; done; freeze $p
 \"$@\"; second=$?
-wait $p; echo pid $p first $? second $second\n")
+thaw $p; wait $p; echo pid $p first $? second $second\n")
 file(MAKE_DIRECTORY ${folder}/two)
-execute_process(COMMAND sh ${WORK}/two.sh ${solve} two/solution.h5 WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE said ERROR_VARIABLE said)
+execute_process(COMMAND sh ${WORK}/two.sh ${solve} two/solution.h5 OUTPUT_VARIABLE said ERROR_VARIABLE said)
 string(REGEX MATCH "pid ([0-9]+) first 0 second 3" _ "${said}")
 set(pid ${CMAKE_MATCH_1})
 cmake_host_system_information(RESULT host QUERY HOSTNAME)
