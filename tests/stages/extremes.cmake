@@ -23,6 +23,13 @@ refused("m.yaml:3:3: sets.a: no node of the mesh is in this set; expected at lea
 refused("m.yaml:4:3: the key \"a\" was already given at line 3" "${block}sets:\n  a: ${corner}\n  a: ${corner}\n")
 refused("sets.top: found the name of a side" "${block}sets:\n  top: ${corner}\n")
 refused("sets.a: found the name of a point" "${block}points: {a: [0, 1, 0]}\nsets:\n  a: ${corner}\n")
+# a mesh of another program whose second cell has a corner pushed through the opposite one
+file(WRITE ${project}/folded.inp "*NODE
+1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1
+9, 0, 0, 2\n10, 1, 0, 2\n11, -0.1, -0.1, 0.9\n12, 0, 1, 2
+*ELEMENT, TYPE=C3D8
+1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 5, 6, 7, 8, 9, 10, 11, 12\n")
+refused("geometry: cell 1 is folded: Jacobian -" "geometry: {file: {path: folded.inp}}\n")
 
 # scenes: nothing of the set is there, two values for one place, nothing held
 file(WRITE ${project}/m.yaml "${block}sets:\n  corner: ${corner}\n")
