@@ -190,8 +190,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
                             (held_by_contact.empty() ? "" : "; " + held_by_contact)),
             "",
             fmt::format(
-                "kept: {} steps in {}.part (the next run continues from there); try path.smallest or solver.newton.iterations",
-                file.n_steps(), job.output)});
+                "kept: {} steps in {}.part (the next run continues from there); {}", file.n_steps(), job.output,
+                held_by_contact.empty() ? "try path.smallest or solver.newton.iterations"
+                                        : "hold also a node on the indenter's axis and, against turning, one beside it, where contact does not")});
   std::vector<Summary> errors;
   if (config.estimate == EstimateBy::second_rung)
     errors = say_errors(job, config, material, valued(whole, mesh, last), last.residual);

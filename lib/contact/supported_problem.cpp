@@ -67,11 +67,15 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
   for (; report.newton_steps < options.newton_steps; ++report.newton_steps) {
     report.residual = now.F.lpNorm<Eigen::Infinity>() / scale(s);
     if (report.residual <= 1e-12 || !std::isfinite(report.residual)) break;
+    // directions that nothing decides (all contacts open, a body free to spin under a smooth sphere): the least step
+    constexpr double decided = 1e-8;
     const Eigen::PartialPivLU<MatX> lu(Jacobian);
     VecX step = lu.solve(-now.F);
-    // a direction that nothing decides (all contacts open, or smooth ones that leave a body free to glide): the least step
-    if (!step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm())
-      step = Jacobian.completeOrthogonalDecomposition().solve(-now.F);
+    if (lu.rcond() < decided || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
+      Eigen::CompleteOrthogonalDecomposition<MatX> least;
+      least.setThreshold(decided);
+      step = least.compute(Jacobian).solve(-now.F);
+    }
     if (!step.allFinite()) break;
     double t = 1;
     Function next;
@@ -79,6 +83,7 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
       next = evaluate(p, rho, s + t * step, nullptr);
       if (next.F.norm() <= (1 - 1e-4 * t) * now.F.norm()) break;
     }
+    if (report.residual <= 1e-10 && !(next.F.norm() < 0.5 * now.F.norm())) break;  // that is rounding
     if (t <= 1e-4) t = 1;  // between pieces of the function |F| may have to rise once
     s += t * step;
     now = evaluate(p, rho, s, &Jacobian);

@@ -6,6 +6,8 @@
 
 #include "base/stopwatch.hpp"
 #include "contact/supported_problem.hpp"
+#include "mesh/quality.hpp"
+#include "solve/free_motions.hpp"
 
 namespace langer {
 
@@ -25,6 +27,13 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
   {
     const Stopwatch watch(cost_.analysis);
     linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
+  }
+  if (!last_.empty() && !free_motions(equilibrium_.mesh(), dofs).empty()) {
+    // of the order of what the body opposes to a movement of one node: the weak resistance of contact to a free motion stays visible
+    double mu = 0;
+    const int n_cells = equilibrium_.mesh().n_cells();
+    for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(equilibrium_.material(e))));
+    loose_spring_ = mu * std::cbrt(quality(equilibrium_.mesh()).volume / n_cells);
   }
   now_.u = VecX::Zero(dofs.n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
@@ -117,7 +126,26 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
       out.missing = "the contact law does not hold";
     }
   }
+  if (out.others && loose_spring_ > 0 && slips_away()) {
+    out.others = false;
+    out.missing = "the body slips away from under the indenter, and nothing else holds it";
+  }
   return out;
+}
+
+// nothing touches the body, but something would if it were where the increment began
+bool Statics::slips_away() const {
+  bool in_the_way = false;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const Vec3 c = indenter_displacement(contacts_[k], t_);
+    for (std::size_t i = 0; i < r_[k].size(); ++i) {
+      if (!r_[k][i].isZero(0)) return false;
+      const int node = contacts_[k].nodes[i];
+      const Vec3 x = equilibrium_.mesh().X[node] + now_.u.segment<3>(3 * node);
+      in_the_way = in_the_way || shape_at(contacts_[k].shape, x - c).gap < -options_.gap_tolerance;
+    }
+  }
+  return in_the_way;
 }
 
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
@@ -128,20 +156,20 @@ bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
   ++cost_.factorizations;
   factored_at_ = u_, factor_ = Factor::whole;
-  if (!supported_ && linear_->factorize(equilibrium_.K())) return true;
+  if (!supported_ && loose_spring_ == 0 && linear_->factorize(equilibrium_.K())) return true;
   ++n_indefinite_;
   factor_ = Factor::supported;
   if (!last_.empty()) {
     const Pattern& pattern = equilibrium_.pattern();
     double diagonal = 0;  // a column starts with its diagonal
     for (int row : last_) diagonal += std::abs(equilibrium_.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
-    for (double stiffer : {1.0, 30.0, 1000.0}) {
-      if (supported_ && stiffer * diagonal < 0.5 * gamma_) continue;  // softer springs were not enough in this increment
-      gamma_ = stiffer * diagonal;
+    for (double spring : {loose_spring_, diagonal, 30 * diagonal, 1000 * diagonal}) {
+      if (spring == 0 || (supported_ && spring < 0.5 * gamma_)) continue;  // softer springs were not enough in this increment
+      gamma_ = spring;
       std::vector<double> K = equilibrium_.K();
       for (int row : last_) K[pattern.column_start[row]] += gamma_;
       if (linear_->factorize(K)) return supported_ = true;
-      if (stiffer < 1000) continue;
+      if (spring < 1000 * diagonal) continue;
       // The body itself gives way. In a few directions props help; where they are many, the increment was too long: K there
       // says nothing, and the same point comes within reach by shorter ones.
       factor_ = Factor::indefinite, ++n_unstable_;
@@ -273,6 +301,8 @@ std::optional<VecX> Statics::contact_forces(const VecX& free_move) {
     s = VecX::Zero(3 * m);
     const LocalReport local = solve_supported({slipping(W), A, q + slipping(move), b, mu}, s);
     r = b + A * s;
+    for (int p = 0; p < m; ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
+      if (local.status[p] == ContactStatus::open) r.segment<3>(3 * p).setZero();
     take(local);
   }
   if (!s.allFinite() || !r.allFinite()) return std::nullopt;

@@ -74,6 +74,7 @@ class Statics {
   bool factorize();
   std::optional<VecX> contact_forces(const VecX& free_move);
   bool admissible(const VecX& u) const;
+  bool slips_away() const;
   void moved(const VecX& du, double step);
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
   VecX remaining_prescribed(const VecX& u) const;
@@ -93,6 +94,7 @@ class Statics {
   VecX u_start_;                               // state that the increment's slip is measured from
   bool supported_ = false;                     // the factor is of K + gamma on the candidates' diagonal
   double gamma_ = 0;                           // [N/mm]
+  double loose_spring_ = 0;                    // gamma to begin with where the supports leave rigid motions [N/mm]
   enum class Factor { none, whole, supported, indefinite } factor_ = Factor::none;
   VecX factored_at_;  // u of the tangent that was factorized last
   int n_indefinite_ = 0, n_unstable_ = 0;

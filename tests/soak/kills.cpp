@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,7 +77,9 @@ Ended run(const fs::path& folder, Words command, const std::string& out, double 
   }
   waitpid(child, &ended.status, 0);
   ended.seconds = seconds();
-  kill(-child, SIGKILL);  // grandchildren
+  kill(-child, SIGKILL);  // grandchildren, which become children of this process
+  for (int status = 0; waitpid(-child, &status, 0) > 0;) {
+  }  // on a busy machine one that is killed may hold its lock for a while yet
   return ended;
 }
 
@@ -120,6 +123,7 @@ Words differences(const fs::path& expected, const fs::path& found) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
   if (argc < 4) return std::printf("langer-soak <project> <programs> <folder> --kills 200 [--seed 1] [--table kills.md]\n"), 2;
   const fs::path root = fs::canonical(argv[1]), bin = fs::absolute(argv[2]), work = fs::absolute(argv[3]);
   int kills = 200;

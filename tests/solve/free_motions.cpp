@@ -1,13 +1,16 @@
 // Bodies that their supports do not hold.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+
 #include "assembly/dofs.hpp"
 #include "solve/free_motions.hpp"
 #include "support/indentation.hpp"
+#include "support/laws.hpp"
 
 using namespace langer;
 
-TEST_CASE("extremes: a body that may spin under a frictionless sphere: it converges, or the free motion is named") {
+TEST_CASE("extremes: motions that supports leave free are counted, and the last one is named") {
   Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4));
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets["y_min"]) held.push_back({3 * i + 1, 0});
@@ -23,4 +26,58 @@ TEST_CASE("extremes: a body that may spin under a frictionless sphere: it conver
   CHECK(words() == "");
   held.clear();
   CHECK(words() == "the supports leave the body 6 rigid motions (3 along, 3 about an axis)");
+}
+
+TEST_CASE("extremes: a block free to glide and spin on its base is pressed by a smooth sphere as one that is held is") {
+  for (double d : {1e-3, 1e-6})
+    for (int n : {6, 7}) {  // a node under the sphere first, or four
+      CAPTURE(d);
+      CAPTURE(n);
+      const auto press = [&](bool isostatic) {
+        const Mesh mesh = test::block(test::even(-2, 2, n), test::even(0, 2, 3), test::even(-2, 2, n));
+        std::vector<Prescribed> held;
+        for (int i : mesh.node_sets.at("y_min")) held.push_back({3 * i + 1, 0});
+        for (int i : mesh.node_sets.at("y_min")) {  // the middles of two opposite edges: what symmetry leaves where it is
+          if (!isostatic) break;
+          const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
+          if (std::abs(X[2]) < 1e-9 && std::abs(std::abs(X[0]) - 2) < 1e-9) held.push_back({3 * i + 2, 0});
+          if (X.norm() < 1e-9) held.push_back({3 * i, 0});
+        }
+        const RigidContact sphere{"sphere", Sphere{2, {0, 4, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.4, 0)}}};
+        Equilibrium body(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+        Statics statics(body, {sphere}, {});
+        LoadPathOptions options;
+        options.first = options.largest = 0.1;
+        int most = 0;
+        const PathReport path = load_path(
+            options, 0, {}, {},
+            [&](double t) {
+              statics.begin(t);
+              return newton(statics.problem(), statics.trial(), {});
+            },
+            [&](double, double, double, const SolveReport& report) {
+              statics.accept();
+              most = std::max(most, report.iterations);
+              const ContactDefect defect = statics.defects()[0];
+              CHECK(defect.penetration <= 1e-9);
+              CHECK(defect.complementarity <= 1e-8);
+              return true;
+            });
+        REQUIRE_MESSAGE(path.complete, path.why);
+        CHECK(path.cuts == 0);
+        CHECK(most <= 9);
+        Vec3 turn = Vec3::Zero(), glide = Vec3::Zero();
+        double inertia = 0;
+        for (int i = 0; i < mesh.n_nodes(); ++i) {
+          const Vec3 u = statics.accepted().u.segment<3>(3 * i), X = mesh.X[static_cast<std::size_t>(i)];
+          turn += X.cross(u), glide += u / mesh.n_nodes(), inertia += X[0] * X[0] + X[2] * X[2];
+        }
+        CHECK(std::abs(turn[1]) / inertia < 1e-3);
+        CHECK(std::hypot(glide[0], glide[2]) < 1e-6);
+        return statics.defects()[0].force.norm();
+      };
+      const double loose = press(false);
+      if (n == 6) CHECK(loose == doctest::Approx(press(true)).epsilon(1e-7));
+      CHECK(loose > 0.3);
+    }
 }
