@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench ladder trade accuracy paper install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-peers ladder trade accuracy paper install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -83,6 +83,19 @@ reliability: soak fuzz
 bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
+
+# the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
+# An hour or two. KEEP=1 goes on with what runs/peers/peers.csv has; PEERS_LIMIT: CPU seconds for a run
+peer_packages := calculix-ccx python3-getfem python3-dolfinx-real python3-numpy
+bench-peers: build
+	@$(MAKE) --no-print-directory deps packages="$(peer_packages)"
+	@[ -n "$(KEEP)" ] || rm -rf runs/peers
+	@/usr/bin/python3 tests/peers/run.py $(build)/bin runs/peers
+	@for scene in isotropic positive; do for what in levels runs; do \
+	  /usr/bin/python3 tests/peers/table.py $$what runs/peers/peers.csv $$scene > runs/peers/table.md && \
+	  tests/soak/page docs/peers.md $${scene}_$$what runs/peers/table.md || exit 1; done; done
+	@/usr/bin/python3 tests/peers/table.py picture runs/peers/peers.csv isotropic | gnuplot > docs/peers.svg
+	@cat runs/peers/peers.csv
 
 # every figure and table of the paper, and docs/paper.md, which shows them beside the published ones
 paper:
@@ -159,6 +172,7 @@ help:
 	@echo "make soak                     kill -9 at random times, KILLS=200"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
+	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
