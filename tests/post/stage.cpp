@@ -16,6 +16,7 @@
 #include "store/solution_file.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
+#include "tensor/stress.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -154,6 +155,53 @@ TEST_CASE("snapshots are the states asked for, with fields at points and in cell
   CHECK(after[0] == doctest::Approx(1.1));
   CHECK(cells.read<double>("fibre_1", {3, 3}).values[0] == 1);
   CHECK(cells.read<double>("J", {3}).values[2] == doctest::Approx(1.1 * 0.95 * 0.96));
+}
+
+TEST_CASE("layers with laws and fibre angles of their own: each shows the stress of its law, and the stiffest point is in the stiff one") {
+  const std::string where = folder("layers");
+  SolutionHeader layered = header();
+  layered.mesh.bodies = {"deep", "shallow"};
+  layered.mesh.body = {0, 1, 1};  // cells along x
+  layered.materials = {test::stable(20, 1e-2), test::stable(70, 1e-2)};
+  std::get<Yeoh>(layered.materials[1].matrix[0]).a1 *= 3;
+  layered.material = layered.materials[0];
+  const auto corner = [&](double x) {
+    for (int i = 0; i < layered.mesh.n_nodes(); ++i)
+      if ((layered.mesh.X[static_cast<std::size_t>(i)] - Vec3(x, 1, 1)).norm() < 1e-9) return i;
+    return -1;
+  };
+  layered.mesh.node_sets["P"] = {corner(0)};  // in the first body
+  layered.mesh.node_sets["Q"] = {corner(2)};  // between two cells of the second
+  {
+    SolutionWriter writer(where + "/layers.h5", layered);
+    for (int i = 1; i <= n_steps; ++i) writer.append(step(layered, double(i) / n_steps));
+    writer.finish();
+  }
+  fs::rename(where + "/layers.h5", where + "/solution.h5");
+  const Run run = post(where,
+                       "columns:\n- {quantity: u_ind}\n- {quantity: von_mises, at: P}\n- {quantity: von_mises, at: Q}\n"
+                       "- {quantity: fibre_stretch, at: P}\n- {quantity: fibre_stretch, at: Q}\n- {quantity: von_mises_max}\n"
+                       "- {quantity: von_mises_max_x}\n");
+  INFO(run.said);
+  REQUIRE(run.code == 0);
+  const std::vector<Column> columns = read_curves(where + "/out/curves.h5").curves.columns;
+  REQUIRE(columns.size() == 7);
+  for (int row = 1; row <= n_steps; ++row) {
+    CAPTURE(row);
+    const double s = double(row) / n_steps;
+    const Mat3 F = Vec3(1 + 0.1 * s, 1 - 0.05 * s, 1 - 0.04 * s).asDiagonal();
+    for (int body : {0, 1}) {
+      const Material& m = layered.materials[static_cast<std::size_t>(body)];
+      const std::vector<Vec3> a = fibre_directions(m);
+      const double expected = von_mises(cauchy(F, response(m, F.transpose() * F, a).S));
+      CHECK(columns[1 + body].values[row] == doctest::Approx(expected).epsilon(1e-10));
+      CHECK(columns[3 + body].values[row] ==
+            doctest::Approx((F * a[0]).norm() / std::cbrt(F(0, 0) * F(1, 1) * F(2, 2))).epsilon(1e-10));
+    }
+    CHECK(columns[2].values[row] > 1.1 * columns[1].values[row]);
+    CHECK(columns[5].values[row] == doctest::Approx(columns[2].values[row]).epsilon(1e-10));
+    CHECK(columns[6].values[row] > 1);
+  }
 }
 
 TEST_CASE("figures and the picture stand beside the table, without gnuplot it says so once and goes on") {
