@@ -1,5 +1,6 @@
-// CalculiX: hyperelastic cards for isotropic laws; fibres as its user material ELASTIC_FIBER, which knows a neo-Hookean matrix only.
-// hex27 become C3D20R: it has no 27-node cells. Numbers are cut after 20 letters there, so none is longer. The sphere is a layer of hexahedra all of whose nodes are led along the path.
+// CalculiX: hyperelastic cards for isotropic laws; fibres as its user material ELASTIC_FIBER, which knows a neo-Hookean matrix
+// only. hex27 become C3D20R: it has no 27-node cells. Numbers are cut after 20 letters there, so none is longer. The sphere is
+// a layer of hexahedra all of whose nodes are led along the path.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -22,13 +23,18 @@ constexpr double usual_stiffness = 1000;              // of contact, in units of
 
 std::string name_of(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
-    throw Failure(Exit::config, Error{{"CalculiX"}, "", "the name \"" + name + "\" cannot stand in its deck", "at most 60 letters without , \" * = and spaces", ""});
+    throw Failure(Exit::config, Error{{"CalculiX"},
+                                      "",
+                                      "the name \"" + name + "\" cannot stand in its deck",
+                                      "at most 60 letters without , \" * = and spaces",
+                                      ""});
   return name;
 }
 
 std::string list(const std::vector<int>& numbers) {
   std::string s;
-  for (std::size_t i = 0; i < numbers.size(); ++i) s += fmt::format("{},{}", numbers[i], i % 16 == 15 || i + 1 == numbers.size() ? "\n" : " ");
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    s += fmt::format("{},{}", numbers[i], i % 16 == 15 || i + 1 == numbers.size() ? "\n" : " ");
   return s;
 }
 
@@ -39,7 +45,8 @@ double neo_hookean(const Material& m) {
     const auto* neo = std::get_if<NeoHooke>(&term);
     const auto* yeoh = std::get_if<Yeoh>(&term);
     if (!neo && !(yeoh && yeoh->a2 == 0 && yeoh->a3 == 0))
-      refuse("fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix, or no fibres: CalculiX' ELASTIC_FIBER knows no other");
+      refuse("fibres in a matrix other than neo-Hookean",
+             "a neo-Hookean matrix, or no fibres: CalculiX' ELASTIC_FIBER knows no other");
     a1 += neo ? neo->a1 : yeoh->a1;
   }
   return a1;
@@ -58,14 +65,17 @@ std::string fibre_card(const Material& m, const FibreFrame& frame, const std::st
     for (double c : {a[0], a[1], f.hgo.c1, f.hgo.c2}) constants.push_back(c);
   }
   std::string s = fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}\n", name, constants.size());
-  for (std::size_t i = 0; i < constants.size(); ++i) s += fmt::format("{:.12g},{}", constants[i], i % 8 == 7 || i + 1 == constants.size() ? "\n" : " ");
+  for (std::size_t i = 0; i < constants.size(); ++i)
+    s += fmt::format("{:.12g},{}", constants[i], i % 8 == 7 || i + 1 == constants.size() ? "\n" : " ");
   return s;
 }
 
 std::string isotropic_card(const Material& m, const std::string& name) {
   for (const Card& card : cards(m))
     if (card.program == "CalculiX") {
-      if (!card.exists) refuse(card.text.substr(3, card.text.find('\n') - 3), "a law of CalculiX: neo-Hooke, Mooney-Rivlin, Yeoh, Signorini, Ogden, Arruda-Boyce");
+      if (!card.exists)
+        refuse(card.text.substr(3, card.text.find('\n') - 3),
+               "a law of CalculiX: neo-Hooke, Mooney-Rivlin, Yeoh, Signorini, Ogden, Arruda-Boyce");
       std::string text = card.text;
       const std::string own = "NAME=LANGER";
       return text.replace(text.find(own), own.size(), "NAME=" + name);
@@ -89,7 +99,8 @@ class Writer {
     if (quadratic) s_ += "** hex27 are C3D20R here: the middles of facets and cells are left out\n";
     if (!deck_.contacts.empty())
       s_ += fmt::format(
-          "** spheres are rigid facets with penalty contact: stiffness {:g} times the shear modulus per mm (PRESSURE-OVERCLOSURE); a higher\n"
+          "** spheres are rigid facets with penalty contact: stiffness {:g} times the shear modulus per mm "
+          "(PRESSURE-OVERCLOSURE); a higher\n"
           "** one lets less of the sphere into the body. Langer has the exact sphere and lets nothing in.\n",
           usual_stiffness);
     body(quadratic);
@@ -142,8 +153,9 @@ class Writer {
       for (std::size_t k = 0; k < frame.in_frame.size(); ++k)
         if ((frame.in_frame[k] - components[group.body][k]).norm() > 1e-6)
           refuse("fibre families whose angle to each other varies", "the same angle everywhere");
-      sections += fmt::format("*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n", g + 1,
-                              frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+      sections +=
+          fmt::format("*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+                      g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
       sections += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}, ORIENTATION=FIBRES{}\n", set, law, g + 1);
     }
     for (const std::string& law : law_of_body) s_ += law;
@@ -161,7 +173,8 @@ class Writer {
   }
 
   void contact(const DeckContact& c, int number) {
-    const std::string name = name_of(c.law.name), slave = fmt::format("SLAVE{}", number + 1), master = fmt::format("MASTER{}", number + 1);
+    const std::string name = name_of(c.law.name), slave = fmt::format("SLAVE{}", number + 1),
+                      master = fmt::format("MASTER{}", number + 1);
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
     for (const Facet& f : c.facets) s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
     const int n = static_cast<int>(c.cap.outer.size()), first = next_node_, first_cell = next_cell_;
@@ -180,8 +193,10 @@ class Writer {
     for (int e = first_cell; e < next_cell_; ++e) s_ += fmt::format("{}, S2\n", e);
     double mu = 1e300;
     for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus_of(m));
-    s_ += fmt::format("*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n", name, mu);
-    s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n", number + 1, usual_stiffness * mu);
+    s_ += fmt::format("*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
+                      name, mu);
+    s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
+                      number + 1, usual_stiffness * mu);
     if (c.law.mu > 0) s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
     s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n", number + 1, slave, master);
   }
@@ -190,8 +205,8 @@ class Writer {
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
-      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n", std::min(deck_.first, takes), takes,
-                        std::min(deck_.smallest, takes), std::min(deck_.largest, takes));
+      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n", std::min(deck_.first, takes),
+                        takes, std::min(deck_.smallest, takes), std::min(deck_.largest, takes));
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
         if (h.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.value * t);
@@ -199,7 +214,8 @@ class Writer {
       for (const DeckContact& c : deck_.contacts) {
         const Vec3 u = indenter_displacement(c.law, t);
         for (int k = 0; k < 3; ++k) moved += fmt::format("RIGID_{}, {}, {}, {:.12g}\n", c.law.name, k + 1, k + 1, u[k]);
-        asked += fmt::format("*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n", c.law.name, c.set);
+        asked += fmt::format("*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n",
+                             c.law.name, c.set);
       }
       std::vector<std::string> printed;
       for (const HeldSet& h : deck_.held)

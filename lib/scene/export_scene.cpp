@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -26,7 +26,8 @@ Vec3 plain(const Vec3& x) {
 
 const auto nowhere = [](const std::string&) { return Place{}; };
 
-[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found, const std::string& expected) {
+[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found,
+                         const std::string& expected) {
   throw Failure(Exit::config, Error{{path}, key, found, expected, ""});
 }
 
@@ -44,7 +45,8 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   }
   for (const auto& [name, contact] : config.contacts)
     if (!std::holds_alternative<Sphere>(contact.rigid))
-      refuse(path, "contacts." + name + ".rigid", "an indenter of another shape", "a sphere, or no indenter: other shapes are not exported");
+      refuse(path, "contacts." + name + ".rigid", "an indenter of another shape",
+             "a sphere, or no indenter: other shapes are not exported");
   return config;
 }
 
@@ -100,9 +102,11 @@ double shortest_side(const Mesh& mesh, const std::vector<Facet>& facets) {
   return least;
 }
 
-DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set, const Vec3& towards, const std::string& path) {
+DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set, const Vec3& towards,
+                       const std::string& path) {
   DeckContact contact{law, set, outer_facets(mesh, law.nodes), {}};
-  if (contact.facets.empty()) refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set, "a set that covers facets");
+  if (contact.facets.empty())
+    refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set, "a set that covers facets");
   std::vector<Vec3> places;
   for (int n : law.nodes) {
     places.push_back(mesh.X[n]);
@@ -164,7 +168,10 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
       if (name_set(support.on)) deck.held.push_back({support.on, static_cast<int>(axis), 0});
   for (const LoadConfig& load : config.loads)
     for (int k = 0; k < 3; ++k)
-      if (const auto& to = k == 0 ? load.displacement.x : k == 1 ? load.displacement.y : load.displacement.z; to && name_set(load.on))
+      if (const auto& to = k == 0   ? load.displacement.x
+                           : k == 1 ? load.displacement.y
+                                    : load.displacement.z;
+          to && name_set(load.on))
         deck.held.push_back({load.on, k, *to});
   if (part)
     for (int k = 0; k < 3; ++k) {
@@ -181,8 +188,9 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     const RigidContact& law = scene.contacts[c];
     const Sphere& sphere = std::get<Sphere>(law.shape);
     const Vec3 to = plain(indenter_displacement(law, 1));
-    deck.words.push_back(fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}", law.name,
-                                     sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
+    deck.words.push_back(fmt::format(
+        "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}", law.name,
+        sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
     for (int n : whole.contacts[c].nodes) middle += header.mesh.X[n] / static_cast<double>(whole.contacts[c].nodes.size());
     const std::string& set = config.contacts.at(law.name).on;
@@ -197,20 +205,24 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
   stops.insert(1.0);
   deck.stops.assign(stops.begin(), stops.end());
 
-  deck.words.push_back(fmt::format("{} cells {}, {} nodes", deck.mesh.n_cells(), names(deck.mesh.type)[static_cast<int>(deck.mesh.type)],
-                                   deck.mesh.n_nodes()));
+  deck.words.push_back(fmt::format("{} cells {}, {} nodes", deck.mesh.n_cells(),
+                                   names(deck.mesh.type)[static_cast<int>(deck.mesh.type)], deck.mesh.n_nodes()));
   if (part) deck.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part->words(), deck.share));
-  if (found && !part) deck.words.push_back("solved by symmetry (" + found->words() + "), which mirror planes between cells cannot express: the whole body");
+  if (found && !part)
+    deck.words.push_back("solved by symmetry (" + found->words() +
+                         "), which mirror planes between cells cannot express: the whole body");
   if (solution.n_steps() > 0) {
     const StepRecord last = solution.step(solution.n_steps() - 1);
     if (!scene.contacts.empty())
-      deck.words.push_back(fmt::format("Langer's answer at t = {:g}: force on the indenter of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
-                                       plain(last.force_ind)[0], plain(last.force_ind)[1], plain(last.force_ind)[2]));
+      deck.words.push_back(
+          fmt::format("Langer's answer at t = {:g}: force on the indenter of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
+                      plain(last.force_ind)[0], plain(last.force_ind)[1], plain(last.force_ind)[2]));
     for (const LoadConfig& load : config.loads) {
       Vec3 force = Vec3::Zero();
       for (int n : header.mesh.node_sets.at(load.on)) force += last.reaction[n];
-      deck.words.push_back(fmt::format("Langer's answer at t = {:g}: force on \"{}\" of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t, load.on,
-                                       force[0], force[1], force[2]));
+      deck.words.push_back(
+          fmt::format("Langer's answer at t = {:g}: force on \"{}\" of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
+                      load.on, force[0], force[1], force[2]));
     }
   }
   return deck;

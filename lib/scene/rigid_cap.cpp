@@ -1,7 +1,7 @@
 #include "scene/rigid_cap.hpp"
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

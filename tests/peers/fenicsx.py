@@ -24,7 +24,8 @@ fast = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
 cells = deck.cells[:, peers.TENSOR_ORDER]
 body = mesh.create_mesh(MPI.COMM_WORLD, cells, deck.nodes, ufl.Mesh(ufl.VectorElement("Lagrange", ufl.hexahedron, 1)))
 d, penalty = (fem.Constant(body, PETSc.ScalarType(x)) for x in (d, penalty))  # no new compilation for other values
-space = fem.FunctionSpace(body, ufl.MixedElement(ufl.VectorElement("Lagrange", ufl.hexahedron, 2), ufl.FiniteElement("DPC", ufl.hexahedron, 1)))
+element = ufl.MixedElement(ufl.VectorElement("Lagrange", ufl.hexahedron, 2), ufl.FiniteElement("DPC", ufl.hexahedron, 1))
+space = fem.FunctionSpace(body, element)
 top = deck.nodes[deck.sets["contact"], 1].max()
 reach = np.linalg.norm(deck.nodes[deck.sets["contact"]] - deck.centre * (1, 0, 1), axis=1).max()
 
@@ -142,9 +143,11 @@ def back():
 peers.along_path(solve, keep, back, increments)
 force = -deck.share * fem.assemble_scalar(fem.form(pressure * normal[1] * ds))
 if deck.friction > 0:  # the body slides up along the sphere and takes it with it
-    force += deck.share * fem.assemble_scalar(fem.form(deck.friction * pressure * slip[1] / ufl.sqrt(ufl.inner(slip, slip) + little**2) * ds))
+    drag = deck.friction * pressure * slip[1] / ufl.sqrt(ufl.inner(slip, slip) + little**2)
+    force += deck.share * fem.assemble_scalar(fem.form(drag * ds))
 found = w.sub(0).collapse()
 places = found.function_space.tabulate_dof_coordinates()
 on_top = near_sphere(places.T)
 x = places[on_top] + found.x.array.reshape(-1, 3)[on_top]
-peers.say(force=abs(force), penetration=peers.penetration(deck, x, 1.0), unknowns=space.dofmap.index_map.size_global * space.dofmap.index_map_bs)
+unknowns = space.dofmap.index_map.size_global * space.dofmap.index_map_bs
+peers.say(force=abs(force), penetration=peers.penetration(deck, x, 1.0), unknowns=unknowns)

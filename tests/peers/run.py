@@ -3,7 +3,8 @@
     run.py <folder of Langer's programs> <folder of the results> [scene ...]       scenes: isotropic positive
 
 peers.csv has one line per run: force, its error, CPU seconds (user and system, one thread), memory, how far the sphere is in the body.
-A run that is there already is not run again; PEERS_TOOLS names those that run. Who takes more than LIMIT CPU seconds is stopped, which is a result like any other."""
+A run that is there already is not run again; PEERS_TOOLS names those that run. Who takes more than LIMIT CPU seconds is stopped,
+which is a result like any other."""
 import csv
 import json
 import os
@@ -40,7 +41,8 @@ def measured(command, where, log):
 
     one = {v: "1" for v in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER")}
     with open(log, "w") as out:
-        child = subprocess.Popen([str(c) for c in command], cwd=where, stdout=out, stderr=subprocess.STDOUT, preexec_fn=limits, env={**os.environ, **one})
+        child = subprocess.Popen([str(c) for c in command], cwd=where, stdout=out, stderr=subprocess.STDOUT, preexec_fn=limits,
+                                 env={**os.environ, **one})
         _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
     return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024, child.returncode, open(log, errors="replace").read()
@@ -56,9 +58,11 @@ def record(scene, tool, cells, edge, settings, run):
         cpu, memory, found = float("nan"), float("nan"), {"words": f"{Path(str(e.cmd[0])).name} ended with {e.returncode}"}
     force = found.get("force")
     row = dict(zip(COLUMNS, key))
-    row.update(unknowns=found.get("unknowns", ""), cpu_s=f"{cpu:.2f}", memory_MB=f"{memory:.0f}", words=found.get("words", "").replace(",", ";"))
+    row.update(unknowns=found.get("unknowns", ""), cpu_s=f"{cpu:.2f}", memory_MB=f"{memory:.0f}")
+    row.update(words=found.get("words", "").replace(",", ";"))
     if force is not None:
-        row.update(force_N=f"{force:.5g}", error_percent=f"{100 * (force / REFERENCE[scene] - 1):+.3f}", inside_um=f"{1000 * found['penetration']:.2g}")
+        row.update(force_N=f"{force:.5g}", error_percent=f"{100 * (force / REFERENCE[scene] - 1):+.3f}")
+        row.update(inside_um=f"{1000 * found['penetration']:.2g}")
     new = not table.exists()
     with open(table, "a", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS)
@@ -148,7 +152,8 @@ def calculix(scene, edge, increments, d, stiffness, cells="hex27"):
     for old in ("dat", "sta", "frd"):
         job.with_suffix("." + old).unlink(missing_ok=True)
     cpu, memory, code, said = measured(["ccx", "-i", "calculix"], folder, folder / "calculix.log")
-    reached = [line.split() for line in job.with_suffix(".sta").read_text().splitlines() if re.match(r"\s+\d+\s+\d+\s+\d+\s+\d+\s", line)] if job.with_suffix(".sta").exists() else []
+    steps = job.with_suffix(".sta").read_text().splitlines() if job.with_suffix(".sta").exists() else []
+    reached = [line.split() for line in steps if re.match(r"\s+\d+\s+\d+\s+\d+\s+\d+\s", line)]
     unknowns = re.search(r"number of equations\s+(\d+)", said)
     result = {"unknowns": int(unknowns[1]) if unknowns else ""}
     if code or not reached or float(reached[-1][5]) < 1 - 1e-9:
@@ -165,7 +170,8 @@ def calculix(scene, edge, increments, d, stiffness, cells="hex27"):
             moved[int(values[0])] = [float(x) for x in values[1:]]
         elif moved:
             break
-    places = {int(c[0]): [float(x) for x in c[1:]] for c in (line.split(",") for line in text.split("*ELEMENT")[0].splitlines() if re.match(r"\d+,", line))}
+    nodes = [line.split(",") for line in text.split("*ELEMENT")[0].splitlines() if re.match(r"\d+,", line)]
+    places = {int(c[0]): [float(x) for x in c[1:]] for c in nodes}
     x = np.array([np.array(places[n]) + u for n, u in moved.items()])
     result["penetration"] = peers.penetration(scene_of, x, 1.0)
     return cpu, memory, result
@@ -212,14 +218,19 @@ def isotropic():
         script("fenicsx.py", s, 0.8, 4, 1e-6, 1e3)  # compiles its kernels, which are kept: not counted
         for edge in (0.8, 0.5, 0.3536, 0.25, 0.1768):
             for steps, penalty in [(4, 1e3), (4, 3e3), (4, 1e4)] if edge < 0.8 else [(2, 1e3), (4, 3e3), (4, 1e4)]:
-                record(s, "FEniCSx", "Q2/P1", edge, f"{steps} increments d=1e-06 penalty {penalty:g}", lambda: script("fenicsx.py", s, edge, steps, 1e-6, penalty))
+                record(s, "FEniCSx", "Q2/P1", edge, f"{steps} increments d=1e-06 penalty {penalty:g}",
+                       lambda: script("fenicsx.py", s, edge, steps, 1e-6, penalty))
     if "GetFEM" in TOOLS and subprocess.run([PYTHON, "-c", "import getfem"], capture_output=True).returncode == 0:
         for edge in (0.8, 0.5, 0.3536, 0.25):
-            record(s, "GetFEM", "Q2/Q1", edge, "4 increments d=1e-06 penalty 1000", lambda: script("getfem_.py", s, edge, 4, 1e-6, "q2", 1e3))
-        record(s, "GetFEM", "Q2/Q1", 0.5, "10 increments d=1e-06 penalty 10000", lambda: script("getfem_.py", s, 0.5, 10, 1e-6, "q2", 1e4))
-        record(s, "GetFEM", "Q2/Q1", 0.5, "10 increments d=1e-06 augmented", lambda: script("getfem_.py", s, 0.5, 10, 1e-6, "q2", "augmented"))
+            record(s, "GetFEM", "Q2/Q1", edge, "4 increments d=1e-06 penalty 1000",
+                   lambda: script("getfem_.py", s, edge, 4, 1e-6, "q2", 1e3))
+        record(s, "GetFEM", "Q2/Q1", 0.5, "10 increments d=1e-06 penalty 10000",
+                   lambda: script("getfem_.py", s, 0.5, 10, 1e-6, "q2", 1e4))
+        record(s, "GetFEM", "Q2/Q1", 0.5, "10 increments d=1e-06 augmented",
+                   lambda: script("getfem_.py", s, 0.5, 10, 1e-6, "q2", "augmented"))
         for edge in (0.35, 0.25, 0.175, 0.125):
-            record(s, "GetFEM", "Q1/P0", edge, "4 increments d=1e-06 penalty 1000", lambda: script("getfem_.py", s, edge, 4, 1e-6, "q1", 1e3))
+            record(s, "GetFEM", "Q1/P0", edge, "4 increments d=1e-06 penalty 1000",
+                   lambda: script("getfem_.py", s, edge, 4, 1e-6, "q1", 1e3))
     if "FEBio" in TOOLS and shutil.which("febio4"):
         for cells, edge in [("hex8", 0.35), ("hex8", 0.25), ("hex8", 0.175), ("hex27", 0.5)]:
             record(s, "FEBio", cells, edge, "10 increments d=0.001", lambda: febio(s, cells, edge, 10, 1e-3))
@@ -228,17 +239,21 @@ def isotropic():
 def positive():
     """c1 = +0.317, fibres at 30 degrees, friction 0.34: no mirror plane, so that the peers take the whole body"""
     s = "positive"
-    for cells, edge, steps in [("hex27", 0.8, 4), ("hex27", 0.5, 4), ("hex27", 0.5, 10), ("hex27", 0.3536, 10), ("hex8", 0.25, 10), ("hex8", 0.15, 10), ("hex8", 0.1, 10)]:
+    for cells, edge, steps in [("hex27", 0.8, 4), ("hex27", 0.5, 4), ("hex27", 0.5, 10), ("hex27", 0.3536, 10),
+                               ("hex8", 0.25, 10), ("hex8", 0.15, 10), ("hex8", 0.1, 10)]:
         record(s, "Langer", cells, edge, f"{steps} increments", lambda: langer(s, cells, edge, steps))
     if "CalculiX" in TOOLS and shutil.which("ccx"):
-        record(s, "CalculiX", "C3D20R", 0.8, "", lambda: (0.0, 0.0, {"words": "has no such law: fibres want a neo-Hookean matrix"}))
+        none = float("nan"), float("nan"), {"words": "has no such law: fibres want a neo-Hookean matrix"}
+        record(s, "CalculiX", "C3D20R", 0.8, "", lambda: none)
     if "FEniCSx" in TOOLS and subprocess.run([PYTHON, "-c", "import dolfinx"], capture_output=True).returncode == 0:
         script("fenicsx.py", s, 0.8, 1, 1e-6, 1e3)
         for edge, penalty in [(0.8, 1e3), (0.8, 1e4), (0.5, 1e3), (0.5, 1e4), (0.3536, 1e3)]:
-            record(s, "FEniCSx", "Q2/P1", edge, f"10 increments d=1e-06 penalty {penalty:g}", lambda: script("fenicsx.py", s, edge, 10, 1e-6, penalty))
+            record(s, "FEniCSx", "Q2/P1", edge, f"10 increments d=1e-06 penalty {penalty:g}",
+                   lambda: script("fenicsx.py", s, edge, 10, 1e-6, penalty))
     if "GetFEM" in TOOLS and subprocess.run([PYTHON, "-c", "import getfem"], capture_output=True).returncode == 0:
         for edge in (0.8, 0.5):
-            record(s, "GetFEM", "Q2/Q1", edge, "10 increments d=1e-06 penalty 1000", lambda: script("getfem_.py", s, edge, 10, 1e-6, "q2", 1e3))
+            record(s, "GetFEM", "Q2/Q1", edge, "10 increments d=1e-06 penalty 1000",
+                   lambda: script("getfem_.py", s, edge, 10, 1e-6, "q2", 1e3))
     if "FEBio" in TOOLS and shutil.which("febio4"):
         record(s, "FEBio", "hex8", 0.25, "10 increments d=0.001", lambda: febio(s, "hex8", 0.25, 10, 1e-3))
 
