@@ -103,3 +103,21 @@ TEST_CASE("energy of an indentation: what the sphere does is stored or taken by 
   CHECK(sums.dissipated > 0);
   CHECK(std::abs(sums.balance) <= 1e-3);
 }
+
+TEST_CASE("energy where sticking gives way to sliding: in balance to 1e-3 all along, and better by the square of the step") {
+  const auto worst = [](double step) {
+    test::Indentation scene;
+    scene.nx = scene.nz = 12, scene.ny = 3, scene.h = 0.5, scene.reach = 3.2, scene.step = step;
+    scene.motion = {{0.2, Vec3(0, -0.3, 0)}, {0.8, Vec3(-1, -0.3, 0)}, {1, Vec3(-1, 0, 0)}};
+    const EnergyOf energy(scene);
+    REQUIRE(scene.run(test::table1(60, 1e-4)).path.complete);
+    double most = 0;
+    for (const PathSums& s : energy.path->sums())
+      if (s.path > 0.31) most = std::max(most, std::abs(s.balance));  // from the first movement along the surface on
+    return most;
+  };
+  const double coarse = worst(0.0125), fine = worst(0.00625);
+  MESSAGE("balance " << coarse << ", in half the step " << fine);
+  CHECK(coarse <= 1e-3);
+  CHECK(coarse > 3 * fine);
+}
