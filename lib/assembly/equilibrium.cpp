@@ -43,6 +43,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
   }
   make_blocks();
   p_.assign(static_cast<std::size_t>(n) * n_p_, 0);
+  for (int e = 0; e < n; ++e) local_.push_back(local_modulus(formulation, material(e)));
   J_minus_1_ = p_;
   dJ_du_.resize(p_.size() * n_dofs_);
   f_ = K_du_ = VecX::Zero(dofs_.n);
@@ -102,13 +103,15 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
     load(block, u, q);
     for (int l = 0; l < Packet::lanes; ++l)
       for (int k = 0; k < n_p_; ++k) p[k].set(l, p_[static_cast<std::size_t>(block.cells[l]) * n_p_ + k]);
-    packet_solid(formulation_, law, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out);
+    Packet local;
+    for (int l = 0; l < Packet::lanes; ++l) local.set(l, local_[block.cells[l]]);
+    packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out);
     return;
   }
   SolidElement one;
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
-    const bool whole = solid(formulation_, law, geometry_[e], fibres_[e], element_displacements(u, e),
+    const bool whole = solid(formulation_, law, local_[e], geometry_[e], fibres_[e], element_displacements(u, e),
                              &p_[static_cast<std::size_t>(e) * n_p_], with_tangent, one);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
     if (!whole) continue;
@@ -220,7 +223,7 @@ double Equilibrium::smallest_J(const VecX& u) const {
 
 void Equilibrium::predict_pressures(const VecX& du, double step) {
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = pressure_modulus(formulation_, material(e));
+    const double kappa = material(e).volume.quadratic.bulk_modulus();
     const ElementNodes q = element_displacements(du, e);
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
@@ -234,7 +237,22 @@ void Equilibrium::predict_pressures(const VecX& du, double step) {
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
   for (std::size_t i = 0; i < p_.size(); ++i)
-    p_[i] = pressure_modulus(formulation_, material(static_cast<int>(i) / n_p_)) * J_minus_1_[i];
+    p_[i] = material(static_cast<int>(i) / n_p_).volume.quadratic.bulk_modulus() * J_minus_1_[i];
+}
+
+void Equilibrium::prop_cells() {
+  if (formulation_ != Formulation::linear_dilatation) return;
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    const ElementGeometry& geometry = geometry_[e];
+    const double* p = &p_[static_cast<std::size_t>(e) * n_p_];
+    double most = 0;
+    for (int g = 0; g < geometry.n_gauss(); ++g) {
+      double here = 0;
+      for (int k = 0; k < n_p_; ++k) here += geometry.mode[g][k] * p[k];
+      most = std::max(most, -here);
+    }
+    local_[e] = std::min(most, material(e).volume.quadratic.bulk_modulus());
+  }
 }
 
 }  // namespace langer

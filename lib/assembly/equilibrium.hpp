@@ -39,6 +39,9 @@ class Equilibrium {
   // Pressure of the linearised dilatation after u + du (fraction `step` of it taken): the next tangent uses it.
   void predict_pressures(const VecX& du, double step);
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
+  // From now on cells resist what their modes leave of J - 1 as the pressures that there are now demand (solid.hpp); until the
+  // first call, as they do at rest. Kept while an increment is solved.
+  void prop_cells();
   std::vector<double>& pressures() { return p_; }
 
   const Dofs& dofs() const { return dofs_; }
@@ -77,6 +80,7 @@ class Equilibrium {
   std::vector<std::vector<Vec3>> fibres_;
   std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
   std::vector<double> p_;          // n_p_ for each element: of its modes or Gauss points
+  std::vector<double> local_;      // by cell [MPa]
   std::vector<double> J_minus_1_;  // same shape
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
   VecX f_, K_du_;

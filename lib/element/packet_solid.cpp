@@ -138,10 +138,10 @@ void add_stiffness(int b, const P (*g)[3], const P* c, const P* s, P* K) {
 }
 
 template <int n, int n_gauss>
-void packet_solid_of(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
-                     const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
+                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
   constexpr int n_dofs = 3 * n;
-  const double kappa = pressure_modulus(formulation, material), local = local_modulus(formulation, material);
+  const P kappa = material.volume.quadratic.bulk_modulus() - local;
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
   P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
@@ -208,7 +208,8 @@ void packet_solid_of(Formulation formulation, const Material& material, const Pa
       p_K = p[0];
       for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];
     }
-    if (const double at_point = modal ? local : kappa; at_point != 0) {
+    if (!modal || formulation == Formulation::linear_dilatation) {
+      const P at_point = modal ? local : kappa;
       const P pressure = at_point * J_minus_1[q];
       p_K += p_tangent && !modal ? p_tangent[q] : pressure;
       out.W += 0.5 * w * pressure * J_minus_1[q];
@@ -270,9 +271,9 @@ void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet*
   }
 }
 
-void packet_solid(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
-                  const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
-  (geometry.n_nodes == 8 ? packet_solid_of<8, 8> : packet_solid_of<27, 27>)(formulation, material, geometry, fibres, u, p_tangent,
+void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
+                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+  (geometry.n_nodes == 8 ? packet_solid_of<8, 8> : packet_solid_of<27, 27>)(formulation, material, local, geometry, fibres, u, p_tangent,
                                                                             with_tangent, out);
 }
 

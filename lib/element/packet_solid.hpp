@@ -41,8 +41,8 @@ bool packet_form(const Material& material);
 PacketGeometry packed(const ElementGeometry* const geometry[Packet::lanes]);
 
 // u[3 a + k]; p_tangent: one packet for each dilatation, or nullptr. Check J_min > 0 before using the rest.
-void packet_solid(Formulation formulation, const Material& material, const PacketGeometry& geometry, const PacketFibre* fibres,
-                  const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out);
+void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
+                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out);
 
 // J - 1 at each Gauss point of displaced elements
 void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet* J_minus_1);

@@ -5,10 +5,12 @@
 //   displacement       W = W_iso(C) + U(J) at every Gauss point (what FER does; locks when 2/d is large)
 //   mean_dilatation    U(J_bar) with one J_bar = (1/V) integral J dV0 per element
 //   linear_dilatation  U(J_bar) with J_bar linear in X, discontinuous between elements: three-field Hu-Washizu with dilatation and
-//                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27; hex8 would lock). What these leave of J - 1 costs a few
-//                      shear moduli, or cells whose pressure is some shear moduli buckle within themselves   [ABLR05]
+//                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27; hex8 would lock)                  [SH98]
 // With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one:
 //   t_k = (1/V) integral m_k (J - 1) dV0,   W_vol = V kappa/2 sum t_k^2,   p = sum m_k kappa t_k;   K stays symmetric
+// What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's compressive pressure: movements h
+// that change J but no t_k meet p ((tr h)^2 - tr h^2) from the second derivative of J, and where p < 0 and varies within the cell
+// the first part drives them apart: the cell buckles within itself though the body is stable [ABLR05]. Modes: kappa - local.
 // The tangent may use another pressure than kappa (J - 1): p_tangent, the one the last linear solve predicted.
 // J - 1 is formed from the displacement gradient, never as det F - 1.
 // Refuses (returns false) where some det F is not positive; f and K are then meaningless.
@@ -28,8 +30,7 @@ enum class Formulation { mean_dilatation, displacement, linear_dilatation };
 constexpr auto names(Formulation) { return std::array{"mean_dilatation", "displacement", "linear_dilatation"}; }
 // dilatations, each with its pressure, of a cell: t_k, or J - 1 at each Gauss point
 int n_pressures(Formulation f, int n_nodes);
-// modulus [MPa] of those, and of what they leave of J - 1 at each Gauss point: 0 but for linear_dilatation
-double pressure_modulus(Formulation f, const Material& material);
+// that modulus [MPa] where no pressure is known yet: 4 shear moduli; 0 for the other formulations
 double local_modulus(Formulation f, const Material& material);
 // what suits a cell: as many dilatations as its nodes can follow without locking
 Formulation usual_formulation(CellType type);
@@ -43,7 +44,8 @@ struct SolidElement {
   std::vector<VecX> dJ_du;          // gradients of those
 };
 
-bool solid(Formulation formulation, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
+// local: modulus of what the modes leave of J - 1
+bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry, std::span<const Vec3> a,
            const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out);
 
 // State at a Gauss point, for results.

@@ -82,9 +82,14 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
                                            double residual) {
   if (!config.mesh || !std::holds_alternative<IndentedBlock>(config.mesh->geometry))
     throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block of this config", "", ""});
-  SolveConfig coarser = config;
-  std::get<IndentedBlock>(coarser.mesh->geometry).edge *= ratio;
+  const auto on_cells = [&](double longer) {
+    SolveConfig coarser = config;
+    std::get<IndentedBlock>(coarser.mesh->geometry).edge *= longer;
+    return coarser;
+  };
+  SolveConfig coarser = on_cells(ratio);
   const std::vector<Valued> coarse = end_of_path(coarser, material, where);
+  const std::vector<Valued> coarsest = end_of_path(on_cells(ratio * ratio), material, where);
   std::vector<Valued> path = coarse;
   double per_change = 0;
   if (has_friction(config)) {
@@ -95,13 +100,15 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
   }
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
-    const auto same = [&](const Valued& other) { return other.name == q.name; };
-    const auto at = std::find_if(coarse.begin(), coarse.end(), same);
-    const auto along = std::find_if(path.begin(), path.end(), same);
-    if (at == coarse.end() || along == path.end()) continue;
-    const double order = q.name == "von_mises_max" ? 1 : 2;
-    const double beyond = (q.value - at->value) / (std::pow(ratio, order) - 1);
-    estimates.push_back({q, std::abs(beyond), per_change * std::abs(along->value - at->value), residual * std::abs(q.value), q.value + beyond});
+    const auto in = [&](const std::vector<Valued>& other) {
+      return std::find_if(other.begin(), other.end(), [&](const Valued& v) { return v.name == q.name; });
+    };
+    const auto at = in(coarse), before = in(coarsest), along = in(path);
+    if (at == coarse.end() || before == coarsest.end() || along == path.end()) continue;
+    const double order = q.name == "von_mises_max" || has_friction(config) ? 1 : 2, falls = std::pow(ratio, order);
+    const double beyond = (q.value - at->value) / (falls - 1);
+    const double cells = std::max(std::abs(beyond), std::abs(at->value - before->value) / falls / (falls - 1));
+    estimates.push_back({q, cells, per_change * std::abs(along->value - at->value), residual * std::abs(q.value), q.value + beyond});
   }
   return estimates;
 }

@@ -1,5 +1,7 @@
-// What a result is worth: the scene is solved again on coarser cells, and there in increments of another length.
-//   cells       |q(r h) - q(h)| / (r^p - 1),  r = sqrt 2: forces and displacements fall with p = 2, the greatest stress with p = 1
+// What a result is worth: the scene is solved again on cells longer by r = sqrt 2 and by 2, and on those by r in increments of
+// another length.
+//   cells       max(|q(r h) - q(h)|, |q(2 h) - q(r h)| / r^p) / (r^p - 1): two cells may agree by chance, three rarely. Forces and
+//               displacements fall with p = 2 without friction and with p = 1 with it, the greatest stress with p = 1
 //   increments  |q(2 dt) - q(dt)| on the coarser cells (first order); nothing where no friction makes the path matter.
 //               Of a single increment: twice what halving it changes
 //   extrapolated  q(h) - (q(r h) - q(h)) / (r^p - 1), the limit of the two

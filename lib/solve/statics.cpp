@@ -52,6 +52,7 @@ void Statics::begin(double t) {
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
   const double last = now_.t - before_.t;
+  if (last > 0) equilibrium_.prop_cells();
   if (!options_.extrapolate || !(last > 0)) return;
   const double s = std::min((t - now_.t) / last, 2.0);
   const VecX step = s * (now_.u - before_.u);
@@ -61,6 +62,7 @@ void Statics::begin(double t) {
   equilibrium_.pressures_from(before_.u);
   std::vector<double>& p = equilibrium_.pressures();
   for (std::size_t i = 0; i < p.size(); ++i) p[i] = p_now[i] + s * (p_now[i] - p[i]);
+  equilibrium_.prop_cells();
   u_ += step;
 }
 

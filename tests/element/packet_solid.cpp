@@ -56,10 +56,11 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
         for (int l = 0; l < 8; ++l)
           for (int k = 0; k < n_p; ++k) pressure(k, l) = near(random), p[k].set(l, pressure(k, l));
         PacketElement out(n, n_p);
-        packet_solid(formulation, material, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
+        const double local = local_modulus(formulation, material);
+        packet_solid(formulation, material, local, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
         for (int l = 0; l < 8; ++l) {
           SolidElement one;
-          REQUIRE(solid(formulation, material, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true, one));
+          REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true, one));
           CHECK(out.W[l] == doctest::Approx(one.W).epsilon(1e-12));
           CHECK(out.J_min[l] == doctest::Approx(one.J_min).epsilon(1e-13));
           const double f = one.f.lpNorm<Eigen::Infinity>(), K = one.K.lpNorm<Eigen::Infinity>();

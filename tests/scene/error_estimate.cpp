@@ -31,12 +31,12 @@ const Valued& of(const std::vector<Valued>& all, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the estimated error of the force is within a factor of three of the true one, without friction and with it") {
+TEST_CASE("the estimated error of the force is within a factor of three of the true one") {
   struct Case {
     const char* scene;
     double edge, step, right;  // right: pipelines/trade.yaml, rung reference-q12
   };
-  for (const Case& c : {Case{"isotropic", 0.5, 1, 10.7676}, {"isotropic", 0.3536, 0.5, 10.7676}, {"isotropic", 0.25, 0.5, 10.7676}}) {
+  for (const Case& c : {Case{"isotropic", 0.3536, 0.25, 10.7676}, {"isotropic", 0.25, 0.25, 10.7676}}) {
     CAPTURE(c.scene);
     CAPTURE(c.edge);
     const SolveConfig config = rung(c.scene, c.edge, c.step);
@@ -48,9 +48,15 @@ TEST_CASE("the estimated error of the force is within a factor of three of the t
     CHECK(estimates[0].total() < 3 * error);
     CHECK(estimates[0].total() > error / 3);
     CHECK(estimates[0].solver < 1e-7);
-    if (c.edge < 0.4) CHECK(std::abs(estimates[0].extrapolated - c.right) < error);  // coarser ones do not approach a limit yet
-    if (config.contacts.at("sphere").friction == 0) CHECK(estimates[0].increments == 0);
+    if (c.edge < 0.3) CHECK(std::abs(estimates[0].extrapolated - c.right) < error);  // coarser ones do not approach a limit yet
+    CHECK(estimates[0].increments == 0);  // no friction
   }
+}
+
+TEST_CASE("two meshes that agree by chance do not pass for right") {
+  const SolveConfig config = rung("isotropic", 0.5, 0.25);  // 0.06 % off
+  const auto estimates = estimate_errors(config, config.material, nowhere, end_of_path(config, config.material, nowhere), 0);
+  CHECK(estimates[0].cells > 0.005 * 10.7676);
 }
 
 TEST_CASE("with friction the increments have an error, which falls with them") {
