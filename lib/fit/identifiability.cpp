@@ -172,7 +172,7 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, 
   for (Eigen::Index i : free)
     for (Eigen::Index j : free) {
       s.correlation(i, j) = i == j ? 1 : s.covariance(i, j) / (s.error[i] * s.error[j]);
-      if (i != j && !(std::abs(s.correlation(i, j)) <= s.correlation_worst[i]))
+      if (i != j && !std::islessequal(std::abs(s.correlation(i, j)), s.correlation_worst[i]))  // of NaN too, without a trap
         s.correlation_worst[i] = std::abs(s.correlation(i, j));
     }
   return s;

@@ -21,10 +21,6 @@ namespace {
 
 constexpr double ratio = 1.4142135623730951;
 
-bool has_friction(const SolveConfig& config) {
-  return std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.friction > 0; });
-}
-
 void set_increment(LoadPathOptions& path, double increment) {
   path.steps.reset();
   path.first = path.largest = increment;

@@ -194,4 +194,10 @@ struct SolveConfig {
   }
 };
 
+inline bool has_friction(const SolveConfig& config) {
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.friction > 0) return true;
+  return false;
+}
+
 }  // namespace langer

@@ -25,17 +25,20 @@ TEST_CASE("a percentage is a number above 0 with its sign") {
 }
 
 TEST_CASE("the rungs come with falling errors, and none costs less cells than the one before") {
-  const auto& rungs = accuracy_rungs();
-  REQUIRE(rungs.size() >= 4);
-  for (std::size_t i = 1; i < rungs.size(); ++i) {
-    CHECK(rungs[i].error < rungs[i - 1].error);
-    CHECK(rungs[i].edge <= rungs[i - 1].edge);
+  for (bool friction : {false, true}) {
+    const auto& rungs = accuracy_rungs(friction);
+    REQUIRE(rungs.size() >= 3);
+    for (std::size_t i = 1; i < rungs.size(); ++i) {
+      CHECK(rungs[i].error < rungs[i - 1].error);
+      CHECK(rungs[i].edge <= rungs[i - 1].edge);
+    }
   }
 }
 
 TEST_CASE("the first rung that promises the wanted error is taken, its cells, increments and symmetry with it") {
-  for (double wanted : {5.0, 1.0, 0.5}) {
+  for (const auto& [wanted, mu] : {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {1.0, 0.34}}) {
     SolveConfig config = indentation();
+    config.contacts["ball"].friction = mu;
     config.accuracy = std::to_string(wanted) + "%";
     const auto chosen = choose_accuracy(config);
     REQUIRE(chosen.has_value());
@@ -44,7 +47,8 @@ TEST_CASE("the first rung that promises the wanted error is taken, its cells, in
     CHECK(edge_of(config) == chosen->rung.edge);
     CHECK(config.path.largest == chosen->rung.step);
     CHECK(config.symmetry == SymmetryChoice::automatic);
-    for (const AccuracyRung& r : accuracy_rungs())
+    CHECK(config.mesh->cells == chosen->rung.cells);
+    for (const AccuracyRung& r : accuracy_rungs(mu > 0))
       if (r.error <= wanted) CHECK(r.edge <= chosen->rung.edge);
   }
 }
@@ -56,7 +60,7 @@ TEST_CASE("more than the ladder can promise gives its finest rung and says so; n
   REQUIRE(finest.has_value());
   CHECK(!finest->met);
   CHECK(finest->words.find("finest") != std::string::npos);
-  CHECK(edge_of(config) == accuracy_rungs().back().edge);
+  CHECK(edge_of(config) == accuracy_rungs(false).back().edge);
 
   SolveConfig plain = indentation();
   CHECK(!choose_accuracy(plain));

@@ -34,7 +34,7 @@ const Valued& of(const std::vector<Valued>& all, const std::string& name) {
 TEST_CASE("the estimated error of the force is within a factor of three of the true one") {
   struct Case {
     const char* scene;
-    double edge, step, right;  // right: pipelines/trade.yaml, rung reference-q12
+    double edge, step, right;  // right: pipelines/trade.yaml, the limit of meshes of either kind
   };
   for (const Case& c : {Case{"isotropic", 0.3536, 0.25, 10.7676}, {"isotropic", 0.25, 0.25, 10.7676}}) {
     CAPTURE(c.scene);
