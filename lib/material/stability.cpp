@@ -26,16 +26,16 @@ double ellipticity_at(const Material& material, Path path, double x) {
   return s.exists ? smallest_shear_stiffness(material, s.F, fibre_directions(material)).value : nan;
 }
 
-// first x at which f turns negative or ends: the first interval with such an end, halved
+// first x at which f turns negative or ends (NaN, compared without a trap): the first interval with such an end, halved
 template <class F>
 double first_loss(const std::vector<double>& x, const std::vector<double>& values, F f) {
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (values[i] >= 0) continue;
+    if (std::isgreaterequal(values[i], 0)) continue;
     if (i == 0) return x[0];
     double good = x[i - 1], lost = x[i];
     while (lost - good > 1e-4) {
       const double middle = 0.5 * (good + lost);
-      (f(middle) >= 0 ? good : lost) = middle;
+      (std::isgreaterequal(f(middle), 0) ? good : lost) = middle;
     }
     return lost;
   }

@@ -46,8 +46,9 @@ Quality quality(const Mesh& mesh) {
     for (int a = 0; a < cell.n_nodes; ++a) {
       const Mat3 J = jacobian(mesh, e, cell.node[a]);
       notice(J.determinant(), e, cell.node[a]);
-      if (a < cell.n_corners)
-        q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, J.colwise().normalized().determinant());
+      if (a >= cell.n_corners) continue;
+      const double lengths = J.colwise().norm().prod();  // 0 where two nodes are at one place
+      q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, lengths > 0 ? J.determinant() / lengths : 0);
     }
     for (int g = 0; g < cell.n_gauss; ++g) {
       const double det = jacobian(mesh, e, cell.gauss[g]).determinant();
@@ -59,7 +60,7 @@ Quality quality(const Mesh& mesh) {
       const double length = (mesh.X[mesh.cell(e)[b]] - mesh.X[mesh.cell(e)[a]]).norm();
       shortest = std::min(shortest, length), longest = std::max(longest, length);
     }
-    q.largest_aspect = std::max(q.largest_aspect, longest / shortest);
+    q.largest_aspect = std::max(q.largest_aspect, shortest > 0 ? longest / shortest : infinity);
     q.shortest_edge = std::min(q.shortest_edge, shortest), q.longest_edge = std::max(q.longest_edge, longest);
   }
   return q;
