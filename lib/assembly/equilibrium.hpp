@@ -80,9 +80,9 @@ class Equilibrium {
   std::vector<std::vector<Vec3>> fibres_;
   std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
   std::vector<double> p_;          // n_p_ for each element: of its modes or Gauss points
-  std::vector<double> local_;      // by cell [MPa]
   std::vector<double> J_minus_1_;  // same shape
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
+  std::vector<double> local_;      // by cell: modulus of what its modes leave of J - 1 [MPa]
   VecX f_, K_du_;
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;

@@ -1,11 +1,9 @@
 // A solved scene as the input of another program, so that its answer can be checked there: CalculiX (.inp) and FEBio 4 (.feb).
 //   what is written  the body that was solved (its symmetric part, where mirror planes cut it between cells), cells with the
-//   fibres'
-//                    directions, law, supports, imposed displacements, the increments, spheres as rigid facets with penalty
-//                    contact
-//   what is not      half turns (the whole body is written), indenters other than spheres, laws that the program lacks: the two
-//   last
-//                    are refused, as Failure(config). What differs there is said at the head of the file.
+//                    directions of their fibres, law, supports, imposed displacements, the increments, spheres as rigid facets
+//                    with penalty contact
+//   what is not      half turns (the whole body is written), indenters other than spheres, laws that the program lacks: the last
+//                    two are refused, as Failure(config). What differs there is said at the head of the file.
 // Positions in mm, forces in N, stress in MPa.
 #pragma once
 

@@ -52,11 +52,10 @@ void Statics::begin(double t) {
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
   const double last = now_.t - before_.t;
-  if (last > 0) equilibrium_.prop_cells();
-  if (!options_.extrapolate || !(last > 0)) return;
+  if (!(last > 0)) return;
   const double s = std::min((t - now_.t) / last, 2.0);
   const VecX step = s * (now_.u - before_.u);
-  if (!admissible(now_.u + step)) return;
+  if (!options_.extrapolate || !admissible(now_.u + step)) return equilibrium_.prop_cells();
   // the pressures follow by extrapolation too: kappa (J - 1) at an extrapolated u is meaningless
   const std::vector<double> p_now = equilibrium_.pressures();
   equilibrium_.pressures_from(before_.u);

@@ -4,43 +4,13 @@
 #include <cmath>
 
 #include "contact/supported_problem.hpp"
-#include "solve/load_path.hpp"
+#include "support/exact_run.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
-
-namespace {
-
-struct Run {
-  PathReport path;
-  std::vector<int> iterations;
-};
-
-Run run(Statics& statics, double increment) {
-  LoadPathOptions options;
-  options.first = options.largest = increment;
-  Run result;
-  result.path = load_path(
-      options, 0, {}, {},
-      [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
-      },
-      [&](double, double, double, const SolveReport& report) {
-        statics.accept();
-        for (const ContactDefect& d : statics.defects()) {
-          CHECK(d.penetration <= 1e-9);
-          CHECK(d.cone <= 1e-8);
-          CHECK(d.complementarity <= 1e-8);
-        }
-        result.iterations.push_back(report.iterations);
-        return true;
-      });
-  return result;
-}
-
-}  // namespace
+using test::run;
+using test::Run;
 
 TEST_CASE("a cube between two rough plates, held by nothing else") {
   const Mesh mesh = test::cube(4);
