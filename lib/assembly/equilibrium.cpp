@@ -221,14 +221,33 @@ double Equilibrium::smallest_J(const VecX& u) const {
   return J_min;
 }
 
-void Equilibrium::predict_pressures(const VecX& du, double step) {
+VecX Equilibrium::turned_dilatations() const {
+  VecX out = VecX::Zero(dofs_.n);
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    const double kappa = material(e).volume.quadratic.bulk_modulus();
+    const auto nodes = mesh_.cell(e);
+    const bool tied = !tied_.empty() && tied_[e];
+    for (int k = 0; k < n_p_; ++k) {
+      const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
+      const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
+      const double w = geometry_[e].V * (kappa * J_minus_1_[at] - p_[at]);
+      for (int a = 0; a < n_nodes_; ++a)
+        for (int i = 0; i < 3; ++i)
+          out[3 * dofs_.node(nodes[a]) + i] += (tied ? dofs_.tie[nodes[a]].signs[i] : 1) * w * (b[3 * a + i] - b0[3 * a + i]);
+    }
+  }
+  return out;
+}
+
+void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
+  const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
     const double kappa = material(e).volume.quadratic.bulk_modulus();
     const ElementNodes q = element_displacements(du, e);
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
       double change = 0;
-      for (int a = 0; a < n_nodes_; ++a) change += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du_[i * n_dofs_ + 3 * a]));
+      for (int a = 0; a < n_nodes_; ++a) change += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[i * n_dofs_ + 3 * a]));
       p_[i] += step * (kappa * (J_minus_1_[i] + change) - p_[i]);
     }
   }

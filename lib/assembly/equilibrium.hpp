@@ -37,7 +37,13 @@ class Equilibrium {
   double rounding_floor() const { return floor_; }
 
   // Pressure of the linearised dilatation after u + du (fraction `step` of it taken): the next tangent uses it.
-  void predict_pressures(const VecX& du, double step);
+  // kept: with the gradients of the dilatations that were there at keep_dilatations(), as a tangent of that time has them.
+  void predict_pressures(const VecX& du, double step, bool kept = false);
+  void keep_dilatations() { dJ_du_kept_ = dJ_du_; }
+  // What a solution with the kept gradients b0 needs beside the residual at the u assembled last, in the mixed equations of
+  // displacements and pressures condensed:  sum V (kappa t - p) (b - b0), (3 n) [N]. Without it a tangent that is only a little
+  // old is of no use near incompressibility: kappa (b - b0) is large. For modes, not for pressures of Gauss points.
+  VecX turned_dilatations() const;
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
   // From now on cells resist what their modes leave of J - 1 as the pressures that there are now demand (solid.hpp); until the
   // first call, as they do at rest. Kept while an increment is solved.
@@ -82,6 +88,7 @@ class Equilibrium {
   std::vector<double> p_;          // n_p_ for each element: of its modes or Gauss points
   std::vector<double> J_minus_1_;  // same shape
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
+  std::vector<double> dJ_du_kept_;
   std::vector<double> local_;      // by cell: modulus of what its modes leave of J - 1 [MPa]
   VecX f_, K_du_;
   std::vector<double> K_;

@@ -107,33 +107,43 @@ void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
     for (int q = 0; q < p; ++q) c[6 * p + q] = c[6 * q + p];
 }
 
-// K_ab for b <= a:  B_a^T (c B_b) + (g_a . s g_b) I, with s the full Kirchhoff stress times w; the column of node b for a >= b
-template <int n>
-void add_stiffness(int b, const P (*g)[3], const P* c, const P* s, P* K) {
-  const P* gb = g[b];
-  P cB[3][6];  // columns of c B_b
-  for (int p = 0; p < 6; ++p) {
-    const P* r = c + 6 * p;
-    cB[0][p] = r[0] * gb[0] + r[3] * gb[1] + r[5] * gb[2];
-    cB[1][p] = r[1] * gb[1] + r[3] * gb[0] + r[4] * gb[2];
-    cB[2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
+// The column of node b, a >= b:  K_ab = sum over Gauss points of  B_a^T (c B_b) + (g_a . s g_b) I,  with s the full Kirchhoff stress
+// times w. The sum stays in registers.
+template <int n, int n_gauss>
+void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6], P* K) {
+  P cB[n_gauss][3][6], sg[n_gauss][3];  // columns of c B_b
+  for (int q = 0; q < n_gauss; ++q) {
+    const P* gb = g[q][b];
+    for (int p = 0; p < 6; ++p) {
+      const P* r = c[q] + 6 * p;
+      cB[q][0][p] = r[0] * gb[0] + r[3] * gb[1] + r[5] * gb[2];
+      cB[q][1][p] = r[1] * gb[1] + r[3] * gb[0] + r[4] * gb[2];
+      cB[q][2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
+    }
+    const P* t = s[q];
+    sg[q][0] = t[0] * gb[0] + t[3] * gb[1] + t[5] * gb[2];
+    sg[q][1] = t[3] * gb[0] + t[1] * gb[1] + t[4] * gb[2];
+    sg[q][2] = t[5] * gb[0] + t[4] * gb[1] + t[2] * gb[2];
   }
-  const P sg[3] = {s[0] * gb[0] + s[3] * gb[1] + s[5] * gb[2], s[3] * gb[0] + s[1] * gb[1] + s[4] * gb[2],
-                   s[5] * gb[0] + s[4] * gb[1] + s[2] * gb[2]};
   for (int a = b; a < n; ++a) {
-    const P* ga = g[a];
-    const P geometric = ga[0] * sg[0] + ga[1] * sg[1] + ga[2] * sg[2];
-    for (int j = 0; j < 3; ++j) {
-      const P* z = cB[j];
-      const P column[3] = {z[0] * ga[0] + z[3] * ga[1] + z[5] * ga[2], z[1] * ga[1] + z[3] * ga[0] + z[4] * ga[2],
-                           z[2] * ga[2] + z[4] * ga[1] + z[5] * ga[0]};
-      for (int i = a == b ? j : 0; i < 3; ++i) {
-        const int row = 3 * a + i;
-        P& entry = K[row * (row + 1) / 2 + 3 * b + j];
-        entry += column[i];
-        if (i == j) entry += geometric;
+    P sum[3][3];
+    for (int q = 0; q < n_gauss; ++q) {
+      const P* ga = g[q][a];
+      const P x = ga[0], y = ga[1], z = ga[2];
+      const P geometric = x * sg[q][0] + y * sg[q][1] + z * sg[q][2];
+      for (int j = 0; j < 3; ++j) {
+        const P* w = cB[q][j];
+        sum[j][0] += w[0] * x + w[3] * y + w[5] * z;
+        sum[j][1] += w[1] * y + w[3] * x + w[4] * z;
+        sum[j][2] += w[2] * z + w[4] * y + w[5] * x;
+        sum[j][j] += geometric;
       }
     }
+    for (int j = 0; j < 3; ++j)
+      for (int i = a == b ? j : 0; i < 3; ++i) {
+        const int row = 3 * a + i;
+        K[row * (row + 1) / 2 + 3 * b + j] += sum[j][i];
+      }
   }
 }
 
@@ -175,7 +185,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     for (int k = 0; k < n_p && modal; ++k) t[k] += weight[k] * J_minus_1[q];
   }
   std::fill(out.f.begin(), out.f.end(), P());
-  if (with_tangent) std::fill(out.K.begin(), out.K.end(), P());
+  if (with_tangent && !modal) std::fill(out.K.begin(), out.K.end(), P());
   P p[n_modes];  // of the tangent
   if (modal) {
     const P inverse_V = 1.0 / geometry.V;
@@ -186,11 +196,13 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
       out.W += 0.5 * geometry.V * pressure * out.J_minus_1[k];
       P* dJ = out.dJ_du(k);
       for (int i = 0; i < n_dofs; ++i) dJ[i] = b[k][i] * inverse_V, out.f[i] += pressure * b[k][i];
-      if (with_tangent)
-        for (int i = 0, entry = 0; i < n_dofs; ++i) {
-          const P row = kappa * dJ[i];
+      for (int i = 0, entry = 0; i < n_dofs && with_tangent; ++i) {
+        const P row = kappa * dJ[i];
+        if (k == 0)
+          for (int j = 0; j <= i; ++j) out.K[entry++] = row * b[k][j];
+        else
           for (int j = 0; j <= i; ++j) out.K[entry++] += row * b[k][j];
-        }
+      }
     }
   } else {
     std::copy(J_minus_1, J_minus_1 + n_gauss, out.J_minus_1.begin());
@@ -228,9 +240,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     for (int i = 0; i < 6; ++i) stress[q][i] = w * (i < 3 ? s.tau[i] + pJ : s.tau[i]);
   }
   if (!with_tangent) return;
-  // node by node, so that the part of K written to stays in the nearest cache
-  for (int b = 0; b < n; ++b)
-    for (int q = 0; q < n_gauss; ++q) add_stiffness<n>(b, g[q], c[q], stress[q], out.K.data());
+  for (int b = 0; b < n; ++b) add_stiffness<n, n_gauss>(b, g, c, stress, out.K.data());
 }
 
 }  // namespace

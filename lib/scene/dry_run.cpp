@@ -42,7 +42,8 @@ void need_memory(const Statics& statics, int threads) {
 
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, bool quiet) {
   const double free = std::min(free_memory(), free_address());
-  const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, !scene.contacts.empty());
+  const auto* newton = std::get_if<NewtonOptions>(&config.solver);
+  const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, newton && newton->reuse_tangent);
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");
@@ -59,7 +60,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
     line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
                                 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
-    line("path", fmt::format("{} steps if none is cut back, about {:.0f} iterations", f.steps, f.iterations));
+    line("path", fmt::format("{} steps if none is cut back, about {:.0f} iterations{}", f.steps, f.iterations,
+                             f.again > 0 ? fmt::format(" and {:.0f} corrections with their tangents", f.again) : ""));
     line("memory", fmt::format("{}; {} are free{}", amount(f.bytes), amount(free),
                                f.size.factor_bytes > free ? ": this will not fit" : ""));
     line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}",

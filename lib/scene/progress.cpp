@@ -56,7 +56,8 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   bool unstable = false;
   std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
   if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
-  line += fmt::format("  {} iterations  residual {:.1e}{}", report.iterations, record.residual, left(record.t));
+  line += fmt::format("  {}{} iterations  residual {:.1e}{}", report.iterations,
+                      report.again > 0 ? fmt::format(" + {}", report.again) : "", record.residual, left(record.t));
   if (live_) say_status(line);
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
@@ -84,8 +85,8 @@ void Progress::failed(double t, const SolveReport& report) const {
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   if (quiet_) return;
   const Statics::Cost& cost = statics.cost();
-  say_line("solve: {} steps, {} iterations, {} cuts; {:.0f} MB", path.steps, path.iterations, path.cuts,
-             1e-6 * peak_bytes());
+  say_line("solve: {} steps, {} iterations{}, {} cuts; {:.0f} MB", path.steps, path.iterations,
+           path.again > 0 ? fmt::format(" and {} corrections with their tangents", path.again) : "", path.cuts, 1e-6 * peak_bytes());
   say_line("solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
              "files {:.2f}",
              cost.analysis, cost.assembly, cost.factor,

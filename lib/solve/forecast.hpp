@@ -13,18 +13,19 @@ struct Forecast {
   double bytes = 0;                              // largest memory of the whole run
   double assembly = 0, factor = 0, solving = 0;  // CPU seconds per iteration, one thread
   int steps = 0;                                 // if none is cut back
-  double iterations = 0;                         // about
+  double iterations = 0;                         // about; each with a tangent
+  double again = 0;                              // corrections with their tangents
   double per_iteration() const { return assembly + factor + solving; }
-  double seconds() const { return iterations * per_iteration(); }
+  double seconds() const { return iterations * per_iteration() + again * (0.4 * assembly + solving); }
 };
 
 // bytes alone, without timing anything
 double forecast_bytes(const LinearSolver& linear);
 
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
-// contact: two solutions per iteration, and more iterations
+// reuses: corrections with a tangent that is there already
 Forecast forecast(Equilibrium& body, const LinearSolver& linear, const LoadPathOptions& path, const std::vector<double>& stops,
-                  bool contact);
+                  bool reuses);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

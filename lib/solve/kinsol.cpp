@@ -166,7 +166,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
                   balanced ? fmt::format("{} after {} rounds of KINSOL", now.missing, round)
                            : fmt::format("residual {:.2e} N > {:.2e} N after {} rounds of KINSOL ({} iterations)", now.residual,
                                          report.tolerance, round, report.iterations));
-    if (!take_step(problem, x, options.largest_move, report)) return report;
+    if (!take_step(problem, problem.correction(), x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
     if (!then.admissible) return stop(Outcome::inadmissible, then.missing);

@@ -51,6 +51,7 @@ struct LinearSolver::State {
   std::vector<int> place_of;        // row -> index in `last`, or -1
   bool trailing = false;            // the last rows of L are those of `last`
   std::vector<int> trailing_order;  // i-th trailing row of L -> index in `last`
+  mutable MatX trailing_block;      // of the present factor, once asked for
   // fallback: the full matrix by columns
   std::vector<int> full_start, full_row, full_from;
   std::vector<double> full_value;
@@ -74,7 +75,9 @@ struct LinearSolver::State {
   bool cholesky();  // of A as it is
   VecX whole(const VecX& b) const;  // by the CHOLMOD factor, props included
   bool factorize_indefinite();
-  MatX trailing_factor() const;
+  const MatX& trailing_factor() const;
+  bool halves() const { return trailing && !indefinite && props.empty(); }
+  VecX through(int system, const VecX& b) const;
 };
 
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads) : state_(std::make_unique<State>()) {
@@ -139,6 +142,7 @@ bool LinearSolver::factorize(const std::vector<double>& values) {
 
 bool LinearSolver::State::cholesky() {
   common.status = CHOLMOD_OK;
+  trailing_block.resize(0, 0);
   cholmod_factorize(A, L, &common);
   if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   return common.status != CHOLMOD_NOT_POSDEF && L->minor >= L->n;
@@ -250,7 +254,47 @@ VecX LinearSolver::solve(const VecX& b) const {
   return x + s.prop_moves * s.prop_share.solve(at);
 }
 
-VecX LinearSolver::State::whole(const VecX& b) const {
+LinearSolver::Half LinearSolver::start(const VecX& b) const {
+  const State& s = *state_;
+  const Eigen::Index n = b.size(), m = static_cast<Eigen::Index>(s.last.size());
+  Half half{VecX(m), VecX(n)};
+  if (!s.halves()) {
+    half.rest = solve(b);
+    for (Eigen::Index i = 0; i < m; ++i) half.last[i] = half.rest[s.last[i]];
+    return half;
+  }
+  const NoNestedThreads guard;
+  const int* permutation = static_cast<int*>(s.L->Perm);
+  VecX permuted(n);
+  for (Eigen::Index i = 0; i < n; ++i) permuted[i] = b[permutation[i]];
+  half.rest = s.through(CHOLMOD_L, permuted);
+  const VecX x = s.trailing_factor().triangularView<Eigen::Lower>().transpose().solve(half.rest.tail(m));
+  for (Eigen::Index i = 0; i < m; ++i) half.last[s.trailing_order[i]] = x[i];
+  return half;
+}
+
+VecX LinearSolver::finish(const Half& half, const VecX& c) const {
+  const State& s = *state_;
+  const Eigen::Index n = half.rest.size(), m = static_cast<Eigen::Index>(s.last.size());
+  if (!s.halves()) {
+    VecX b = VecX::Zero(n);
+    for (Eigen::Index i = 0; i < m; ++i) b[s.last[i]] += c[i];
+    return half.rest + solve(b);
+  }
+  const NoNestedThreads guard;
+  VecX ordered(m), y = half.rest;
+  for (Eigen::Index i = 0; i < m; ++i) ordered[i] = c[s.trailing_order[i]];
+  y.tail(m) += s.trailing_factor().triangularView<Eigen::Lower>().solve(ordered);
+  y = s.through(CHOLMOD_Lt, y);
+  const int* permutation = static_cast<int*>(s.L->Perm);
+  VecX x(n);
+  for (Eigen::Index i = 0; i < n; ++i) x[permutation[i]] = y[i];
+  return x;
+}
+
+VecX LinearSolver::State::whole(const VecX& b) const { return through(CHOLMOD_A, b); }
+
+VecX LinearSolver::State::through(int system, const VecX& b) const {
   VecX x(b.size());
   cholmod_dense rhs{};
   rhs.nrow = rhs.d = rhs.nzmax = b.size();
@@ -258,7 +302,7 @@ VecX LinearSolver::State::whole(const VecX& b) const {
   rhs.x = const_cast<double*>(b.data());
   rhs.xtype = CHOLMOD_REAL;
   rhs.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* y = cholmod_solve(CHOLMOD_A, L, &rhs, const_cast<cholmod_common*>(&common));
+  cholmod_dense* y = cholmod_solve(system, L, &rhs, const_cast<cholmod_common*>(&common));
   if (!y) throw std::bad_alloc();
   std::memcpy(x.data(), y->x, sizeof(double) * b.size());
   cholmod_free_dense(&y, const_cast<cholmod_common*>(&common));
@@ -266,12 +310,13 @@ VecX LinearSolver::State::whole(const VecX& b) const {
 }
 
 // Lower-triangular trailing block of L, read from the supernodes.
-MatX LinearSolver::State::trailing_factor() const {
+const MatX& LinearSolver::State::trailing_factor() const {
+  if (trailing_block.size() > 0) return trailing_block;
   const int n = static_cast<int>(L->n), m = static_cast<int>(last.size()), first = n - m;
   const int *super = static_cast<int*>(L->super), *pi = static_cast<int*>(L->pi), *px = static_cast<int*>(L->px),
             *rows = static_cast<int*>(L->s);
   const double* x = static_cast<double*>(L->x);
-  MatX block = MatX::Zero(m, m);
+  MatX& block = trailing_block = MatX::Zero(m, m);
   for (int k = static_cast<int>(L->nsuper) - 1; k >= 0 && super[k + 1] > first; --k) {
     const int n_rows = pi[k + 1] - pi[k];
     for (int c = std::max(super[k], first); c < super[k + 1]; ++c)
@@ -315,7 +360,7 @@ MatX LinearSolver::compliance(const MatX& B) const {
 std::optional<MatX> LinearSolver::schur() const {
   const State& s = *state_;
   if (!s.trailing || s.indefinite || !s.props.empty()) return std::nullopt;
-  const MatX L = s.trailing_factor();
+  const MatX& L = s.trailing_factor();
   MatX ordered = MatX::Zero(L.rows(), L.rows());
   ordered.selfadjointView<Eigen::Lower>().rankUpdate(L);
   MatX S(L.rows(), L.rows());

@@ -28,6 +28,15 @@ class LinearSolver {
   bool factorize_propped(const std::vector<double>& values, int most = 40);
   VecX solve(const VecX& b) const;
 
+  // The same in two halves, for a b whose part on the rows of `last` is known only after x has been seen there:
+  //   half = start(b);   half.last is x on those rows, in their order;   finish(half, c) = K^-1 (b + c), c on the rows of `last`
+  struct Half {
+    VecX last;
+    VecX rest;  // L^-1 P b, or x itself where there is no such factor
+  };
+  Half start(const VecX& b) const;
+  VecX finish(const Half& half, const VecX& c) const;
+
   // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`
   MatX compliance(const MatX& B) const;
 

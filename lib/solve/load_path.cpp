@@ -33,7 +33,7 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       if (dt < options.smallest) return report;
       continue;
     }
-    report.t = next, ++report.steps, report.iterations += solved.iterations;
+    report.t = next, ++report.steps, report.iterations += solved.iterations, report.again += solved.again;
     const double taken = next - t;
     t = next;
     if (solved.iterations <= options.easy) dt = std::min(largest, std::max(dt, taken) * 1.5);

@@ -39,6 +39,7 @@ struct PathReport {
   double t = 0;        // reached
   int steps = 0;       // accepted
   int iterations = 0;  // of accepted steps
+  int again = 0;       // corrections with their tangents
   int cuts = 0;
   std::string why;  // of the last failure, when not complete
 };

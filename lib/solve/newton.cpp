@@ -7,8 +7,7 @@
 
 namespace langer {
 
-bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport& report) {
-  const std::optional<VecX> dx = problem.correction();
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report) {
   if (!dx || !dx->allFinite()) {
     report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body gives way in many directions at once";
     return false;
@@ -26,25 +25,67 @@ bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport
   return true;
 }
 
+namespace {
+
+// Whether the tangent in hand is worth another correction.
+class OldTangent {
+ public:
+  explicit OldTangent(double price) : price_(price) {}
+  void renewed() { used_ = 0; }
+  bool used() const { return used_ > 0; }
+  // residual before the next correction, and the one wanted
+  bool serves(double residual, double wanted) {
+    const double share = residual / before_;  // what the last correction left
+    before_ = residual;
+    if (used_ == 0) return any_ && share < 0.1;  // not while a long step still finds its contacts
+    // where switches of fibres turn on and off, an old tangent may undo what a new one did, for ever
+    if (share > 0.3) return any_ = false;
+    if (used_ > price_ + 2) return false;
+    const double to_go = std::log(wanted / residual) / std::log(share);
+    return to_go <= price_ + 1;  // a new tangent will need one correction more as well
+  }
+  void corrected() { ++used_; }
+
+ private:
+  double price_, before_ = 0;  // residual
+  int used_ = 0;      // since it was made
+  bool any_ = true;   // serves in this step at all
+};
+
+}  // namespace
+
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
+  constexpr double strict = 1e-3;
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);
     return report;
   };
-  for (;; ++report.iterations) {
-    const Assessment now = problem.assess(x, true);
+  const bool reuses = options.reuse_tangent && problem.correction_again;
+  OldTangent old(problem.price);
+  for (;;) {
+    const Assessment now = problem.assess(x, report.iterations == 0 || !reuses);
     report.residual = now.residual, report.reference = now.reference;
     report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
-    const bool balanced = now.residual <= report.tolerance;
+    const double wanted =
+        old.used() ? std::max({options.absolute, strict * options.relative * now.reference, now.floor}) : report.tolerance;
+    const bool balanced = now.residual <= wanted;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
-    if (report.iterations == options.iterations)
-      return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
-                                                   : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
-                                                                 now.residual, report.tolerance, report.iterations));
-    if (!take_step(problem, x, options.largest_move, report)) return report;
+    std::optional<VecX> dx;
+    if (reuses && old.serves(now.residual, wanted) && report.iterations > 0) dx = problem.correction_again();
+    if (dx) {
+      old.corrected(), ++report.again;
+    } else {
+      if (report.iterations == options.iterations)
+        return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
+                                                     : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
+                                                                   now.residual, report.tolerance, report.iterations));
+      dx = problem.correction();
+      old.renewed(), ++report.iterations;
+    }
+    if (!take_step(problem, dx, x, options.largest_move, report)) return report;
   }
 }
 

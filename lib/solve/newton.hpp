@@ -1,9 +1,13 @@
 // Newton-Raphson on a problem given as functions: it knows no mechanics.               [A23] section 2.5
 //   assess(x, with_tangent)   residual and tangent at x; what is missing to convergence
 //   correction()              dx of the problem linearised at the last assessed x; empty where it cannot be solved
+//   correction_again()        dx at the last assessed x by the tangent of the last correction(); empty where that does not serve
 //   admissible(x)             cheap test that x can be assessed (det F > 0)
 //   moved(dx, step)           told before x becomes x + step dx
 // There is no test that the residual decreases: near incompressibility the first residuals of a step are huge by nature.
+// After a correction others with the same tangent follow (modified Newton) for as long as they are cheaper: each takes off about the
+// same part of the residual, and a new tangent costs `price` of them. What they leave is as large as the residual says, where
+// Newton's own correction would have left its square: they have to reach a thousandth of the tolerance.
 #pragma once
 
 #include <functional>
@@ -28,6 +32,8 @@ struct Assessment {
 struct Problem {
   std::function<Assessment(const VecX& x, bool with_tangent)> assess;
   std::function<std::optional<VecX>()> correction;
+  std::function<std::optional<VecX>()> correction_again;  // none: every correction takes a new tangent
+  double price = 0;                                       // of correction() in units of correction_again()
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
 
@@ -45,11 +51,14 @@ struct NewtonOptions {
   double relative = 1e-6;
   double absolute = 1e-12;
   double largest_move = 1;
+  bool reuse_tangent = true;
   static void fields(auto& v) {
-    v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of iterations in one step", at_least(1));
+    v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of tangents in one step", at_least(1));
     v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive,
       between(0, 0.1));
     v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
+    v(&NewtonOptions::reuse_tangent, "reuse_tangent", unit::none,
+      "within a step, correct with the last tangent for as long as that is cheaper than a new one; false: a new one each time");
     v(&NewtonOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
   }
 };
@@ -58,14 +67,16 @@ enum class Outcome { converged, not_converged, inadmissible, singular };
 
 struct SolveReport {
   Outcome outcome = Outcome::not_converged;
-  int iterations = 0, evaluations = 0;
+  int iterations = 0;  // each with a tangent of its own
+  int again = 0;       // corrections with the tangent of an iteration
+  int evaluations = 0;
   double residual = 0, tolerance = 0, reference = 0;
   std::string why;  // in words, when not converged
   bool converged() const { return outcome == Outcome::converged; }
 };
 
-// One linearised step, shortened where it is too long or would turn elements inside out; false: `report` says why.
-bool take_step(const Problem& problem, VecX& x, double largest_move, SolveReport& report);
+// A correction, shortened where it is too long or would turn elements inside out; false: `report` says why.
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report);
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options);
 

@@ -67,8 +67,9 @@ Signature signs(const MatX& M, bool neutral_too) {
 Signature Statics::signature() {
   const Dofs& dofs = equilibrium_.dofs();
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
-  if (factor_ == Factor::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 1e-3 * moved) {
+  if (factor_ == Factor::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 0.02 * moved) {
     const int indefinite = n_indefinite_, unstable = n_unstable_;
+    need_tangent();
     factorize();
     n_indefinite_ = indefinite, n_unstable_ = unstable;  // those count what the solution needed
   }
@@ -100,6 +101,7 @@ Signature Statics::signature() {
       return signs(used.transpose() * (*S * used), factor_ == Factor::supported);
     }
   // held directions as springs so stiff that no soft direction is left in them
+  need_tangent();
   std::vector<double> K = equilibrium_.K();
   const Pattern& pattern = equilibrium_.pattern();
   double stiffest = 0;

@@ -54,7 +54,7 @@ class Statics {
   const BodyState& accepted() const { return now_; }
   std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
-  // Of the accepted state, right after accept(). The last factor serves where it was made within a thousandth of the step's
+  // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
@@ -71,8 +71,12 @@ class Statics {
  private:
   Assessment assess(const VecX& u, bool with_tangent);
   std::optional<VecX> correction();
+  std::optional<VecX> correction_again();
+  std::optional<VecX> corrected(const VecX& rhs);
+  void need_tangent();
+  double price() const;  // of a correction with a new tangent in units of one with the last
   bool factorize();
-  std::optional<VecX> contact_forces(const VecX& free_move);
+  std::optional<VecX> contact_forces(const VecX& last_move);  // movement of the rows of last_ without any change of reaction
   bool admissible(const VecX& u) const;
   bool slips_away() const;
   void moved(const VecX& du, double step);
@@ -96,7 +100,10 @@ class Statics {
   double gamma_ = 0;                           // [N/mm]
   double loose_spring_ = 0;                    // gamma to begin with where the supports leave rigid motions [N/mm]
   enum class Factor { none, whole, supported, indefinite } factor_ = Factor::none;
-  VecX factored_at_;  // u of the tangent that was factorized last
+  VecX factored_at_;          // u of the tangent that was factorized last
+  bool K_current_ = false;    // K is that of the trial
+  bool factor_serves_ = false;  // also for other corrections of this increment
+  bool again_ = false;        // the last correction was such a one
   int n_indefinite_ = 0, n_unstable_ = 0;
   Cost cost_;
 };

@@ -35,12 +35,12 @@ void measure(const std::string& name, const test::Indentation& scene, const Mate
              result.path.complete ? "complete" : "stopped (" + result.path.why + ")",
              result.steps.empty() ? 0 : result.steps.back().depth, result.steps.empty() ? 0 : result.steps.back().force);
   fmt::print(
-      "  {} steps, {} iterations ({:.2f} per step), {:.1f} s CPU, {:.1f} s wall, {:.3f} s CPU per iteration, {:.0f} MB\n",
-      result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), seconds, wall,
-      seconds / std::max(1, result.path.iterations), 1e-6 * peak_bytes());
+      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, {:.0f} MB\n",
+      result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), result.path.again,
+      double(result.path.again) / std::max(1, result.path.steps), seconds, wall, 1e-6 * peak_bytes());
   const double rate = multiplication_rate();
-  fmt::print("  CPU s per iteration: assembly {:.3f}, factor {:.3f}, solve {:.3f}, contact {:.3f}; analysis, once, {:.2f}\n",
-             cost.assembly / n, cost.factor / n, cost.solve / n, cost.contact / n, cost.analysis);
+  fmt::print("  CPU s: assembly {:.2f}, factor {:.2f} ({:.3f} each), solve {:.2f}, contact {:.2f}, analysis {:.2f}\n", cost.assembly,
+             cost.factor, cost.factor / n, cost.solve, cost.contact, cost.analysis);
   fmt::print("  factor {:.1f} GFLOP/s ({:.2f} GFLOP each), beside {:.1f} of a matrix product (DGEMM)\n",
              1e-9 * result.size.flops * n / cost.factor, 1e-9 * result.size.flops, 1e-9 * rate);
   std::fflush(stdout);
@@ -170,7 +170,12 @@ int main(int argc, char** argv) {
   }
   if (wanted("fit")) measure_fit();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
-  if (asked.count("paper")) measure("the paper's 100 steps of 0.01 mm", paper_block(), skin);
+  if (asked.count("paper"))
+    for (int threads : {1, 2}) {
+      auto scene = paper_block();
+      scene.threads = threads;
+      measure("the paper's 100 steps of 0.01 mm", scene, skin);
+    }
   if (asked.count("depths")) measure_depths(fine);
   if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);

@@ -182,6 +182,16 @@ TEST_CASE("the linear solver handles definite, indefinite and singular matrices 
     for (int i = 0; i < 5; ++i) full.row(last[i]) = B.row(i);
     const MatX W = full.transpose() * A.inverse() * full;
     CHECK((linear.compliance(B) - W).norm() < 1e-11 * W.norm());
+
+    // in two halves, with what is added between them
+    const LinearSolver::Half half = linear.start(b);
+    const VecX x = linear.solve(b);
+    VecX c(5), whole = b;
+    for (int i = 0; i < 5; ++i) {
+      CHECK(std::abs(half.last[i] - x[last[i]]) < 1e-12);
+      c[i] = u(random), whole[last[i]] += c[i];
+    }
+    CHECK((A * linear.finish(half, c) - whole).norm() < 1e-11 * whole.norm());
   }
   std::fill(values.begin(), values.end(), 0.0);
   CHECK_FALSE(linear.factorize(values));
