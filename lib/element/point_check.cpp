@@ -18,10 +18,9 @@ using P = Packet;
 using Row = Eigen::Array<double, P::lanes, 1>;
 
 P root(const P& x) {
-  constexpr double tiny = 1e-300;  // of 0 Eigen makes infinity times 0 on its way, which a floating-point trap sees
   P y;
   Eigen::Map<Row, Eigen::Aligned64>(reinterpret_cast<double*>(&y.v)) =
-      Eigen::Map<const Row, Eigen::Aligned64>(reinterpret_cast<const double*>(&x.v)).max(tiny).sqrt();
+      Eigen::Map<const Row, Eigen::Aligned64>(reinterpret_cast<const double*>(&x.v)).sqrt();
   return y;
 }
 
