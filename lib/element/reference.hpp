@@ -2,7 +2,10 @@
 //   Hex8   on [-1, 1]^3:  N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta zeta_a) / 8;  2 x 2 x 2 Gauss points of weight 1
 //   Hex27  on [-1, 1]^3:  N_a = l_a(xi) l_a(eta) l_a(zeta), quadratic Lagrange polynomials through -1, 0, 1;
 //          corners as Hex8, then the middles of edges, of facets (in the order of the facets), of the cell; 3 x 3 x 3 Gauss points
-// Gauss point g lies towards node g.
+//   Tet15  on xi, eta, zeta >= 0, xi + eta + zeta <= 1: quadratic polynomials, and bubbles on facets and in the cell, so that
+//          every node of a facet has a positive share of a pressure on it (a quadratic facet's corners have none);
+//          corners, middles of the edges 01 12 02 03 13 23, of the facets, of the cell; 14 Gauss points, of degree 5
+// Gauss point g of a hexahedron lies towards node g.
 #pragma once
 
 #include <array>
@@ -73,7 +76,29 @@ struct Hex27 {
   }
 };
 
+struct Tet15 {
+  static constexpr int n_nodes = 15;
+  static constexpr int n_gauss = 14;
+  static constexpr int n_dofs = 45;
+  static constexpr int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+  // corners counter-clockwise seen from outside; their middles are nodes 10 to 13
+  static constexpr int facet[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+  using Shape = Eigen::Matrix<double, 15, 1>;
+  using Gradient = Eigen::Matrix<double, 15, 3>;
+
+  static Shape shape(const Vec3& xi);
+  static Gradient gradient(const Vec3& xi);
+};
+
 using Gradients = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // one row per node
+
+// A Gauss point of a facet: area = weight |dX/dxi along_1 x dX/dxi along_2|
+struct FacetPoint {
+  Vec3 xi;
+  double weight;
+  Vec3 along_1, along_2;
+};
 
 // Any of them as tables, for loops that do not care which.
 struct ReferenceCell {
@@ -87,7 +112,9 @@ struct ReferenceCell {
   std::vector<std::array<int, 2>> edge;     // its corners
   std::vector<std::vector<int>> facet;      // nodes: the corners counter-clockwise from outside, then middles of edges in that
                                             // order, then the middle
-  MatX at_nodes;                            // (nodes, Gauss points): the best trilinear field of Gauss values, taken at the nodes
+  std::vector<std::vector<FacetPoint>> facet_points;
+  MatX at_nodes;                            // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of Gauss
+                                            // values, taken at the nodes
   std::vector<int> nearest_gauss;           // by node
 };
 

@@ -5,7 +5,7 @@
 //   displacement       W = W_iso(C) + U(J) at every Gauss point (what FER does; locks when 2/d is large)
 //   mean_dilatation    U(J_bar) with one J_bar = (1/V) integral J dV0 per element
 //   linear_dilatation  U(J_bar) with J_bar linear in X, discontinuous between elements: three-field Hu-Washizu with dilatation and
-//                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27; hex8 would lock)                  [SH98]
+//                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27, its like on tet15; hex8 would lock)                  [SH98]
 // With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one:
 //   t_k = (1/V) integral m_k (J - 1) dV0,   W_vol = V kappa/2 sum t_k^2,   p = sum m_k kappa t_k;   K stays symmetric
 // What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's compressive pressure: movements h

@@ -121,7 +121,7 @@ struct FromFile {
   double scale = 1;
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
-      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies) or .inp of Abaqus or CalculiX; or a solid "
+      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) or .inp of Abaqus or CalculiX; or a solid "
       "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...", required);
     v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step or .stl is meshed with, about", positive);
     v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
@@ -141,7 +141,8 @@ using Points = std::map<std::string, Vec3>;
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const GradedBlock& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const IndentedBlock& block, const Points& points, std::vector<std::string>& notes);
-Mesh mesh_of(const FromFile& file, const Points& points, std::vector<std::string>& notes);  // with its sets and bodies, in its own order
+// with its sets and bodies, in its own order; cells: what a solid is meshed with
+Mesh mesh_of(const FromFile& file, CellType cells, std::vector<std::string>& notes);
 
 // What can be seen to be wrong before meshing: refinements that do not fit, points outside or too close to each other.
 std::vector<Complaint> contradictions(const Block& block, const Points& points);

@@ -22,7 +22,7 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes);
 Mesh read_inp(const std::string& path, std::vector<std::string>& notes);
 // A solid of CAD (STEP) or what triangles enclose (facets: STL), meshed by gmsh with cells of about `edge` mm: face_<n> are its faces,
 // body_<n> its bodies where there are several.
-Mesh read_solid(const std::string& path, bool facets, double edge, std::vector<std::string>& notes);
+Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells, std::vector<std::string>& notes);
 Mesh parse_inp(const std::string& text, const std::string& shown_name, std::vector<std::string>& notes);
 
 // Bodies and sets as above; a node set that is no more than the nodes of the facet set of its name is not written twice.

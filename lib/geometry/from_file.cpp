@@ -50,10 +50,13 @@ std::vector<Complaint> FromFile::complaints() const {
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
-Mesh mesh_of(const FromFile& from, const Points&, std::vector<std::string>& notes) {
+Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
   const std::string& path = from.file.path;
   const std::string kind = kind_of(path);
-  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_solid(path, kind == "stl", *from.edge / from.scale, notes);
+  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  if (mesh.type != cells)
+    throw Failure(Exit::config, Error{{}, "cells", fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
+                                      fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path), ""});
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);

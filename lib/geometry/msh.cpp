@@ -11,6 +11,7 @@
 #include "geometry/exchange.hpp"
 #include "geometry/session.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/raise.hpp"
 
 namespace langer {
 
@@ -52,13 +53,16 @@ class MshReader {
   MshReader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
 
   Mesh read() {
-    hexahedron_ = gmsh::model::mesh::getElementType("Hexahedron", 1);
+    const int hexahedron = gmsh::model::mesh::getElementType("Hexahedron", 1), tetrahedron = gmsh::model::mesh::getElementType("Tetrahedron", 1);
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> elements, nodes;
     gmsh::model::mesh::getElements(types, elements, nodes, 3);
+    const char* expected = "8-node hexahedra only, or 4-node tetrahedra only";
     for (int type : types)
-      if (type != hexahedron_) refuse("found cells of the kind " + element_name(type), "8-node hexahedra only");
-    if (types.empty()) refuse("no cells", "8-node hexahedra");
+      if (type != hexahedron && type != tetrahedron) refuse("found cells of the kind " + element_name(type), expected);
+    if (types.size() != 1) refuse(types.empty() ? "no cells" : "hexahedra beside tetrahedra", expected);
+    type_ = types[0];
+    const bool split = type_ == tetrahedron;
 
     std::vector<std::size_t> tags;
     std::vector<double> X, parametric;
@@ -76,11 +80,20 @@ class MshReader {
     std::vector<std::pair<std::size_t, std::size_t>> order;  // tag, place
     for (std::size_t e = 0; e < elements[0].size(); ++e) order.emplace_back(elements[0][e], e);
     std::sort(order.begin(), order.end());
-    const auto corner = hexahedron_order(hexahedron_);
-    for (const auto& [tag, e] : order) {
-      cell_at_[tag] = mesh_.n_cells();
-      for (int a = 0; a < 8; ++a) mesh_.connectivity.push_back(node_at_.at(nodes[0][8 * e + static_cast<std::size_t>(corner[a])]));
+    std::vector<int> corner{0, 1, 2, 3};
+    if (!split) {
+      const auto of_hexahedron = hexahedron_order(hexahedron);
+      corner.assign(of_hexahedron.begin(), of_hexahedron.end());
     }
+    std::vector<int> corners;
+    for (const auto& [tag, e] : order) {
+      cell_at_[tag] = static_cast<int>(corners.size() / corner.size());
+      for (int a : corner) corners.push_back(node_at_.at(nodes[0][corner.size() * e + static_cast<std::size_t>(a)]));
+    }
+    if (split)
+      mesh_ = raised_tetrahedra(mesh_.X, corners);
+    else
+      mesh_.connectivity = corners;
     mesh_.body.assign(static_cast<std::size_t>(mesh_.n_cells()), -1);
     for (const Group& group : groups()) {
       if (group.dim == 3) add_body(group);
@@ -102,7 +115,7 @@ class MshReader {
  private:
   std::string path_;
   std::vector<std::string>& notes_;
-  int hexahedron_ = 0;
+  int type_ = 0;  // gmsh's, of the cells
   Mesh mesh_;
   std::map<std::size_t, int> node_at_, cell_at_;
   std::map<std::array<int, 4>, Facet> facet_at_;
@@ -112,7 +125,7 @@ class MshReader {
     mesh_.bodies.push_back(group.name);
     for (int entity : group.entities) {
       std::vector<std::size_t> tags, nodes;
-      gmsh::model::mesh::getElementsByType(hexahedron_, tags, nodes, entity);
+      gmsh::model::mesh::getElementsByType(type_, tags, nodes, entity);
       for (std::size_t tag : tags) {
         int& of = mesh_.body[cell_at_.at(tag)];
         if (of >= 0) refuse(fmt::format("cell {} belongs to \"{}\" and to \"{}\"", tag, mesh_.bodies[of], group.name), "one physical volume for each cell");
@@ -131,11 +144,14 @@ class MshReader {
       std::vector<std::vector<std::size_t>> elements, nodes;
       gmsh::model::mesh::getElements(types, elements, nodes, 2, entity);
       for (std::size_t t = 0; t < types.size(); ++t) {
-        if (types[t] != gmsh::model::mesh::getElementType("Quadrangle", 1))
-          refuse(fmt::format("the surface \"{}\" has faces of the kind {}", group.name, element_name(types[t])), "quadrangles, the facets of hexahedra");
-        for (std::size_t i = 0; i < nodes[t].size(); i += 4) {
-          std::array<int, 4> key;
-          for (std::size_t k = 0; k < 4; ++k) {
+        const bool triangles = mesh_.type == CellType::tet15;
+        if (types[t] != gmsh::model::mesh::getElementType(triangles ? "Triangle" : "Quadrangle", 1))
+          refuse(fmt::format("the surface \"{}\" has faces of the kind {}", group.name, element_name(types[t])),
+                 triangles ? "triangles, the facets of tetrahedra" : "quadrangles, the facets of hexahedra");
+        const std::size_t n_corners = triangles ? 3 : 4;
+        for (std::size_t i = 0; i < nodes[t].size(); i += n_corners) {
+          std::array<int, 4> key{-1, -1, -1, -1};
+          for (std::size_t k = 0; k < n_corners; ++k) {
             const auto node = node_at_.find(nodes[t][i + k]);
             key[k] = node == node_at_.end() ? -1 : node->second;
           }
@@ -182,7 +198,7 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
   return reader.read();
 }
 
-Mesh read_solid(const std::string& path, bool facets, double edge, std::vector<std::string>& notes) {
+Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells, std::vector<std::string>& notes) {
   const GmshSession session;
   MshReader reader(path, notes);
   try {
@@ -208,9 +224,11 @@ Mesh read_solid(const std::string& path, bool facets, double edge, std::vector<s
       if (volumes.size() > 1) gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {tag}), fmt::format("body_{}", tag));
     gmsh::model::getEntities(surfaces, 2);
     for (const auto& [dim, tag] : surfaces) gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {tag}), fmt::format("face_{}", tag));
-    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);  // every tetrahedron into four hexahedra, of half its size
-    gmsh::option::setNumber("Mesh.MeshSizeMin", 2 * edge);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", 2 * edge);
+    // for hexahedra every tetrahedron is split into four, of half its size
+    const double whole = cells == CellType::tet15 ? edge : 2 * edge;
+    if (cells != CellType::tet15) gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);
+    gmsh::option::setNumber("Mesh.MeshSizeMin", whole);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", whole);
     if (volumes.empty()) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
     gmsh::model::mesh::generate(3);
   } catch (const Failure&) {

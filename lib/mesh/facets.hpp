@@ -8,13 +8,13 @@
 
 namespace langer {
 
-inline constexpr int n_facets(CellType) { return 6; }
+inline constexpr int n_facets(CellType type) { return type == CellType::tet15 ? 4 : 6; }
 
 // as element/reference.hpp orders them: corners counter-clockwise from outside, middles of edges, the middle
 std::vector<int> facet_nodes(const Mesh& mesh, const Facet& facet);
-// its corners only, ascending: the same for the two cells that share it
+// its corners only, ascending: the same for the two cells that share it; a triangle's begin with -1
 std::array<int, 4> facet_key(const Mesh& mesh, const Facet& facet);
-// quadrilaterals that together are the facet, between neighbouring nodes: one, or four
+// quadrilaterals that together are the facet, between neighbouring nodes: one, three or four
 std::vector<std::array<int, 4>> facet_quads(const Mesh& mesh, const Facet& facet);
 
 }  // namespace langer

@@ -17,13 +17,14 @@
 
 namespace langer {
 
-enum class CellType { hex8, hex27 };
-constexpr auto names(CellType) { return std::array{"hex8", "hex27"}; }
-constexpr int nodes_per_cell(CellType type) { return type == CellType::hex8 ? 8 : 27; }
+enum class CellType { hex8, hex27, tet15 };
+constexpr auto names(CellType) { return std::array{"hex8", "hex27", "tet15"}; }
+constexpr const char* shape_name(CellType type) { return type == CellType::tet15 ? "tetrahedra" : "hexahedra"; }
+constexpr int nodes_per_cell(CellType type) { return std::array{8, 27, 15}[static_cast<std::size_t>(type)]; }
 
 struct Facet {
   int cell = 0;
-  int local = 0;  // 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta
+  int local = 0;  // hexahedra: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta; tetrahedra: Tet15::facet
 };
 
 struct Mesh {

@@ -47,7 +47,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");
-    line("body", fmt::format("{} hexahedra, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().n_nodes(),
+    line("body", fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(),
                              body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
     std::size_t families = 0;
     for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
@@ -68,7 +68,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                              duration(f.seconds()), f.per_iteration(), f.assembly, f.factor, f.solving));
   }
   return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},
-          {"hexahedra", static_cast<double>(body.mesh().n_cells()), "-"},
+          {"cells", static_cast<double>(body.mesh().n_cells()), "-"},
           {"steps", static_cast<double>(f.steps), "-"},
           {"iterations", std::round(f.iterations), "-"},
           {"memory", 1e-6 * f.bytes, "MB"},

@@ -139,6 +139,8 @@ FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
   const SolveConfig config = config_of(header, path);
+  if (header.mesh.type == CellType::tet15)
+    refuse(path, "", "cells tet15", "hex8 or hex27: CalculiX has no such cell, and FEBio's order of their nodes is not known here");
   Scene whole = make_scene(config, header.mesh, {}, nowhere);
   whole.fibres = header.fibres;
   const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);

@@ -61,7 +61,14 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
-  mesh = std::visit([&](const auto& g) { return mesh_of(g, config.positions(), result.notes); }, config.geometry);
+  mesh = std::visit(
+      [&](const auto& g) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
+          return mesh_of(g, config.cells, result.notes);
+        else
+          return mesh_of(g, config.positions(), result.notes);
+      },
+      config.geometry);
   if (config.cells != mesh.type) {
     mesh = raised(mesh, config.cells);
     number_in_order(mesh);

@@ -61,7 +61,7 @@ struct MeshConfig {
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
     v(&MeshConfig::cells, "cells", unit::none,
       "hex8, or hex27: quadratic displacements with nodes in the middles of edges, facets and cells too; about 8 times the work of "
-      "a hex8, and far fewer are needed");
+      "a hex8, and far fewer are needed; tet15, where geometry is a file: tetrahedra with quadratic displacements and bubbles");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
@@ -87,8 +87,12 @@ struct MeshConfig {
     if (std::holds_alternative<FromFile>(geometry)) {
       const std::string expected = "none, where geometry is a file";
       if (!bodies.empty()) found.push_back({"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
-      if (cells != CellType::hex8) found.push_back({"cells", "found " + std::string(names(cells)[static_cast<int>(cells)]), "hex8, where geometry is a file", ""});
-    } else if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
+      if (cells == CellType::hex27) found.push_back({"cells", "found hex27", "hex8 or tet15, where geometry is a file", ""});
+      if (cells == CellType::tet15 && frames != Frames::global)
+        found.push_back({"frames", "found element_edges beside cells: tet15", "global: no edge of a tetrahedron stands for a direction", ""});
+    } else if (cells == CellType::tet15)
+      found.push_back({"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
+    if (const double height = box(geometry).size[1]; !std::holds_alternative<FromFile>(geometry) && !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
       found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                        std::to_string(height) + " mm, the height of the geometry", ""});
     if (!exports.empty() && cells != CellType::hex8)

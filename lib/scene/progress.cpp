@@ -14,8 +14,8 @@ Progress::Progress(bool quiet, bool verbose, const Equilibrium& body, const Scen
   if (quiet_) return;
   std::size_t families = 0;
   for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
-  say_line("solve: {} hexahedra, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}",
-             body.mesh().n_cells(), body.mesh().n_nodes(), body.dofs().n_free(),
+  say_line("solve: {} {}, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}",
+             body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(), body.dofs().n_free(),
              names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
              scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
 }

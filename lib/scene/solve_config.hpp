@@ -154,7 +154,7 @@ struct SolveConfig {
     v(&SolveConfig::materials, "materials", unit::none,
       "bodies of the mesh by name, each with its own material and fibres; the keys above stand for those not named");
     v(&SolveConfig::formulation, "formulation", unit::none,
-      "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27");
+      "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27 and tet15");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
     v(&SolveConfig::loads, "loads", unit::none, "imposed displacements");
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");

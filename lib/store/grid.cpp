@@ -13,7 +13,8 @@ namespace langer {
 namespace {
 
 using Integers = std::vector<std::int64_t>;
-constexpr std::uint8_t vtk_type(CellType type) { return type == CellType::hex8 ? 12 : 29; }  // hexahedron, triquadratic
+// hexahedron, triquadratic, Lagrange tetrahedron (of 15 points)
+constexpr std::uint8_t vtk_type(CellType type) { return std::array<std::uint8_t, 3>{12, 29, 71}[static_cast<std::size_t>(type)]; }
 constexpr const char* axes[3] = {"e_x", "e_y", "e_z"};
 
 void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape, const Integers& values) {
@@ -101,11 +102,11 @@ Mesh read_grid(const h5::Group& root) {
   const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints")),
                     e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
   const auto types = grid.read<std::uint8_t>("Types", {e}).values;
-  for (CellType type : {CellType::hex8, CellType::hex27})
+  for (CellType type : {CellType::hex8, CellType::hex27, CellType::tet15})
     if (types[0] == vtk_type(type)) mesh.type = type;
   for (std::uint8_t type : types)
     if (type != vtk_type(mesh.type))
-      grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron) or 29 (triquadratic hexahedron), one for all");
+      grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron), 29 (triquadratic hexahedron) or 71 (Lagrange tetrahedron), one for all");
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
   mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));

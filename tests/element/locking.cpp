@@ -36,6 +36,13 @@ TEST_CASE("hex27 with linear dilatation: the force of an indentation stays withi
   keeps_its_force(scene, 0, {1e-4, 1e-7, 1e-9}, 0.005);
 }
 
+TEST_CASE("tet15: the force of an indentation stays within 0.5 % from d = 1e-4 to 1e-9, at the same cost") {
+  test::Indentation scene;
+  scene.cells = CellType::tet15, scene.quarter = true;
+  scene.nx = scene.nz = 8, scene.ny = 2, scene.h = 0.9, scene.depth = 0.4, scene.step = 0.2;
+  keeps_its_force(scene, 0, {1e-4, 1e-7, 1e-9}, 0.005);
+}
+
 TEST_CASE("full integration locks: the force grows many times as d falls") {
   test::Indentation scene;
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 0.2, scene.step = 0.05;

@@ -1,5 +1,5 @@
 // A smooth displacement chosen first, the body force that balances it computed from the law, the mesh refined:
-// the error of u must fall with h^2 in hex8, with h^3 in hex27 with linear dilatation, and there that of the stress with h^2.
+// the error of u must fall with h^2 in hex8, with h^3 in hex27 and tet15 with linear dilatation, and there that of the stress with h^2.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
@@ -106,4 +106,10 @@ TEST_CASE("hex27: order 3 in u and 2 in stress with linear dilatation, less with
   CHECK(std::abs(linear.sigma - 2) < 0.1);
   const Errors constant = orders(CellType::hex27, Formulation::mean_dilatation, {4, 8});
   CHECK(constant.sigma < 1.5);
+}
+
+TEST_CASE("tet15: order 3 in u and 2 in stress") {
+  const Errors order = orders(CellType::tet15, Formulation::linear_dilatation, {3, 6});
+  CHECK(order.u > 2.8);
+  CHECK(order.sigma > 1.8);
 }

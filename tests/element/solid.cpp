@@ -34,13 +34,15 @@ const Kind kinds[] = {{8, Formulation::mean_dilatation},
                       {8, Formulation::displacement},
                       {27, Formulation::linear_dilatation},
                       {27, Formulation::mean_dilatation},
-                      {27, Formulation::displacement}};
+                      {27, Formulation::displacement},
+                      {15, Formulation::linear_dilatation},
+                      {15, Formulation::displacement}};
 
 One distorted(int n_nodes, double d, unsigned seed = 5) {
   One one;
   const auto& node = reference(n_nodes).node;
   std::mt19937 random(seed);
-  const double most = n_nodes == 8 ? 0.15 : 0.06;
+  const double most = n_nodes == 8 ? 0.15 : n_nodes == 27 ? 0.06 : 0.01;
   std::uniform_real_distribution<double> u(-most, most);
   one.X.resize(n_nodes, 3);
   for (int n = 0; n < n_nodes; ++n)
@@ -54,7 +56,7 @@ One distorted(int n_nodes, double d, unsigned seed = 5) {
 ElementNodes some_displacement(int n_nodes, unsigned seed) {
   ElementNodes u(n_nodes, 3);
   std::mt19937 random(seed);
-  const double size = n_nodes == 8 ? 0.1 : 0.04;
+  const double size = n_nodes == 8 ? 0.1 : n_nodes == 27 ? 0.04 : 0.006;
   std::uniform_real_distribution<double> r(-size, size);
   for (auto& v : u.reshaped()) v = r(random);
   return u;
@@ -150,6 +152,7 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
     Mesh mesh = test::cube(3);
     test::distort(mesh, 0.08);
     if (n == 27) mesh = test::raised_block(mesh), test::distort(mesh, 0.02, 4);
+    if (n == 15) mesh = test::raised_block(mesh, CellType::tet15);  // straight edges: curved ones are beyond its Gauss points
     Equilibrium body(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), {}).dofs);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = H * mesh.X[i];
@@ -164,7 +167,7 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
         ++inner;
         CHECK(body.f_int().segment<3>(3 * i).norm() < 1e-13 * body.f_int().norm());
       }
-    CHECK(inner == (n == 8 ? 8 : 125));
+    CHECK(inner == (n == 8 ? 8 : n == 27 ? 125 : 8 + 117 + 270 + 162));  // tetrahedra: corners, middles of edges, facets, cells
     const Mat3 F = Mat3::Identity() + H;
     const Mat3 sigma = cauchy(F, response(material, F.transpose() * F, fibre_directions(material)).S);
     for (int e = 0; e < mesh.n_cells(); ++e)
@@ -186,22 +189,22 @@ TEST_CASE("an element turned inside out is refused") {
 
 TEST_CASE("modes of the dilatation: orthonormal, and linear in X, in cells of any shape") {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  for (double aspect : {1.0, 1e3, 1e6}) {
-    ElementNodes X = distorted(27, 1e-2).X;
+  for (const auto& [n, aspect] : {std::pair{27, 1.0}, {27, 1e3}, {27, 1e6}, {15, 1.0}, {15, 1e3}}) {
+    ElementNodes X = distorted(n, 1e-2).X;
     X.col(1) /= aspect;
     X = (X * turn).rowwise() + Eigen::RowVector3d(100, -50, 30);
     const ElementGeometry geometry = element_geometry(X);
-    const ReferenceCell& cell = reference(27);
+    const ReferenceCell& cell = reference(n);
     Eigen::Matrix4d product = Eigen::Matrix4d::Zero();
-    Eigen::Matrix<double, 27, 4> mode, linear;
-    for (int g = 0; g < 27; ++g) {
+    MatX mode(cell.n_gauss, 4), linear(cell.n_gauss, 4);
+    for (int g = 0; g < cell.n_gauss; ++g) {
       mode.row(g) = Eigen::Map<const Eigen::RowVector4d>(geometry.mode[g].data());
       const Vec3 x = turn * (X.transpose() * cell.N[g] - Vec3(100, -50, 30));
       linear.row(g) << 1, x[0], x[1] * aspect, x[2];
       product += geometry.w[g] / geometry.V * mode.row(g).transpose() * mode.row(g);
     }
     CHECK((product - Eigen::Matrix4d::Identity()).norm() < 1e-13);
-    const Eigen::Matrix4d by = linear.colPivHouseholderQr().solve(mode);
+    const MatX by = linear.colPivHouseholderQr().solve(mode);
     CHECK((linear * by - mode).norm() < 1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
   }
 }

@@ -9,6 +9,7 @@
 #include "geometry/exchange.hpp"
 #include "geometry/session.hpp"
 #include "mesh/facets.hpp"
+#include "element/surface.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/select.hpp"
 #include "support/block.hpp"
@@ -165,7 +166,7 @@ TEST_CASE("a .msh without hexahedra, or none at all, is refused") {
     return "";
   };
   const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
-  CHECK(said(head + "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n").find("found cells of the kind Tetrahedron 4; expected 8-node hexahedra only") != std::string::npos);
+  CHECK(said(head + "$Elements\n1\n1 7 2 1 1 1 2 3 4 4\n$EndElements\n").find("found cells of the kind Pyramid 5; expected 8-node hexahedra only") != std::string::npos);
   CHECK(said(head).find("no cells") != std::string::npos);
   CHECK(said("no mesh\n") != "");
 }
@@ -180,7 +181,7 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     gmsh::write(path);
   }
   std::vector<std::string> notes;
-  const Mesh mesh = read_solid(path, false, 1.5, notes);
+  const Mesh mesh = read_solid(path, false, 1.5, CellType::hex8, notes);
   CHECK(mesh.bodies.size() == 2);
   const Quality q = quality(mesh);
   CHECK(q.least_jacobian > 0);  // flat tetrahedra make flat hexahedra, none is folded
@@ -195,13 +196,44 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
       for (const Facet& g : facets) named += g.cell == f.cell && g.local == f.local;
     CHECK(named == 1);
   }
+  // as tetrahedra
+  const Mesh split = read_solid(path, false, 3, CellType::tet15, notes);
+  CHECK(split.type == CellType::tet15);
+  CHECK(split.bodies == mesh.bodies);
+  CHECK(quality(split).least_jacobian > 0);
+  CHECK(quality(split).volume == doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.05));  // straight edges
+  CHECK(split.facet_sets.size() == mesh.facet_sets.size());
+  CHECK_FALSE(coincident_nodes(split, 1e-6));
+  for (const Facet& f : boundary(split)) {
+    int named = 0;
+    for (const auto& [name, facets] : split.facet_sets)
+      for (const Facet& g : facets) named += g.cell == f.cell && g.local == f.local;
+    CHECK(named == 1);
+  }
+  const std::string tetrahedra = folder() + "/tetrahedra.msh";
+  {
+    const GmshSession session;
+    gmsh::model::occ::addBox(0, 0, 0, 6, 2, 4);
+    gmsh::model::occ::synchronize();
+    gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {1}), "flesh");
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1, 2}), "ends");
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 1.5);
+    gmsh::model::mesh::generate(3);
+    gmsh::write(tetrahedra);
+  }
+  const Mesh read = read_msh(tetrahedra, notes);
+  CHECK(read.type == CellType::tet15);
+  CHECK(read.bodies == std::vector<std::string>{"flesh"});
+  CHECK(quality(read).volume == doctest::Approx(48).epsilon(1e-12));
+  for (int n : read.node_sets.at("ends")) CHECK((std::abs(read.X[n][0]) < 1e-9 || std::abs(read.X[n][0] - 6) < 1e-9));
+  CHECK(nodal_areas(read, read.facet_sets.at("ends")).sum() == doctest::Approx(2 * 2 * 4).epsilon(1e-12));
   {
     const GmshSession session;
     gmsh::model::occ::addSphere(0, 0, 0, 5);
     gmsh::model::occ::synchronize();
     gmsh::write(path);
   }
-  const Mesh ball = read_solid(path, false, 1, notes);
+  const Mesh ball = read_solid(path, false, 1, CellType::hex8, notes);
   CHECK(ball.bodies == std::vector<std::string>{""});
   CHECK(quality(ball).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
   // the same ball and a box as triangles
@@ -215,14 +247,14 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     gmsh::write(facets);
   };
   meshed([] { gmsh::model::occ::addBox(0, 0, 0, 6, 2, 4); });
-  const Mesh box = read_solid(facets, true, 1, notes);
+  const Mesh box = read_solid(facets, true, 1, CellType::hex8, notes);
   CHECK(quality(box).volume == doctest::Approx(48).epsilon(1e-6));
   CHECK(quality(box).least_jacobian > 0);
   CHECK(box.facet_sets.size() >= 6);  // gmsh may cut a face of triangles into several
   meshed([] { gmsh::model::occ::addSphere(0, 0, 0, 5); });
-  CHECK(quality(read_solid(facets, true, 1, notes)).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  CHECK(quality(read_solid(facets, true, 1, CellType::hex8, notes)).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
   std::ofstream(folder() + "/no.stl") << "nothing";
-  CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, notes), Failure);
+  CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, CellType::hex8, notes), Failure);
   std::ofstream(folder() + "/no.step") << "nothing";
-  CHECK_THROWS_AS(read_solid(folder() + "/no.step", false, 1, notes), Failure);
+  CHECK_THROWS_AS(read_solid(folder() + "/no.step", false, 1, CellType::hex8, notes), Failure);
 }

@@ -54,6 +54,61 @@ TEST_CASE("hex27: facets list corners from outside, the middles between them, th
   }
 }
 
+TEST_CASE("tet15: shape functions are 1 at their node and 0 at the others, sum to 1, hold quadratic fields; gradients are derivatives") {
+  const ReferenceCell& cell = reference(15);
+  REQUIRE(cell.node.size() == 15);
+  for (int a = 0; a < 15; ++a) {
+    const VecX N = cell.shape(cell.node[a]);
+    for (int b = 0; b < 15; ++b) CHECK(std::abs(N[b] - (a == b ? 1 : 0)) < 1e-15);
+  }
+  const Vec3 xi(0.2, 0.13, 0.4);
+  CHECK(std::abs(cell.shape(xi).sum() - 1) < 1e-15);
+  const auto field = [](const Vec3& x) { return 1 + x[0] - 2 * x[1] * x[2] + 3 * x[0] * x[0] - x[2] * x[2] + x[0] * x[1]; };
+  double value = 0;
+  for (int a = 0; a < 15; ++a) value += cell.shape(xi)[a] * field(cell.node[a]);
+  CHECK(value == doctest::Approx(field(xi)).epsilon(1e-14));
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 h = 1e-5 * Vec3::Unit(k);
+    CHECK((cell.gradient(xi).col(k) - (cell.shape(xi + h) - cell.shape(xi - h)) / 2e-5).norm() < 1e-8);
+  }
+}
+
+TEST_CASE("tet15: the points of the cell and of its facets integrate polynomials of degree 5 exactly") {
+  const ReferenceCell& cell = reference(15);
+  const auto factorial = [](int n) { return std::tgamma(n + 1); };
+  for (int p = 0; p <= 5; ++p)
+    for (int q = 0; p + q <= 5; ++q)
+      for (int r = 0; p + q + r <= 5; ++r) {
+        const auto f = [&](const Vec3& x) { return std::pow(x[0], p) * std::pow(x[1], q) * std::pow(x[2], r); };
+        double sum = 0;
+        for (int g = 0; g < cell.n_gauss; ++g) sum += cell.weight[g] * f(cell.gauss[g]);
+        CHECK(sum == doctest::Approx(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3)).epsilon(1e-13));
+        if (r > 0) continue;
+        double on_facet = 0;  // 0, zeta = 0
+        for (const FacetPoint& x : cell.facet_points[0]) on_facet += x.weight * f(x.xi) * x.along_1.cross(x.along_2).norm();
+        CHECK(on_facet == doctest::Approx(factorial(p) * factorial(q) / factorial(p + q + 2)).epsilon(1e-13));
+      }
+}
+
+TEST_CASE("tet15: facets list corners from outside, the middles between them, the middle; nodes have 1/20, 2/15 and 9/20 of each") {
+  const ReferenceCell& cell = reference(15);
+  Mesh mesh;
+  mesh.type = CellType::tet15;
+  for (int a = 0; a < 15; ++a) mesh.X.push_back(cell.node[a]), mesh.connectivity.push_back(a);
+  for (int f = 0; f < 4; ++f) {
+    const auto& n = cell.facet[f];
+    REQUIRE(n.size() == 7);
+    const auto x = [&](int k) { return cell.node[n[static_cast<std::size_t>(k)]]; };
+    const Vec3 area = (x(1) - x(0)).cross(x(2) - x(0)) / 2;
+    CHECK(area.dot(x(0) - Vec3::Constant(0.25)) > 0);
+    for (int k = 0; k < 3; ++k) CHECK((x(3 + k) - (x(k) + x((k + 1) % 3)) / 2).norm() < 1e-15);
+    CHECK((x(6) - (x(0) + x(1) + x(2)) / 3).norm() < 1e-15);
+    const VecX shares = nodal_areas(mesh, {{0, f}}) / area.norm();
+    CHECK(shares.sum() == doctest::Approx(1).epsilon(1e-14));
+    for (int k = 0; k < 7; ++k) CHECK(shares[n[k]] == doctest::Approx(k < 3 ? 1. / 20 : k < 6 ? 2. / 15 : 9. / 20).epsilon(1e-13));
+  }
+}
+
 TEST_CASE("raised: a block has (2n + 1)^3 nodes, each at the mean of its corners, and the volume it had") {
   Mesh linear = test::cube(3);
   test::distort(linear, 0.08);
@@ -112,6 +167,10 @@ TEST_CASE("the straight cells between the nodes of hex27 fill the same block and
   const Quality q = quality(parts);
   CHECK(q.volume == doctest::Approx(12).epsilon(1e-14));
   CHECK(q.least_scaled_jacobian == doctest::Approx(1).epsilon(1e-14));
+  const Mesh tetrahedra = test::tetrahedra(test::block({0, 2, 3}, {0, 1}, {0, 3, 4})), in_them = between_nodes(tetrahedra);
+  CHECK(in_them.n_cells() == 4 * 6 * 4);
+  CHECK(quality(in_them).volume == doctest::Approx(12).epsilon(1e-14));
+  CHECK(quality(in_them).least_jacobian > 0);
 }
 
 TEST_CASE("nodes have their positive shares of a surface: 1, 4 and 16 parts of 36 in hex27, quarters in hex8") {

@@ -69,6 +69,23 @@ TEST_CASE("256 hex27 in the quarter give 10.76 N within 0.5 %, and within 2 % wh
   }
 }
 
+TEST_CASE("tetrahedra with bubbles give 10.76 N, nearer with each finer mesh") {
+  test::Indentation scene;
+  scene.cells = CellType::tet15;
+  scene.quarter = true, scene.mu = 0, scene.reach = 2.4, scene.step = 0.25;
+  double last = 1;
+  for (const auto& [n, ny, h] : {std::tuple{6, 2, 0.8}, {8, 3, 0.5}, {12, 4, 0.3}}) {
+    scene.nx = scene.nz = n, scene.ny = ny, scene.h = h;
+    const auto result = scene.run(test::table1(0, 1e-6, 0));
+    REQUIRE(result.path.complete);
+    const double off = std::abs(4 * result.steps.back().force / 10.76 - 1);
+    MESSAGE(result.mesh.n_cells() << " tetrahedra: " << 100 * (4 * result.steps.back().force / 10.76 - 1) << " %");
+    CHECK(off < last);
+    last = off;
+  }
+  CHECK(last < 0.02);  // 864 of 0.3 mm under the sphere
+}
+
 TEST_CASE("opposite points move alike, and turning the fibres mirrors the field") {
   const double depth = 0.3;
   const auto run = [&](double alpha) {

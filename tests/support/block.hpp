@@ -38,10 +38,23 @@ inline Mesh block(const std::vector<double>& x, const std::vector<double>& y, co
   return mesh;
 }
 
+// six tetrahedra around the diagonal of each hexahedron
+inline Mesh tetrahedra(const Mesh& hexahedra) {
+  constexpr int through[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
+  std::vector<int> corners;
+  for (int e = 0; e < hexahedra.n_cells(); ++e)
+    for (const auto& [a, b] : through)
+      for (int local : {0, a, b, 6}) corners.push_back(hexahedra.cell(e)[static_cast<std::size_t>(local)]);
+  Mesh mesh = raised_tetrahedra(hexahedra.X, corners);
+  mesh.bodies = hexahedra.bodies, mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
+  mesh.frames.assign(mesh.body.size(), Mat3::Identity());
+  return mesh;
+}
+
 // of quadratic cells, with the same faces
 inline Mesh raised_block(const Mesh& linear, CellType to = CellType::hex27) {
-  Mesh mesh = raised(linear, to);
-  mesh.bodies = linear.bodies, mesh.body = linear.body, mesh.frames = linear.frames;
+  Mesh mesh = to == CellType::tet15 ? tetrahedra(linear) : raised(linear, to);
+  if (to != CellType::tet15) mesh.bodies = linear.bodies, mesh.body = linear.body, mesh.frames = linear.frames;
   for (const auto& [name, nodes] : linear.node_sets) {
     const int axis = name[0] - 'x';
     for (int i = 0; i < mesh.n_nodes(); ++i)
