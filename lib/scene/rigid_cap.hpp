@@ -1,7 +1,6 @@
 // The part of a rigid sphere that may touch, as facets, for programs that know no exact sphere.
 //   outer  corners of the facets; they lie by the mean sag s^2 / (6 R) of a facet of side s outside the sphere, so that facets
-//   and
-//          sphere enclose the same volume
+//          and sphere enclose the same volume
 //   inner  one for each outer point, nearer the centre: between them lie hexahedra that carry the facets
 #pragma once
 
