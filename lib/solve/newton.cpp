@@ -35,12 +35,13 @@ class OldTangent {
   bool used() const { return used_ > 0; }
   // residual before the next correction, and the one wanted
   bool serves(double residual, double wanted) {
-    const double share = residual / before_;  // what the last correction left
+    const double share = before_ > 0 ? residual / before_ : 1;  // what the last correction left
     before_ = residual;
     if (used_ == 0) return any_ && share < 0.1;  // not while a long step still finds its contacts
     // where switches of fibres turn on and off, an old tangent may undo what a new one did, for ever
     if (share > 0.3) return any_ = false;
     if (used_ > price_ + 2) return false;
+    if (residual <= wanted) return true;  // something else is missing
     const double to_go = std::log(wanted / residual) / std::log(share);
     return to_go <= price_ + 1;  // a new tangent will need one correction more as well
   }
