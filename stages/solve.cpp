@@ -94,7 +94,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, job.where);
-  if (part) job.say("symmetry: {}", part->words());
+  if (part) job.say("{}{}", mesh.section ? "" : "symmetry: ", part->words());
   const Scene& scene = part ? part->scene() : whole;
   Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
                    scene.fibres, part ? part->cell_share() : std::vector<double>{});
@@ -106,7 +106,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   need_memory(statics, config.threads);
   SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, job.identity));
   Progress progress(job.quiet, job.verbose, body, scene);
-  const std::string held_by_contact = free_motions(mesh, whole.dofs);
+  const std::string held_by_contact = free_motions(mesh, mesh.section ? scene.dofs : whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())
     throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
@@ -202,7 +202,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
   if (!scene.contacts.empty()) summary.push_back({"force", last.force_ind.norm(), "N"});
   if (rung) summary.push_back({"accuracy", rung->rung.error, "percent"});
-  if (part) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
+  if (part && !mesh.section) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
   summary.insert(summary.end(), errors.begin(), errors.end());
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)

@@ -1,6 +1,6 @@
 // Which degrees of freedom are free. Dof 3 i + k is displacement component k of node i.
 // A prescribed component moves as  value * ramp(t);  held components have value 0.
-// Where symmetry ties nodes to others, these have no dofs of their own: whoever needs their displacement asks their image.
+// Tied nodes, those of symmetry or of a section, have no dofs of their own: whoever needs their displacement asks their image.
 #pragma once
 
 #include <vector>

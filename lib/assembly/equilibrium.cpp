@@ -39,7 +39,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
     tied_.assign(n, 0);
     for (int e = 0; e < n; ++e)
       for (int a : mesh.cell(e))
-        if (dofs_.tie[a].of != a) tied_[e] = 1;
+        if (dofs_.tie[a].of != a || !dofs_.tie[a].T.isDiagonal(0)) tied_[e] = 1;
   }
   make_blocks();
   p_.assign(static_cast<std::size_t>(n) * n_p_, 0);
@@ -76,7 +76,7 @@ ElementNodes Equilibrium::element_displacements(const VecX& u, int e) const {
   const auto nodes = mesh_.cell(e);
   ElementNodes q(n_nodes_, 3);
   for (int a = 0; a < n_nodes_; ++a)
-    q.row(a) = u.segment<3>(3 * dofs_.node(nodes[a])).cwiseProduct(dofs_.tie[nodes[a]].signs).transpose();
+    q.row(a) = (dofs_.tie[nodes[a]].T * u.segment<3>(3 * dofs_.node(nodes[a]))).transpose();
   return q;
 }
 
@@ -129,18 +129,27 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
 // Forces and tangent of a cell with tied nodes, folded onto the nodes that move.
 void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_tangent) {
   const auto nodes = mesh_.cell(e);
-  double sign[Hex27::n_dofs];
-  int dof[Hex27::n_dofs];
-  for (int a = 0; a < n_nodes_; ++a)
-    for (int i = 0; i < 3; ++i) {
-      sign[3 * a + i] = dofs_.tie[nodes[a]].signs[i], dof[3 * a + i] = 3 * dofs_.node(nodes[a]) + i;
-      f_[dof[3 * a + i]] += sign[3 * a + i] * out.f[3 * a + i][lane];
-    }
+  const auto entry = [](int i, int j) { return i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j; };  // lower triangle, row by row
+  for (int a = 0; a < n_nodes_; ++a) {
+    const Image& image = dofs_.tie[nodes[a]];
+    f_.segment<3>(3 * image.of) += image.T.transpose() * Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]);
+  }
   if (!with_tangent) return;
   const int* slot = pattern_.slots(e);
-  for (int i = 0, k = 0; i < n_dofs_; ++i)
-    for (int j = 0; j <= i; ++j, ++k)  // two tied entries of one cell meet on the diagonal: both halves of the matrix count there
-      if (slot[k] >= 0) K_[slot[k]] += (i != j && dof[i] == dof[j] ? 2 : 1) * sign[i] * sign[j] * out.K[k][lane];
+  for (int a = 0; a < n_nodes_; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const Image &row = dofs_.tie[nodes[a]], &column = dofs_.tie[nodes[b]];
+      Mat3 K;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) K(i, j) = out.K[entry(3 * a + i, 3 * b + j)][lane];
+      K = row.T.transpose() * K * column.T;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
+          const int at = slot[entry(3 * a + i, 3 * b + j)];
+          // two nodes that move with one: both halves of the matrix meet on its diagonal
+          if (at >= 0) K_[at] += (a != b && i == j && row.of == column.of ? 2 : 1) * K(i, j);
+        }
+    }
 }
 
 void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent,
@@ -159,7 +168,10 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       J_minus_1_[at] = out.J_minus_1[k][l];
       double* dJ = &dJ_du_[at * n_dofs_];
-      for (int i = 0; i < n_dofs_; ++i) dJ[i] = out.dJ_du(k)[i][l], slope = std::max(slope, std::abs(dJ[i]));
+      for (int i = 0; i < n_dofs_; ++i) dJ[i] = out.dJ_du(k)[i][l];
+      for (int i = 0; i < n_dofs_ && !tied; ++i) slope = std::max(slope, std::abs(dJ[i]));
+      for (int a = 0; a < n_nodes_ && tied; ++a)
+        slope = std::max(slope, (dofs_.tie[nodes[a]].T.transpose() * Vec3(dJ + 3 * a)).lpNorm<Eigen::Infinity>());
     }
     for (int a : nodes) moved = std::max(moved, u.segment<3>(3 * dofs_.node(a)).lpNorm<Eigen::Infinity>());
     // rounding of u reaches the pressure through the dilatation's gradient, and the force through it once more
@@ -179,8 +191,10 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
         K_du[i] += out.K[k][l] * du[j];
         if (j < i) K_du[j] += out.K[k][l] * du[i];
       }
-    for (int i = 0; i < n_dofs_; ++i)
-      K_du_[3 * dofs_.node(nodes[i / 3]) + i % 3] += (tied ? dofs_.tie[nodes[i / 3]].signs[i % 3] : 1) * K_du[i];
+    for (int a = 0; a < n_nodes_; ++a) {
+      const Vec3 force(&K_du[3 * a]);
+      K_du_.segment<3>(3 * dofs_.node(nodes[a])) += tied ? Vec3(dofs_.tie[nodes[a]].T.transpose() * force) : force;
+    }
   }
 }
 
@@ -231,9 +245,10 @@ VecX Equilibrium::turned_dilatations() const {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
       const double w = geometry_[e].V * (kappa * J_minus_1_[at] - p_[at]);
-      for (int a = 0; a < n_nodes_; ++a)
-        for (int i = 0; i < 3; ++i)
-          out[3 * dofs_.node(nodes[a]) + i] += (tied ? dofs_.tie[nodes[a]].signs[i] : 1) * w * (b[3 * a + i] - b0[3 * a + i]);
+      for (int a = 0; a < n_nodes_; ++a) {
+        const Vec3 force = w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a));
+        out.segment<3>(3 * dofs_.node(nodes[a])) += tied ? Vec3(dofs_.tie[nodes[a]].T.transpose() * force) : force;
+      }
     }
   }
   return out;

@@ -3,6 +3,7 @@
 //   IndentedBlock  a Block whose cells follow from the indenter and one number
 //   GradedBlock  square core, rings and outer blocks in the x-z plane (an O-grid), extruded along y: edges turn with the rings
 //   FromFile     what another program meshed
+//   SectionBox, IndentedDisc  two-dimensional scenes (geometry/section.hpp)
 // Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock or a file must have nodes there.
 #pragma once
 
@@ -15,25 +16,14 @@
 
 #include "base/fields.hpp"
 #include "base/input_path.hpp"
+#include "geometry/box.hpp"
+#include "geometry/section.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/order.hpp"
 
 namespace langer {
 
 inline constexpr long long most_cells = 4'000'000;  // beyond, a number is more likely a slip than a wish
-
-struct TowardsCentre {
-  double edge = 0, within = 0;
-  static void fields(auto& v) {
-    v(&TowardsCentre::edge, "edge", unit::mm, "length of the cells around the centre", required, positive);
-    v(&TowardsCentre::within, "within", unit::mm, "distance from the centre up to which cells keep that length", at_least(0));
-  }
-};
-
-struct TowardsTop {
-  double edge = 0;
-  static void fields(auto& v) { v(&TowardsTop::edge, "edge", unit::mm, "height of the uppermost cells", required, positive); }
-};
 
 struct Block {
   static constexpr const char* key = "block";
@@ -129,10 +119,10 @@ struct FromFile {
   std::vector<Complaint> complaints() const;
 };
 
-using Geometry = std::variant<Block, GradedBlock, IndentedBlock, FromFile>;
-struct Box {
-  std::array<double, 3> origin{}, size{};
-};
+using Geometry = std::variant<Block, GradedBlock, IndentedBlock, FromFile, SectionBox, IndentedDisc>;
+bool is_section(const Geometry& geometry);
+double* edge_in_contact_radii(Geometry& geometry);  // of the kinds that one number scales, else nullptr
+inline bool has_edge_in_contact_radii(Geometry geometry) { return edge_in_contact_radii(geometry); }
 Box box(const Geometry& geometry);  // what it spans; of a file, not read yet, nothing
 using Points = std::map<std::string, Vec3>;
 
@@ -141,6 +131,8 @@ using Points = std::map<std::string, Vec3>;
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const GradedBlock& block, const Points& points, std::vector<std::string>& notes);
 Mesh mesh_of(const IndentedBlock& block, const Points& points, std::vector<std::string>& notes);
+Mesh mesh_of(const SectionBox& box, const Points& points, std::vector<std::string>& notes);
+Mesh mesh_of(const IndentedDisc& disc, const Points& points, std::vector<std::string>& notes);
 // with its sets and bodies, in its own order; cells: what a solid is meshed with
 Mesh mesh_of(const FromFile& file, CellType cells, std::vector<std::string>& notes);
 
@@ -148,6 +140,8 @@ Mesh mesh_of(const FromFile& file, CellType cells, std::vector<std::string>& not
 std::vector<Complaint> contradictions(const Block& block, const Points& points);
 std::vector<Complaint> contradictions(const GradedBlock& block, const Points& points);
 std::vector<Complaint> contradictions(const IndentedBlock& block, const Points& points);
+std::vector<Complaint> contradictions(const SectionBox& box, const Points& points);
+std::vector<Complaint> contradictions(const IndentedDisc& disc, const Points& points);
 std::vector<Complaint> contradictions(const FromFile& file, const Points& points);
 
 // Sets each point's node set, the node exactly there; throws Failure(config) with the nearest node where there is none.

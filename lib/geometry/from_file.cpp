@@ -74,10 +74,22 @@ Box box(const Geometry& geometry) {
       [](const auto& g) {
         if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
           return Box{};
+        else if constexpr (requires { g.spans(); })
+          return g.spans();
         else
           return Box{g.origin, g.size};
       },
       geometry);
+}
+
+bool is_section(const Geometry& geometry) {
+  return std::holds_alternative<SectionBox>(geometry) || std::holds_alternative<IndentedDisc>(geometry);
+}
+
+double* edge_in_contact_radii(Geometry& geometry) {
+  if (auto* block = std::get_if<IndentedBlock>(&geometry)) return &block->edge;
+  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) return &disc->edge;
+  return nullptr;
 }
 
 std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }

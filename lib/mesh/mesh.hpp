@@ -5,10 +5,12 @@
 //   frames        per cell, columns e_x e_y e_z (orthonormal, right-handed); a = cos(alpha) e_x + sin(alpha) e_z   [A23] eq. 1
 //   node_sets     name -> nodes, ascending; observation points are sets of one node
 //   facet_sets    name -> (cell, local facet)
+//   section       the mesh is one layer of cells that stands for more (mesh/section.hpp)
 #pragma once
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +29,14 @@ struct Facet {
   int local = 0;  // hexahedra: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta; tetrahedra: Tet15::facet
 };
 
+enum class SectionOf { axisymmetric, plane_strain };
+constexpr auto names(SectionOf) { return std::array{"axisymmetric", "plane_strain"}; }
+struct Section {
+  SectionOf of = SectionOf::axisymmetric;
+  double depth = 0;  // of the layer along z: for each mm of x [-]; of plane strain [mm]
+  friend bool operator==(const Section&, const Section&) = default;
+};
+
 struct Mesh {
   CellType type = CellType::hex8;
   std::vector<Vec3> X;
@@ -36,6 +46,7 @@ struct Mesh {
   std::vector<Mat3> frames;
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<Facet>> facet_sets;
+  std::optional<Section> section;
 
   int n_nodes() const { return static_cast<int>(X.size()); }
   int n_cells() const { return static_cast<int>(connectivity.size()) / nodes_per_cell(type); }

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "element/reference.hpp"
+#include "mesh/section.hpp"
 
 namespace langer {
 
@@ -34,7 +35,17 @@ Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
   return J;
 }
 
-Quality quality(const Mesh& mesh) {
+namespace {
+
+double volume(const Mesh& mesh) {
+  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  double volume = 0;
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (int g = 0; g < cell.n_gauss; ++g) volume += cell.weight[g] * jacobian(mesh, e, cell.gauss[g]).determinant();
+  return volume;
+}
+
+Quality shapes(const Mesh& mesh, bool of_section) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Quality q;
   q.least_jacobian = q.least_scaled_jacobian = q.shortest_edge = infinity;
@@ -57,6 +68,7 @@ Quality quality(const Mesh& mesh) {
     }
     double shortest = infinity, longest = 0;
     for (const auto& [a, b] : cell.edge) {
+      if (of_section && cell.node[a][2] != cell.node[b][2]) continue;
       const double length = (mesh.X[mesh.cell(e)[b]] - mesh.X[mesh.cell(e)[a]]).norm();
       shortest = std::min(shortest, length), longest = std::max(longest, length);
     }
@@ -66,7 +78,17 @@ Quality quality(const Mesh& mesh) {
   return q;
 }
 
+}  // namespace
+
+Quality quality(const Mesh& mesh) {
+  if (!mesh.section) return shapes(mesh, false);
+  Quality q = shapes(as_plate(mesh), true);
+  q.volume = volume(mesh) * cell_share(*mesh.section);
+  return q;
+}
+
 std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double closer_than) {
+  if (mesh.section) return coincident_nodes(as_plate(mesh), closer_than);
   const double edge = 16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
   using Cell = std::array<std::int64_t, 3>;
   const auto hash = [](const Cell& c) {

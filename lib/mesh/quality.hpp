@@ -1,4 +1,4 @@
-// How well shaped the cells are; a mesh with a Jacobian that is not positive is refused.
+// How well shaped the cells are; a mesh with a Jacobian that is not positive is refused. Of a section, in its plane.
 //   jacobian          dX/dxi (3,3) [mm]: columns along the xi, eta, zeta edges
 //   scaled Jacobian   det of the three normalised edges at a corner: 1 for a brick, <= 0 for a folded cell
 //   aspect            longest edge of a cell over its shortest
@@ -13,13 +13,13 @@
 namespace langer {
 
 struct Quality {
-  double least_jacobian = 0;  // det dX/dxi over nodes and Gauss points [mm^3]
+  double least_jacobian = 0;  // det dX/dxi over nodes and Gauss points [mm^3]; of a section [mm^2]
   int at_cell = -1;           // where that is
   Vec3 at = Vec3::Zero();
   double least_scaled_jacobian = 0;
   double largest_aspect = 0;
   double shortest_edge = 0, longest_edge = 0;  // [mm]
-  double volume = 0;                           // [mm^3]
+  double volume = 0;                           // [mm^3]; of the whole body that a section stands for
 };
 
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi);

@@ -141,8 +141,8 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
   q.node_share.assign(q.node.size(), 0);
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     int master = -1, orbit = 0;
-    Image image;
-    Vec3 allowed = Vec3::Ones();
+    int kept = 0;
+    Vec3 signs = Vec3::Ones(), allowed = Vec3::Ones();
     for (const Symmetry& g : group) {
       const int other = g.node[n];
       if (other == static_cast<int>(n)) {  // what it maps onto itself with a change of sign vanishes
@@ -151,13 +151,12 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
           if (g.signs[k] < 0) allowed[k] = 0;
       }
       if (kept_node[other] < 0 || (master >= 0 && !before(mesh.X[other], mesh.X[master], tolerance))) continue;
-      master = other, image = {kept_node[other], g.signs};
+      master = other, kept = kept_node[other], signs = g.signs;
     }
     // the image of a node that other symmetries leave in place has their zeros too
-    image.signs = image.signs.cwiseProduct(allowed);
-    q.node_image.push_back(image);
-    if (q.node[image.of] == static_cast<int>(n))
-      q.node_share[image.of] = static_cast<double>(group.size()) / orbit;
+    q.node_image.push_back({kept, signs.cwiseProduct(allowed).asDiagonal()});
+    if (q.node[kept] == static_cast<int>(n))
+      q.node_share[kept] = static_cast<double>(group.size()) / orbit;
   }
   for (int n : q.node) q.tie.push_back(q.node_image[n]);
   return q;

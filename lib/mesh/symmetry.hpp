@@ -21,10 +21,11 @@ struct Symmetry {
 // Nothing where a node or cell has no image, or the image belongs to another body. Positions agree within 1e-9 of the size.
 std::optional<Symmetry> find_symmetry(const Mesh& mesh, const Vec3& signs, const Vec3& centre);
 
-// u(node) = signs * u(node of); a sign of 0 is a component that symmetry forbids.
+// u(node) = T u(node of). T of a node that is its own image has zeros on its diagonal for components that symmetry forbids, and
+// below it what the others bring with them.
 struct Image {
   int of = 0;
-  Vec3 signs = Vec3::Ones();
+  Mat3 T = Mat3::Identity();
 };
 
 struct Quotient {

@@ -37,6 +37,7 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
                      known.empty() ? "none at all" : fmt::format("one of {}", fmt::join(known, ", ")),
                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   };
+  if (mesh.section) return {{"on", "facets of a section, which are lines", "a body in three dimensions", "renders show sections"}};
   need("on", choice.on, facets, "facets");
   for (std::size_t i = 0; i < choice.points.size(); ++i) need(fmt::format("points[{}]", i), choice.points[i], points, "point");
   if (choice.field == Quantity::fibre_stretch && choice.family > body.n_families())

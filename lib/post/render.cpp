@@ -217,7 +217,7 @@ std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vecto
 
 Drawing render(const RenderScene& scene, const RenderChoice& choice) {
   const Mesh& mesh = scene.mesh;
-  const Mat3 R = eye(choice.view);
+  const Mat3 R = eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
   std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
   for (const Cut& cut : choice.cuts)
     for (int e = 0; e < mesh.n_cells(); ++e) {

@@ -36,7 +36,7 @@ struct RenderChoice {
   std::optional<Quantity> field;
   int family = 1;
   std::string step = "last";
-  std::array<double, 2> view{35, 28};
+  std::optional<std::array<double, 2>> view;
   std::vector<Cut> cuts;
   std::optional<std::array<double, 2>> range;
   std::vector<std::string> points;
@@ -46,7 +46,7 @@ struct RenderChoice {
     v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface; none: the mesh alone");
     v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
     v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
-    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye", between(-360, 360));
+    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0", between(-360, 360));
     v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");

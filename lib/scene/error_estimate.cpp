@@ -76,11 +76,11 @@ std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecor
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
                                            const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
                                            double residual) {
-  if (!config.mesh || !std::holds_alternative<IndentedBlock>(config.mesh->geometry))
-    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block of this config", "", ""});
+  if (!config.mesh || !has_edge_in_contact_radii(config.mesh->geometry))
+    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block or indented_disc of this config", "", ""});
   const auto on_cells = [&](double longer) {
     SolveConfig coarser = config;
-    std::get<IndentedBlock>(coarser.mesh->geometry).edge *= longer;
+    *edge_in_contact_radii(coarser.mesh->geometry) *= longer;
     return coarser;
   };
   SolveConfig coarser = on_cells(ratio);

@@ -138,6 +138,7 @@ FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
 
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
+  if (header.mesh.section) refuse(path, "", "a section", "a body in three dimensions: sections are not exported");
   const SolveConfig config = config_of(header, path);
   if (header.mesh.type == CellType::tet15)
     refuse(path, "", "cells tet15", "hex8 or hex27: CalculiX has no such cell, and FEBio's order of their nodes is not known here");
@@ -179,7 +180,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     for (int k = 0; k < 3; ++k) {
       std::vector<int> plane;
       for (int n = 0; n < deck.mesh.n_nodes(); ++n)
-        if (scene.dofs.tie[n].signs[k] == 0) plane.push_back(n);
+        if (scene.dofs.tie[n].T(k, k) == 0) plane.push_back(n);
       if (plane.empty()) continue;
       std::string name = fmt::format("mirror_{}", "xyz"[k]);
       while (header.mesh.node_sets.count(name)) name += "_";

@@ -6,6 +6,7 @@
 
 #include "mesh/order.hpp"
 #include "mesh/raise.hpp"
+#include "mesh/section.hpp"
 
 namespace langer {
 
@@ -15,7 +16,8 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
   const std::vector<int> all = all_nodes(mesh);
   const std::vector<Facet> outer = boundary(mesh);
   for (const auto& [name, set] : config.sets) {
-    const std::vector<int> nodes = select(mesh, set.within, set.of ? mesh.node_sets.at(*set.of) : all);
+    std::vector<int> nodes = select(mesh, set.within, set.of ? mesh.node_sets.at(*set.of) : all);
+    if (mesh.section) nodes = through_layers(mesh, in_front(mesh, nodes));
     if (nodes.empty())
       throw Failure(Exit::config, Error{{}, "sets." + name, "no node of the mesh is in this set", "at least one", ""});
     const std::vector<Facet> facets = facets_within(mesh, set.of ? mesh.facet_sets.at(*set.of) : outer, nodes);
@@ -70,10 +72,13 @@ MadeMesh made(const MeshConfig& config) {
       },
       config.geometry);
   if (config.cells != mesh.type) {
+    const auto section = mesh.section;
     mesh = raised(mesh, config.cells);
-    number_in_order(mesh);
     const auto [origin, size] = box(config.geometry);
-    make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
+    if (section)
+      make_section(mesh, *section);
+    else
+      number_in_order(mesh), make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
   }
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
@@ -88,6 +93,10 @@ MadeMesh made(const MeshConfig& config) {
   for (const auto& [name, set] : config.sets)
     if (node_sets.count(name)) throw Failure(Exit::config, Error{{}, "sets." + name, "found the name of a set of the file", "another name", ""});
   name_sets(mesh, config);
+  if (mesh.section) {
+    for (const char* side : {"z_min", "z_max"}) mesh.node_sets.erase(side), mesh.facet_sets.erase(side);
+    for (auto& [name, nodes] : mesh.node_sets) nodes = in_front(mesh, nodes);
+  }
   return result;
 }
 

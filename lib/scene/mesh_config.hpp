@@ -95,7 +95,9 @@ struct MeshConfig {
     if (const double height = box(geometry).size[1]; !std::holds_alternative<FromFile>(geometry) && !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
       found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                        std::to_string(height) + " mm, the height of the geometry", ""});
-    if (!exports.empty() && cells != CellType::hex8)
+    if (!exports.empty() && is_section(geometry))
+      found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
+    else if (!exports.empty() && cells != CellType::hex8)
       found.push_back({"export", "found beside cells: " + std::string(names(cells)[static_cast<int>(cells)]), "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };

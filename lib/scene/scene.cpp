@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/read_surface.hpp"
+#include "scene/section.hpp"
 
 namespace langer {
 
@@ -157,6 +158,8 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
     scene.contacts.push_back(std::move(rigid));
   }
   add_materials(scene, config, mesh, material, where, composer.errors);
+  if (mesh.section)
+    for (Error& error : section_errors(config, mesh, scene, where)) composer.errors.push_back(std::move(error));
   if (!composer.errors.empty()) throw Failure(Exit::config, composer.errors);
   scene.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed)).dofs;
   return scene;

@@ -145,8 +145,8 @@ struct SolveConfig {
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
-      "sqrt 2, and with friction once more there in other increments; wants mesh.geometry.indented_block, and is taken where "
-      "accuracy or fidelity is asked for");
+      "sqrt 2, and with friction once more there in other increments; wants mesh.geometry.indented_block or indented_disc, and is "
+      "taken where accuracy or fidelity is asked for");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
@@ -179,12 +179,16 @@ struct SolveConfig {
     if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     if (accuracy && !percent_of(*accuracy))
       found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
-    if (estimate == EstimateBy::second_rung && (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry)))
+    const bool one_number = mesh && has_edge_in_contact_radii(mesh->geometry);
+    if (estimate == EstimateBy::second_rung && !one_number)
       found.push_back({"estimate", "second_rung, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
-                       "the key mesh with geometry: {indented_block: ...}", "coarser cells are made from it"});
+                       "the key mesh with geometry: {indented_block: ...} or {indented_disc: ...}", "coarser cells are made from it"});
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
       if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
-      if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
+      if (mesh && is_section(mesh->geometry))
+        found.push_back({key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
+                         "of a section, cells: hex27 with an edge of 0.125 and estimate: second_rung tell what its force is worth"});
+      else if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
         found.push_back({key, mesh ? "a mesh of another kind" : "no mesh here", "the key mesh with geometry: {indented_block: ...}",
                          "its cells are what accuracy chooses"});
     }

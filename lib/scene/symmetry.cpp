@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+
+#include "mesh/section.hpp"
+#include "scene/section.hpp"
 
 namespace langer {
 
@@ -76,6 +80,7 @@ std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
 
 std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
                                                const std::function<Place(const std::string&)>& where) {
+  if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
   Vec3 low = mesh.X[0], high = mesh.X[0];
   for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
@@ -108,23 +113,10 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
     std::vector<Prescribed> prescribed;
     for (const Prescribed& p : scene.dofs.prescribed) {
       const Image& image = q.node_image[p.dof / 3];
-      if (q.node[image.of] == p.dof / 3 && image.signs[p.dof % 3] != 0) prescribed.push_back({3 * image.of + p.dof % 3, p.value});
+      if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back({3 * image.of + p.dof % 3, p.value});
     }
     r.scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
-    for (const RigidContact& contact : scene.contacts) {
-      RigidContact part{contact.name, contact.shape, contact.mu, {}, contact.motion};
-      std::map<int, int> index;  // of a kept node among the candidates
-      std::vector<Image> images;
-      std::vector<double> share;
-      for (int node : contact.nodes)
-        if (const int kept = q.node_image[node].of; q.node[kept] == node) {
-          index[kept] = static_cast<int>(part.nodes.size());
-          part.nodes.push_back(kept), share.push_back(q.node_share[kept]);
-        }
-      for (int node : contact.nodes) images.push_back({index.at(q.node_image[node].of), q.node_image[node].signs});
-      r.scene_.contacts.push_back(std::move(part));
-      r.candidate_.push_back(std::move(images)), r.candidate_share_.push_back(std::move(share));
-    }
+    for (const RigidContact& contact : scene.contacts) r.take_contact(contact);
     return r;
   }
   if (wanted == SymmetryChoice::automatic) return std::nullopt;
@@ -133,12 +125,52 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
   throw Failure(Exit::config, Error{where("symmetry"), "symmetry", why, "a scene with this symmetry", "symmetry: auto takes what there is"});
 }
 
+void ReducedScene::take_contact(const RigidContact& contact) {
+  const Quotient& q = quotient_;
+  RigidContact part{contact.name, contact.shape, contact.mu, {}, contact.motion};
+  std::map<int, int> index;  // of a kept node among the candidates
+  std::vector<Image> images;
+  std::vector<double> share;
+  for (int node : contact.nodes)
+    if (const int kept = q.node_image[node].of; q.node[kept] == node) {
+      index[kept] = static_cast<int>(part.nodes.size());
+      part.nodes.push_back(kept), share.push_back(q.node_share[kept]);
+    }
+  for (int node : contact.nodes) images.push_back({index.at(q.node_image[node].of), q.node_image[node].T});
+  scene_.contacts.push_back(std::move(part));
+  candidate_.push_back(std::move(images)), candidate_share_.push_back(std::move(share));
+}
+
+ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
+  ReducedScene r;
+  r.words_ = section_words(mesh);
+  Quotient& q = r.quotient_;
+  q.mesh = mesh, q.tie = q.node_image = section_ties(mesh);
+  q.node.resize(mesh.X.size()), q.cell.resize(mesh.n_cells());
+  std::iota(q.node.begin(), q.node.end(), 0);
+  std::iota(q.cell.begin(), q.cell.end(), 0);
+  q.cell_image = q.cell;
+  q.cell_share.assign(q.cell.size(), langer::cell_share(*mesh.section));
+  q.node_share.assign(q.node.size(), 0);
+  for (int i = 0; i < n_front(mesh); ++i) q.node_share[i] = 1;
+  r.scene_ = scene, r.scene_.contacts.clear();
+  std::vector<Prescribed> prescribed;
+  for (const Prescribed& p : scene.dofs.prescribed)
+    if (q.tie[p.dof / 3].T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back(p);
+  r.scene_.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
+  for (const RigidContact& contact : scene.contacts) r.take_contact(contact);
+  r.kept_directions_ = mesh.section->of == SectionOf::axisymmetric ? Vec3(0, 1, 0) : Vec3(1, 1, 0);
+  return r;
+}
+
 StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   StepRecord record = reduced;
   record.u.clear(), record.reaction.clear();
+  const bool section = quotient_.mesh.section.has_value();
   for (const Image& image : quotient_.node_image) {
-    record.u.push_back(image.signs.cwiseProduct(reduced.u[image.of]));
-    record.reaction.push_back(image.signs.cwiseProduct(reduced.reaction[image.of]) / quotient_.node_share[image.of]);
+    const bool behind = section && image.of != static_cast<int>(record.u.size());  // those in z = 0 have all of the force
+    record.u.push_back(image.T * reduced.u[image.of]);
+    record.reaction.push_back(behind ? Vec3::Zero() : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
   }
   for (auto& [name, values] : record.cell_fields) {
     const std::vector<double>& kept = reduced.cell_fields.at(name);
@@ -149,7 +181,7 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
     const ContactRecord& kept = reduced.contacts.at(scene_.contacts[c].name);
     ContactRecord& contact = record.contacts.at(scene_.contacts[c].name) = {};
     for (const Image& image : candidate_[c]) {
-      contact.r.push_back(image.signs.cwiseProduct(kept.r[image.of]) / candidate_share_[c][image.of]);
+      contact.r.push_back(image.T * kept.r[image.of] / candidate_share_[c][image.of]);
       contact.status.push_back(kept.status[image.of]);
       contact.gap.push_back(kept.gap[image.of]);
     }
@@ -175,7 +207,7 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     const std::vector<Vec3>& of_whole = whole.contacts.at(scene_.contacts[c].name).r;
     for (std::size_t i = 0; i < candidate_[c].size(); ++i) {
       const Image& image = candidate_[c][i];
-      if (image.signs == quotient_.tie[scene_.contacts[c].nodes[image.of]].signs) r[image.of] = candidate_share_[c][image.of] * of_whole[i];
+      if (image.T == quotient_.tie[scene_.contacts[c].nodes[image.of]].T) r[image.of] = candidate_share_[c][image.of] * of_whole[i];
     }
   }
   return state;

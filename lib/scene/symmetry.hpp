@@ -5,6 +5,9 @@
 //                    through the middle of the body
 // The reduced scene finds symmetric equilibria only: it cannot leave them where they become unstable, and the signs of its
 // tangent are those for symmetric movements. Results are written for the whole body.
+// A mesh that is a section (mesh/section.hpp) is another such part: the nodes behind z = 0 move as those in it. Its results are
+// written for its own nodes, those in z = 0 with the forces of the whole circle or slab; those of them along x are radial there,
+// and only the resultant along y is a force on the indenter.
 #pragma once
 
 #include <functional>
@@ -21,7 +24,7 @@ namespace langer {
 
 class ReducedScene {
  public:
-  // Nothing where `wanted` is none, or auto and nothing is found.
+  // Nothing where `wanted` is none, or auto and nothing is found; a section always.
   // Throws Failure(config) where a named symmetry is not there, saying what breaks it.
   static std::optional<ReducedScene> find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
                                           const std::function<Place(const std::string&)>& where);
@@ -35,6 +38,9 @@ class ReducedScene {
   BodyState reduced(const StepRecord& whole) const;   // to continue from
 
  private:
+  static ReducedScene of_section(const Mesh& mesh, const Scene& scene);
+  void take_contact(const RigidContact& contact);
+
   Quotient quotient_;
   Scene scene_;
   std::string words_;

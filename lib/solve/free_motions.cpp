@@ -24,6 +24,19 @@ std::string free_motions(const Mesh& mesh, const Dofs& dofs) {
     for (int j = 0; j < 3; ++j) row[3 + j] = Vec3::Unit(j).cross(x)[k];
     M += row * row.transpose();
   }
+  // and what ties ask: u(node) = T u(of)
+  for (std::size_t i = 0; i < dofs.tie.size(); ++i) {
+    const Image& image = dofs.tie[i];
+    if (image.of == static_cast<int>(i) && image.T.isIdentity(0)) continue;
+    const auto motions = [&](int node) {
+      Eigen::Matrix<double, 3, 6> u;
+      u << Mat3::Identity(), Mat3::Zero();
+      for (int j = 0; j < 3; ++j) u.col(3 + j) = Vec3::Unit(j).cross((mesh.X[static_cast<std::size_t>(node)] - centre) / size);
+      return u;
+    };
+    const Eigen::Matrix<double, 3, 6> rows = motions(static_cast<int>(i)) - image.T * motions(image.of);
+    M += rows.transpose() * rows;
+  }
   const auto count = [](const auto& e) { return static_cast<int>((e.array() < 1e-12 * std::max(1.0, e.maxCoeff())).count()); };
   const Eigen::SelfAdjointEigenSolver<Mat66> all(M);
   const int free = count(all.eigenvalues());

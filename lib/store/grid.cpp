@@ -1,12 +1,15 @@
 #include "store/grid.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mesh/facets.hpp"
+#include "mesh/section.hpp"
 
 namespace langer {
 
@@ -96,6 +99,30 @@ void write_sets(const h5::Group& root, const Mesh& mesh) {
   }
 }
 
+void write_section(const h5::Group& root, const Mesh& mesh) {
+  if (!mesh.section) return;
+  const h5::Group group = root.make_group("section");
+  group.attribute("of", std::string(names(mesh.section->of)[static_cast<int>(mesh.section->of)]));
+  group.write_scalar("depth", mesh.section->depth, mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
+}
+
+Schema schema_of(const Schema& schema, const Mesh& mesh) { return mesh.section ? Schema{schema.name, schema.newest} : schema; }
+
+namespace {
+
+void read_section(const h5::Group& root, Mesh& mesh) {
+  if (!root.has("section")) return;
+  const h5::Group group = root.group("section");
+  const std::string of = group.text_attribute("of");
+  const auto known = names(SectionOf{});
+  const auto kind = std::find(known.begin(), known.end(), of);
+  if (kind == known.end()) group.refuse("of", "\"" + of + "\"", fmt::format("one of {}", fmt::join(known, ", ")));
+  mesh.section = Section{static_cast<SectionOf>(kind - known.begin()), group.read_scalar("depth")};
+  if (const std::string fault = section_fault(mesh); !fault.empty()) group.refuse("", fault, "one layer of cells behind z = 0");
+}
+
+}  // namespace
+
 Mesh read_grid(const h5::Group& root) {
   const h5::Group grid = root.group("VTKHDF"), cells = grid.group("CellData");
   Mesh mesh;
@@ -135,6 +162,7 @@ Mesh read_grid(const h5::Group& root) {
       set.push_back({pairs[i], pairs[i + 1]});
     }
   }
+  read_section(root, mesh);
   return mesh;
 }
 

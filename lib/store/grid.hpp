@@ -7,12 +7,15 @@
 
 #include "mesh/mesh.hpp"
 #include "store/h5.hpp"
+#include "store/provenance.hpp"
 
 namespace langer {
 
 // /VTKHDF with Version [1, minor...], geometry, body and frames; returns the group
 h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const std::vector<std::int64_t>& version);
 void write_sets(const h5::Group& root, const Mesh& mesh);
+void write_section(const h5::Group& root, const Mesh& mesh);  // of a section only
+Schema schema_of(const Schema& schema, const Mesh& mesh);     // readers that know no sections refuse them by their version
 
 Mesh read_grid(const h5::Group& root);  // with sets and frames
 

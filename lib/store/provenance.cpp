@@ -129,11 +129,13 @@ Origin origin(const h5::Group& root) {
 
 Identity read_identity(const h5::Group& root, const Schema& schema) {
   const Origin found = origin(root);
-  if (found.schema != schema.name || found.version != schema.version)
+  if (found.schema != schema.name || found.version < schema.version || found.version > schema.newest)
     root.refuse("", fmt::format("schema {}/{}", found.schema, found.version), fmt::format("{}/{}", schema.name, schema.version),
                 found.schema == schema.name ? "written by another version of langer: make it again" : "");
   return found.identity;
 }
+
+int schema_version(const h5::Group& root) { return static_cast<int>(root.integer_attribute("schema_version")); }
 
 Origin read_origin(const std::string& path) { return origin(h5::File::open(path).root()); }
 

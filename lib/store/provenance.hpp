@@ -11,9 +11,10 @@ namespace langer {
 
 struct Schema {
   const char* name;
-  int version;
+  int version;  // that files are written in
+  int newest = version;  // that is read: of files with what the version before did not know
 };
-inline constexpr Schema mesh_schema{"mesh", 1}, material_schema{"material", 1}, solution_schema{"solution", 1},
+inline constexpr Schema mesh_schema{"mesh", 1, 2}, material_schema{"material", 1}, solution_schema{"solution", 1, 2},
     curves_schema{"curves", 1}, sweep_schema{"sweep", 1}, sensitivity_schema{"sensitivity", 1}, snapshot_schema{"snapshot", 1};
 
 std::string utc_now();  // SOURCE_DATE_EPOCH where that is set
@@ -29,6 +30,7 @@ void write_cost(const h5::Group& root, const Cost& cost, bool continued);
 
 // refuses another schema or version by name; `config` and `command` stay empty where /provenance is missing
 Identity read_identity(const h5::Group& root, const Schema& schema);
+int schema_version(const h5::Group& root);
 
 // a named number of the kind that gather collects into tables; group /summary, one scalar per name
 struct Summary {

@@ -59,7 +59,7 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   const h5::Group root = state_->file.root();
   SolutionHeader& header = state_->header;
   header.identity = read_identity(root, solution_schema);
-  state_->id = langer::content_id(header.identity, solution_schema.version);
+  state_->id = langer::content_id(header.identity, schema_version(root));
   header.mesh = read_grid(root);
   header.formulation = root.text_attribute("formulation");
   read_listing(root.group("material"), header.material);

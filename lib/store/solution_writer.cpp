@@ -95,7 +95,7 @@ std::unique_ptr<SolutionReader> unfinished(const std::string& part, const Soluti
     const bool same_task = was.config_hash == is.config_hash && was.inputs == is.inputs && was.stage == is.stage;
     // ids know configs, not code: another version of the mesher may have made another mesh of the same config
     const Mesh &old_mesh = old->header().mesh, &mesh = header.mesh;
-    const bool same_arrays = old_mesh.X == mesh.X && old_mesh.connectivity == mesh.connectivity &&
+    const bool same_arrays = old_mesh.X == mesh.X && old_mesh.section == mesh.section && old_mesh.connectivity == mesh.connectivity &&
                              old->header().contact_nodes == header.contact_nodes;
     if (same_task && same_arrays) return old;
     say_line("{}: left by a run with another {}; starting anew", part, same_task ? "mesh" : "config or other inputs");
@@ -136,9 +136,10 @@ int SolutionWriter::n_steps() const { return state_->n_steps; }
 
 void SolutionWriter::State::begin() {
   const h5::Group root = file.root();
-  write_identity(root, solution_schema, header.identity);
+  write_identity(root, schema_of(solution_schema, header.mesh), header.identity);
   const h5::Group grid = write_grid(root, header.mesh, {2, 0});
   write_sets(root, header.mesh);
+  write_section(root, header.mesh);
   root.attribute("formulation", header.formulation);
   write_listing(root.make_group("material"), header.material);
   if (!header.materials.empty()) {

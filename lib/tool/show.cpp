@@ -69,6 +69,9 @@ void show_mesh(Page& page, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.bodies.size(); ++i) bodies.push_back(fmt::format("{} ({} cells)", mesh.bodies[i], cells[i]));
   page.line("size", fmt::format("{} cells, {} nodes", mesh.n_cells(), mesh.n_nodes()));
   page.list("bodies", bodies);
+  if (mesh.section)
+    page.line("section", fmt::format("{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)], number(mesh.section->depth),
+                                     mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
   page.line("box", fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]), number(low[1]), number(high[1]),

@@ -1,0 +1,94 @@
+#include "scene/section.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace langer {
+
+namespace {
+
+constexpr double same = 1e-9;
+
+bool on_axis(const std::array<double, 3>& x) { return x[0] == 0 && x[2] == 0; }
+bool along_y(const Vec3& d) { return d.cross(Vec3::UnitY()).norm() <= same * d.norm(); }
+bool in_plane(const Vec3& d) { return std::abs(d[2]) <= same * d.norm(); }
+
+bool round(const Sphere& s) { return on_axis(s.centre); }
+bool round(const Plane& p) { return along_y(vec(p.outward)); }
+bool round(const Cylinder& c) { return on_axis(c.face) && along_y(vec(c.axis)); }
+bool round(const Ellipsoid& e) { return on_axis(e.centre) && e.half_axes[0] == e.half_axes[2]; }
+bool round(const Facets&) { return false; }
+
+bool plane(const Sphere& s) { return s.centre[2] == 0; }
+bool plane(const Plane& p) { return in_plane(vec(p.outward)); }
+bool plane(const Cylinder& c) { return c.face[2] == 0 && in_plane(vec(c.axis)); }
+bool plane(const Ellipsoid& e) { return e.centre[2] == 0; }
+bool plane(const Facets&) { return false; }
+
+// a direction that the section's own symmetry leaves alone
+bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
+  if (fibre.kappa >= 1.0 / 3 - 1e-12) return true;
+  return of == SectionOf::plane_strain && (std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same);
+}
+
+}  // namespace
+
+std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+                                  const std::function<Place(const std::string&)>& where) {
+  std::vector<Error> errors;
+  const bool is_round = mesh.section->of == SectionOf::axisymmetric;
+  const std::string of = is_round ? "an axisymmetric section" : "a plane-strain section";
+  const auto refuse = [&](const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
+    errors.push_back({where(key), key, found + ", on " + of, expected, hint});
+  };
+  if (config.symmetry != SymmetryChoice::none && config.symmetry != SymmetryChoice::automatic)
+    refuse("symmetry", fmt::format("found {}", names(config.symmetry)[static_cast<int>(config.symmetry)]), "none or auto",
+           "the section stands for the whole body already");
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (const auto& z = config.loads[i].displacement.z; z && *z != 0) {
+      const std::string key = fmt::format("loads[{}].displacement.z", i);
+      refuse(key, fmt::format("found {:g}", *z), "none, or 0", "nothing moves out of the plane of a section");
+    }
+  for (const auto& [name, contact] : config.contacts) {
+    const std::string key = "contacts." + name;
+    if (std::visit([&](const auto& shape) { return is_round ? !round(shape) : !plane(shape); }, contact.rigid))
+      refuse(key + ".rigid", "found a shape or place without its symmetry",
+             is_round ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
+                      : "a shape that stands in z = 0, or a plane normal to that",
+             "a block is needed for others");
+    for (std::size_t i = 0; i < contact.motion.size(); ++i) {
+      const auto& to = contact.motion[i].to;
+      if (to[2] == 0 && (!is_round || to[0] == 0)) continue;
+      refuse(fmt::format("{}.motion[{}].to", key, i), fmt::format("found [{:g}, {:g}, {:g}]", to[0], to[1], to[2]),
+             is_round ? "a movement along y" : "a movement in the plane of x and y", "a block is needed for others");
+    }
+  }
+  if (scene.materials.size() != mesh.bodies.size()) return errors;  // said elsewhere
+  std::vector<char> said(mesh.bodies.size(), 0);
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto body = static_cast<std::size_t>(mesh.body.empty() ? 0 : mesh.body[e]);
+    const std::vector<Fibre>& families = scene.materials[body].fibres;
+    if (families.empty() || said[body]) continue;
+    const std::vector<Vec3> a = scene.fibres_of(mesh, e);
+    for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
+      if (kept(families[k], a[k], mesh.section->of)) continue;
+      said[body] = 1;
+      const bool own = config.materials.count(mesh.bodies[body]) > 0;
+      refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
+             is_round ? "no fibres (c1: 0), or fibres without direction (kappa: 1/3)"
+                      : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
+             "fibres in one direction make a body that needs all three dimensions: a block");
+    }
+  }
+  return errors;
+}
+
+std::string section_words(const Mesh& mesh) {
+  if (mesh.section->of == SectionOf::axisymmetric) return "axisymmetric section: forces and energies are those of the whole body";
+  return fmt::format("plane-strain section: forces and energies are those of {:g} mm along z; an indenter is a bar along z",
+                     mesh.section->depth);
+}
+
+}  // namespace langer

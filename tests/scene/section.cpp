@@ -1,0 +1,410 @@
+// Sections: what an axisymmetric or plane-strain scene gives is what the body of three dimensions gives.
+#include "scene/section.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "config/reader.hpp"
+#include "material/uniaxial.hpp"
+#include "mesh/section.hpp"
+#include "scene/equilibrium_by.hpp"
+#include "scene/make_mesh.hpp"
+#include "scene/step_record.hpp"
+#include "scene/symmetry.hpp"
+#include "solve/load_path.hpp"
+#include "support/block.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const auto nowhere = [](const std::string&) { return Place{}; };
+
+SolveConfig config_of(const std::string& text) { return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config; }
+Mesh mesh_in(const SolveConfig& config) { return make_mesh(*config.mesh, nowhere).mesh; }
+
+struct Run {
+  Mesh mesh;
+  Scene scene;
+  std::vector<StepRecord> steps;
+  const StepRecord& last() const { return steps.back(); }
+  Vec3 reaction(const std::string& set) const {
+    Vec3 sum = Vec3::Zero();
+    for (int n : mesh.node_sets.at(set)) sum += last().reaction[n];
+    return sum;
+  }
+};
+
+Run run(const SolveConfig& config, const Mesh& mesh) {
+  Run out{mesh, make_scene(config, mesh, config.material, nowhere), {}};
+  const auto part = ReducedScene::find(config.symmetry, mesh, out.scene, nowhere);
+  const Scene& scene = part ? part->scene() : out.scene;
+  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, 1, Kernel::packets, scene.fibres,
+                   part ? part->cell_share() : std::vector<double>{});
+  Statics statics(body, scene.contacts, {});
+  const PathReport path = load_path(
+      config.path, 0, {}, scene.stops,
+      [&](double t) {
+        statics.begin(t);
+        return equilibrium_by(config.solver, statics.problem(), statics.trial());
+      },
+      [&](double, double taken, double next, const SolveReport& report) {
+        statics.accept();
+        StepRecord record = step_record(statics, body, taken, next, report);
+        out.steps.push_back(part ? part->whole(record) : record);
+        return true;
+      });
+  REQUIRE(path.complete);
+  return out;
+}
+Run run(const std::string& text) { return run(config_of(text), mesh_in(config_of(text))); }
+
+// inner nodes moved within the plane, those behind them too
+void distort(Mesh& mesh, double amount) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-amount, amount);
+  const int n = n_front(mesh);
+  std::vector<char> outer(n, 0);
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max"})
+    for (int i : mesh.node_sets.at(side)) outer[i] = 1;
+  for (int i = 0; i < n; ++i) {
+    if (outer[i]) continue;
+    const Vec3 move(u(random), u(random), 0);
+    for (int k = i; k < mesh.n_nodes(); k += n) mesh.X[k] += move;
+  }
+  for (int i = n; i < mesh.n_nodes(); ++i)
+    if (mesh.section->of == SectionOf::axisymmetric)
+      mesh.X[i][2] = mesh.section->depth * mesh.X[i][0] * (i / n) / (n_layers(mesh.type) - 1);
+  REQUIRE(section_fault(mesh) == "");
+}
+
+const std::string yeoh = "material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-3}}}\n";
+
+const std::string tight = "solver: {newton: {relative: 1.0e-12}}\n";
+
+std::string indentation(const std::string& geometry, const std::string& more = "") {
+  return "mesh:\n  geometry: " + geometry +
+         "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.8}}}}\n"
+         "material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-6}}}\n"
+         "supports: [{on: bottom, hold: [x, y, z]}]\n" +
+         more;
+}
+std::string ball(double mu, double depth = 1) {
+  return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 6.5, 0]}}, friction: " + std::to_string(mu) +
+         ", motion: [{t: 1, to: [0, " + std::to_string(-depth) + ", 0]}]}}\npath: {first: 0.1, largest: 0.25}\n";
+}
+// of the same area as the block of 30 x 30 mm
+std::string disc(double edge, const char* cells) {
+  return "{indented_disc: {size: [16.925687506432689, 4], radius: 2.5, depth: 1, edge: " + std::to_string(edge) + "}}\n  cells: " + cells;
+}
+
+}  // namespace
+
+TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a point, on any cells") {
+  for (const char* cells : {"hex8", "hex27"})
+    for (double way : {1.2, -0.9}) {
+      CAPTURE(cells);
+      CAPTURE(way);
+      const SolveConfig config = config_of(
+          "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [3, 4]}}, cells: " + std::string(cells) + "}\n" +
+          yeoh + tight +
+          "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: " + std::to_string(way) + "}}]\n");
+      Mesh mesh = mesh_in(config);
+      distort(mesh, 0.15);
+      const Run r = run(config, mesh);
+      const Uniaxial point = uniaxial(*config.material, 1 + way / 3);
+      REQUIRE(point.converged);
+      double worst = 0;
+      for (int i = 0; i < mesh.n_nodes(); ++i) {
+        const double u_r = (point.stretch[1] - 1) * mesh.X[i][0];
+        worst = std::max(worst, std::abs(r.last().u[i][0] - u_r));
+        worst = std::max(worst, std::abs(r.last().u[i][1] - way * mesh.X[i][1] / 3));
+        worst = std::max(worst, std::abs(r.last().u[i][2] - (point.stretch[1] - 1) * mesh.X[i][2]));  // F_zz = 1 + u_r / r
+      }
+      CHECK(worst < 1e-9);
+      const double force = point.sigma * pi * 4 * point.stretch[1] * point.stretch[1];
+      CHECK(r.reaction("top")[1] == doctest::Approx(force).epsilon(1e-9));
+      CHECK(r.reaction("bottom")[1] == doctest::Approx(-force).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("a cylinder stretched along its radius and its axis stores the energy of its volume, and pulls as its law says") {
+  for (const char* cells : {"hex8", "hex27"}) {
+    CAPTURE(cells);
+    const SolveConfig config = config_of(
+        "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [4, 3]}}, cells: " + std::string(cells) + "}\n" +
+          yeoh + tight +
+        "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: -0.75}}, {on: x_max, displacement: {x: 0.3}}]\n");
+    Mesh mesh = mesh_in(config);
+    distort(mesh, 0.1);
+    const Run r = run(config, mesh);
+    const Vec3 stretch(1.15, 0.75, 1.15);
+    const Mat3 C = stretch.cwiseProduct(stretch).asDiagonal();
+    const Response point = response(*config.material, C, std::span<const Vec3>{});
+    CHECK(r.last().scalars.at("energy") == doctest::Approx(point.W * pi * 4 * 3).epsilon(1e-9));
+    CHECK(r.reaction("top")[1] == doctest::Approx(0.75 * point.S[1] * pi * 4).epsilon(1e-9));
+    CHECK(r.reaction("x_max")[0] == doctest::Approx(1.15 * point.S[0] * 2 * pi * 2 * 3).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a thick tube widened from inside converges to the closed form with the order of its cells") {
+  // incompressible, no movement along the axis: r^2 = R^2 + C, pressure inside less outside = integral of (sigma_theta - sigma_r)/r
+  const double mu = 2 * 0.5, inner = 1, outer = 2, u = 0.5, C = (inner + u) * (inner + u) - inner * inner;
+  const auto slope = [&](double R) {
+    const double r = std::sqrt(R * R + C), lambda = r / R;
+    return mu * (lambda * lambda - 1 / (lambda * lambda)) / r * (R / r);  // dr = R/r dR
+  };
+  double pressure = 0;
+  constexpr int n = 2000;
+  for (int i = 0; i < n; ++i) {
+    const double a = inner + (outer - inner) * i / n, b = inner + (outer - inner) * (i + 1) / n;
+    pressure += (slope(a) + 4 * slope(0.5 * (a + b)) + slope(b)) * (b - a) / 6;
+  }
+  const double force = pressure * 2 * pi * (inner + u) * 0.5;  // over a height of 0.5
+  for (const auto& [cells, order] : {std::pair{"hex8", 2.0}, {"hex27", 4.0}}) {
+    CAPTURE(cells);
+    std::vector<double> errors;
+    for (int divisions : {3, 6}) {  // beyond, what rounding leaves at this d is seen
+      const Run r = run("mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" +
+                        std::to_string(divisions) + ", 1]}}, cells: " + cells +
+                        "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-8}}}\n" +
+                        tight +
+                        "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, displacement: {x: 0.5}}]\n");
+      errors.push_back(std::abs(r.reaction("x_min")[0] / force - 1));
+      for (int i : r.mesh.node_sets.at("x_max")) CHECK(r.last().u[i][0] == doctest::Approx(std::sqrt(4 + C) - 2).epsilon(1e-6));
+    }
+    MESSAGE(std::string(cells) << ": error of the pressure " << errors[0] << ", " << errors[1]);
+    CHECK(std::log2(errors[0] / errors[1]) > order - 0.2);
+    CHECK(errors[1] < 0.02);
+  }
+}
+
+TEST_CASE("plane strain is a layer of the block held along z on both faces") {
+  for (const CellType cells : {CellType::hex8, CellType::hex27}) {
+    const SolveConfig config = config_of(
+        "mesh: {geometry: {section: {of: plane_strain, size: [3, 2], divisions: [4, 3], thickness: 0.7}}, cells: " +
+        std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
+        "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
+    const Mesh mesh = mesh_in(config);
+    const Run flat = run(config, mesh);
+    Mesh layer = test::block(test::even(0, 3, 4), test::even(0, 2, 3), {0, 0.7});
+    if (cells != CellType::hex8) layer = test::raised_block(layer, cells);
+    layer.node_sets["bottom"] = layer.node_sets["y_min"], layer.node_sets["top"] = layer.node_sets["y_max"];
+    for (int i = 0; i < layer.n_nodes(); ++i) layer.node_sets["all"].push_back(i);
+    SolveConfig held = config;
+    held.supports.push_back({"all", {Axis::z}});
+    const Run deep = run(held, layer);
+    REQUIRE(flat.steps.size() == deep.steps.size());
+    double worst = 0;
+    int met = 0;
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      for (int j = 0; j < layer.n_nodes(); ++j)
+        if ((mesh.X[i] - layer.X[j]).norm() < 1e-12) worst = std::max(worst, (flat.last().u[i] - deep.last().u[j]).norm()), ++met;
+    CHECK(met == mesh.n_nodes());
+    CHECK(worst < 1e-10);
+    for (int k : {0, 1}) CHECK(flat.reaction("top")[k] == doctest::Approx(deep.reaction("top")[k]).epsilon(1e-10));
+    CHECK(flat.last().scalars.at("energy") == doctest::Approx(deep.last().scalars.at("energy")).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("how thin the wedge is makes no difference to what an indentation gives") {
+  const SolveConfig config = config_of(indentation(disc(0.35, "hex8"), ball(0.34) + tight));
+  std::vector<double> force, stress;
+  for (int power : {-9, -12, -14, -17, -20}) {
+    Mesh mesh = mesh_in(config);
+    for (Vec3& X : mesh.X) X[2] *= std::ldexp(1, power) / mesh.section->depth;
+    mesh.section->depth = std::ldexp(1, power);
+    const Run r = run(config, mesh);
+    force.push_back(r.last().force_ind.norm()), stress.push_back(r.last().cell_fields.at("von_mises")[0]);
+    MESSAGE("depth 2^" << power << ": force " << doctest::toString(force.back()) << " N, off by " << force.back() / force[0] - 1);
+  }
+  CHECK(force[2] > 5);
+  for (std::size_t k : {1, 3, 4}) {
+    CHECK(force[k] == doctest::Approx(force[2]).epsilon(1e-7));
+    CHECK(stress[k] == doctest::Approx(stress[2]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the tangent of a section is the slope of its forces, and its forces are the slope of its energy") {
+  for (const char* cells : {"hex8", "hex27"})
+    for (const char* of : {"axisymmetric", "plane_strain"}) {
+      CAPTURE(cells);
+      CAPTURE(of);
+      // the tangent of linear_dilatation leaves out local/kappa of the pressure (element/solid.hpp)
+      const std::string as = std::string(cells) == "hex27" ? "formulation: displacement\n" : "";
+      const SolveConfig config = config_of(as + "mesh: {geometry: {section: {of: " + std::string(of) +
+                                           ", size: [2, 1], divisions: [2, 2]}}, cells: " + cells + "}\n" + yeoh +
+                                           "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: 0.1}}]\n");
+      Mesh mesh = mesh_in(config);
+      distort(mesh, 0.05);
+      const Scene whole = make_scene(config, mesh, config.material, nowhere);
+      const auto part = ReducedScene::find(config.symmetry, mesh, whole, nowhere);
+      REQUIRE(part.has_value());
+      const Scene& scene = part->scene();
+      Equilibrium body(part->mesh(), scene.materials, scene.formulation, scene.dofs, 1, Kernel::packets, {}, part->cell_share());
+      const Dofs& dofs = body.dofs();
+      std::mt19937 random(5);
+      std::uniform_real_distribution<double> small(-0.02, 0.02);
+      VecX u = VecX::Zero(dofs.n);
+      for (int dof : dofs.free) u[dof] = small(random);
+      body.pressures_from(u);
+      REQUIRE(body.assemble(u, true));
+      const Pattern& pattern = body.pattern();
+      const std::vector<double> K = body.K();
+      const VecX f = body.f_int();
+      const double h = 1e-6;
+      double worst = 0, slope = 0, stiffest = 0, most = 0;
+      for (int c = 0; c < dofs.n_free(); ++c) {
+        VecX plus = u, minus = u;
+        plus[dofs.free[c]] += h, minus[dofs.free[c]] -= h;
+        REQUIRE(body.assemble(plus, false));
+        const VecX f_plus = body.f_int();
+        const double W_plus = body.W();
+        REQUIRE(body.assemble(minus, false));
+        slope = std::max(slope, std::abs((W_plus - body.W()) / (2 * h) - f[dofs.free[c]]));
+        most = std::max(most, std::abs(f[dofs.free[c]]));
+        for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+          const int dof = dofs.free[pattern.row[k]];
+          worst = std::max(worst, std::abs((f_plus[dof] - body.f_int()[dof]) / (2 * h) - K[k]));
+          stiffest = std::max(stiffest, std::abs(K[k]));
+        }
+      }
+      CHECK(stiffest > 1);
+      CHECK(worst < 1e-7 * stiffest);
+      CHECK(slope < 1e-7 * most);
+    }
+}
+
+TEST_CASE("a disc under a sphere gives the reference force, and that of the block") {
+  // converged forces of an axisymmetric model of other elements, +-0.3 %
+  SolveConfig config = config_of(indentation(disc(0.125, "hex27"), ball(0)));
+  config.contacts.at("ball").motion.clear();
+  const std::vector<std::pair<double, double>> reference{{0.1, 0.1668}, {0.2, 0.511},  {0.3, 1.0095},
+                                                         {0.5, 2.507},  {0.7, 4.842}, {1, 10.76}};
+  for (const auto& [depth, force] : reference) config.contacts.at("ball").motion.push_back({depth, {0, -depth, 0}});
+  const Run r = run(config, mesh_in(config));
+  std::size_t met = 0;
+  for (const StepRecord& step : r.steps)
+    for (const auto& [depth, force] : reference)
+      if (std::abs(step.t - depth) < 1e-12) {
+        ++met;
+        CAPTURE(depth);
+        CHECK(-step.force_ind[1] == doctest::Approx(-force).epsilon(depth < 0.15 ? 0.01 : 0.005));
+        CHECK(step.force_ind[0] == 0);
+      }
+  CHECK(met == reference.size());
+  // the resultant at the base, and what the sphere's work left in the body
+  CHECK(r.reaction("bottom")[1] == doctest::Approx(r.last().force_ind.norm()).epsilon(1e-8));
+
+  const std::string block =
+      "{indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.3536}}\n  cells: hex27";
+  const Run deep = run(indentation(block, ball(0) + "symmetry: quarter\n"));
+  CHECK(r.last().force_ind.norm() == doctest::Approx(deep.last().force_ind.norm()).epsilon(0.005));
+}
+
+TEST_CASE("friction raises the force on a disc as on the block") {
+  const std::string block = "{indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.25}}";
+  const double deep = run(indentation(block, ball(0.34) + "symmetry: quarter\n")).last().force_ind.norm();
+  const double flat = run(indentation(disc(0.0625, "hex8"), ball(0.34))).last().force_ind.norm();
+  MESSAGE("block " << deep << " N, disc " << flat << " N");
+  CHECK(flat == doctest::Approx(deep).epsilon(0.015));
+  CHECK(flat > 1.05 * 10.76);
+}
+
+TEST_CASE("a shallow indentation of a deep body gives the force of Hertz") {
+  const double R = 10, depth = 0.02, E = 3 * 2 * 0.5;  // incompressible, small strains
+  const Run r = run(
+      "mesh:\n  geometry: {indented_disc: {size: [150, 150], radius: 10, depth: 0.02, edge: 0.0884}}\n  cells: hex27\n"
+      "  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 0.7}}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-5}}}\nsupports: [{on: bottom, hold: [x, y]}]\n"
+      "contacts: {ball: {on: contact, rigid: {sphere: {radius: 10, centre: [0, 160, 0]}}, motion: [{t: 1, to: [0, -0.02, 0]}]}}\n"
+      "path: {first: 1, largest: 1}\n");
+  CHECK(r.last().force_ind.norm() == doctest::Approx(16.0 / 9 * E * std::sqrt(R) * std::pow(depth, 1.5)).epsilon(0.01));
+}
+
+TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
+  // an ellipsoid so long that it is a bar for the block too
+  const std::string rest =
+      yeoh + "supports: [{on: bottom, hold: [x, y]}]\ncontacts: {bar: {on: top, "
+             "rigid: {ellipsoid: {half_axes: [1, 1, 500], centre: [0, 2, 0]}}, "
+             "motion: [{t: 1, to: [0.1, -0.3, 0]}], friction: 0.2}}\npath: {first: 0.25, largest: 0.25}\n";
+  const SolveConfig config =
+      config_of("mesh: {geometry: {section: {of: plane_strain, origin: [-2, 0], size: [4, 1], divisions: [16, 4]}}}\n" + rest);
+  const Run flat = run(config, mesh_in(config));
+  Mesh layer = test::block(test::even(-2, 2, 16), test::even(0, 1, 4), {0, 1});
+  layer.node_sets["bottom"] = layer.node_sets["y_min"], layer.node_sets["top"] = layer.node_sets["y_max"];
+  for (int i = 0; i < layer.n_nodes(); ++i) layer.node_sets["all"].push_back(i);
+  SolveConfig held = config;
+  held.supports.push_back({"all", {Axis::z}});
+  const Run deep = run(held, layer);
+  for (int k : {0, 1}) CHECK(flat.last().force_ind[k] == doctest::Approx(deep.last().force_ind[k]).epsilon(1e-4));
+  CHECK(flat.last().force_ind.norm() > 0.1);
+}
+
+TEST_CASE("what has no section is refused by name") {
+  const auto words = [](const std::string& of, const std::string& more, const std::string& contact = "") -> std::string {
+    const SolveConfig config = config_of("mesh: {geometry: {section: {of: " + of + ", size: [5, 2], divisions: [4, 2]}}}\n" +
+                                         (more.find("material") == std::string::npos ? yeoh : "") + more +
+                                         "supports: [{on: bottom, hold: [x, y, z]}]\n" +
+                                         (contact.empty() ? "" : "contacts: {tool: {on: top, " + contact + "}}\n"));
+    try {
+      make_scene(config, mesh_in(config), config.material, nowhere);
+      return "taken";
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+  };
+  const auto holds = [](const std::string& text, const char* part) {
+    CAPTURE(text);
+    return text.find(part) != std::string::npos;
+  };
+  const std::string down = "motion: [{t: 1, to: [0, -0.1, 0]}]";
+  CHECK(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, " + down) == "taken");
+  CHECK(holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0.1, 3, 0]}}, " + down), "contacts.tool.rigid"));
+  CHECK(holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0.1, -0.1, 0]}]"),
+              "contacts.tool.motion[0].to: found [0.1, -0.1, 0], on an axisymmetric section; expected a movement along y"));
+  CHECK(words("axisymmetric", "", "rigid: {plane: {point: [0, 2, 0], normal: [0, -1, 0]}}, " + down) == "taken");
+  CHECK(holds(words("axisymmetric", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, " + down), "contacts.tool.rigid"));
+  CHECK(holds(words("axisymmetric", "", "rigid: {ellipsoid: {half_axes: [1, 1, 2], centre: [0, 3, 0]}}, " + down), "contacts.tool.rigid"));
+  CHECK(holds(words("axisymmetric", "", "rigid: {cylinder: {radius: 1, edge: 0.1, face: [0, 2, 0], axis: [1, 0, 0]}}, " + down),
+              "contacts.tool.rigid"));
+  CHECK(words("plane_strain", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, "
+              "motion: [{t: 1, to: [0.1, -0.1, 0]}]") == "taken");
+  CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 1]}}, " + down), "contacts.tool.rigid"));
+  CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0, -0.1, 0.1]}]"),
+              "motion[0].to"));
+  const auto fibres = [](double c1, double alpha, double kappa) {
+    return "material: {matrix: {neo_hooke: {a1: 0.5}}, fibres: [{hgo: {c1: " + std::to_string(c1) + ", c2: 1}, alpha: " +
+           std::to_string(alpha) +
+           ", kappa: " + (kappa > 0 ? std::string("0.33333333333333331") : "0") +
+           "}], volume: {quadratic: {d: 1.0e-3}}}\nloads: [{on: top, displacement: {y: 0.1}}]\n";
+  };
+  CHECK(holds(words("axisymmetric", fibres(0.1, 0, 0)), "fibres in the body \"skin\""));
+  CHECK(words("axisymmetric", fibres(0, 0, 0)) == "taken");
+  CHECK(words("axisymmetric", fibres(0.1, 0, 1)) == "taken");
+  CHECK(words("plane_strain", fibres(0.1, 0, 0)) == "taken");
+  CHECK(words("plane_strain", fibres(0.1, 90, 0)) == "taken");
+  CHECK(holds(words("plane_strain", fibres(0.1, 30, 0)), "fibres in the plane, along z"));
+  CHECK(holds(words("axisymmetric", "loads: [{on: top, displacement: {y: 0.1, z: 0.1}}]\n"), "loads[0].displacement.z"));
+  CHECK(holds(words("axisymmetric", "symmetry: quarter\nloads: [{on: top, displacement: {y: 0.1}}]\n"), "symmetry: found quarter"));
+  CHECK(words("axisymmetric", "symmetry: auto\nloads: [{on: top, displacement: {y: 0.1}}]\n") == "taken");
+}
+
+TEST_CASE("a section continues from what was written of it") {
+  const SolveConfig config = config_of(indentation(disc(0.35, "hex27"), ball(0.34)));
+  const Mesh mesh = mesh_in(config);
+  const Run r = run(config, mesh);
+  const auto part = ReducedScene::find(config.symmetry, mesh, r.scene, nowhere);
+  const BodyState state = part->reduced(r.last());
+  const StepRecord& last = r.last();
+  REQUIRE(state.r.size() == 1);
+  REQUIRE(state.r[0].size() == last.contacts.at("ball").r.size());
+  for (std::size_t i = 0; i < state.r[0].size(); ++i) CHECK(state.r[0][i] == last.contacts.at("ball").r[i]);
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    CHECK(Vec3(state.u.segment<3>(3 * i)) == (i < n_front(mesh) ? last.u[i] : Vec3(Vec3::Zero())));
+}
