@@ -27,7 +27,11 @@ ConeProjection trial(const Vec3& r, const Vec3& x, double rho, double mu) {
   return project_on_cone(Vec3(r[0] - rho * (x[0] + mu * x_t), r[1] - rho * x[1], r[2] - rho * x[2]), mu);
 }
 
+// an indefinite W lets the sweeps run away
+bool ran_away(const VecX& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
+
 double residual_of(const LocalProblem& problem, const VecX& rho, const VecX& r, std::vector<ContactStatus>* status) {
+  if (ran_away(r)) return std::numeric_limits<double>::infinity();
   const VecX x = problem.W * r + problem.q;
   double defect = 0, largest = 0, scale = 0;
   if (status) status->resize(problem.n_contacts());
@@ -161,7 +165,7 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   VecX best = r;
   double least = residual_of(problem, rho, r, nullptr);
   const auto judge = [&] {
-    if (!r.allFinite()) r = best;  // an indefinite W lets the sweeps run away
+    if (ran_away(r)) r = best;
     const double residual = residual_of(problem, rho, r, nullptr);
     if (residual < least) least = residual, best = r;
     return residual;
@@ -169,7 +173,7 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the patience they need
   int sweeps = 0, newton_steps = 0;
   while (least > options.tolerance && sweeps < options.sweeps) {
-    for (int s = 0; s < round; ++s, ++sweeps) sweep(problem, rho, r);
+    for (int s = 0; s < round && !ran_away(r); ++s, ++sweeps) sweep(problem, rho, r);
     if (judge() <= options.tolerance) break;
     double last = least;
     VecX before_newton = r;
@@ -215,7 +219,7 @@ double natural_map(const LocalProblem& problem, const VecX& r, std::vector<Conta
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options) {
   LocalReport report;
   const VecX rho = step_lengths(problem);
-  if (r.size() != problem.q.size() || !r.allFinite()) r = VecX::Zero(problem.q.size());
+  if (r.size() != problem.q.size() || ran_away(r)) r = VecX::Zero(problem.q.size());
   constexpr double enough = 1e-11;
   alternate(problem, rho, r, options, report);
   if (residual_of(problem, rho, r, nullptr) > std::max(options.tolerance, enough)) approach(problem, rho, r, options, report);
