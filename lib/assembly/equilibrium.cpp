@@ -238,7 +238,7 @@ double Equilibrium::smallest_J(const VecX& u) const {
 VecX Equilibrium::turned_dilatations() const {
   VecX out = VecX::Zero(dofs_.n);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = material(e).volume.quadratic.bulk_modulus();
+    const double kappa = dilatation_modulus(e);
     const auto nodes = mesh_.cell(e);
     const bool tied = !tied_.empty() && tied_[e];
     for (int k = 0; k < n_p_; ++k) {
@@ -257,7 +257,7 @@ VecX Equilibrium::turned_dilatations() const {
 void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
   const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = material(e).volume.quadratic.bulk_modulus();
+    const double kappa = dilatation_modulus(e);
     const ElementNodes q = element_displacements(du, e);
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
@@ -271,7 +271,7 @@ void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
   for (std::size_t i = 0; i < p_.size(); ++i)
-    p_[i] = material(static_cast<int>(i) / n_p_).volume.quadratic.bulk_modulus() * J_minus_1_[i];
+    p_[i] = dilatation_modulus(static_cast<int>(i) / n_p_) * J_minus_1_[i];
 }
 
 void Equilibrium::prop_cells() {

@@ -60,6 +60,8 @@ class Equilibrium {
   ElementNodes element_displacements(const VecX& u, int e) const;
 
  private:
+  // of the dilatations t_k or J - 1, without what is left to `local` [MPa]
+  double dilatation_modulus(int e) const { return material(e).volume.quadratic.bulk_modulus() - local_[e]; }
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];
