@@ -80,7 +80,9 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
   constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps, acceptable = 1e6 * eps;
   std::optional<Sample> s = sheet.at(q);
-  const auto steepness = [](const Sample& one) { return one.slope.cwiseAbs().maxCoeff() / one.scale; };
+  const auto steepness = [](const Sample& one) {
+    return one.scale > 0 ? one.slope.cwiseAbs().maxCoeff() / one.scale : 0;  // without any stiffness every state is as good
+  };
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough); ++iteration) {
     Vec2 d = step(*s);
@@ -95,7 +97,7 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   }
   if (!s) return false;
   S = s->r.S, W = s->r.W;
-  return s->scale == 0 || steepness(*s) <= acceptable;
+  return steepness(*s) <= acceptable;
 }
 
 // every fibre along x: width and thickness of a pull are equal by symmetry
