@@ -96,8 +96,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, job.where);
   if (part) job.say("{}{}", mesh.section ? "" : "symmetry: ", part->words());
   const Scene& scene = part ? part->scene() : whole;
-  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
-                   scene.fibres, part ? part->cell_share() : std::vector<double>{});
+  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
   const auto state = [&](const StepRecord& record) { return part ? part->reduced(record) : state_of(record, scene); };
   StaticsOptions options;
   options.threads = config.blas_threads;

@@ -126,14 +126,16 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   for (int l = block.n; l < Packet::lanes; ++l) out.J_min.set(l, out.J_min[0]);
 }
 
+void Equilibrium::add_force(VecX& forces, int node, bool tied, const Vec3& force) const {
+  forces.segment<3>(3 * dofs_.node(node)) += tied ? Vec3(dofs_.tie[node].T.transpose() * force) : force;
+}
+
 // Forces and tangent of a cell with tied nodes, folded onto the nodes that move.
 void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_tangent) {
   const auto nodes = mesh_.cell(e);
   const auto entry = [](int i, int j) { return i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j; };  // lower triangle, row by row
-  for (int a = 0; a < n_nodes_; ++a) {
-    const Image& image = dofs_.tie[nodes[a]];
-    f_.segment<3>(3 * image.of) += image.T.transpose() * Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]);
-  }
+  for (int a = 0; a < n_nodes_; ++a)
+    add_force(f_, nodes[a], true, Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]));
   if (!with_tangent) return;
   const int* slot = pattern_.slots(e);
   for (int a = 0; a < n_nodes_; ++a)
@@ -191,10 +193,7 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
         K_du[i] += out.K[k][l] * du[j];
         if (j < i) K_du[j] += out.K[k][l] * du[i];
       }
-    for (int a = 0; a < n_nodes_; ++a) {
-      const Vec3 force(&K_du[3 * a]);
-      K_du_.segment<3>(3 * dofs_.node(nodes[a])) += tied ? Vec3(dofs_.tie[nodes[a]].T.transpose() * force) : force;
-    }
+    for (int a = 0; a < n_nodes_; ++a) add_force(K_du_, nodes[a], tied, Vec3(&K_du[3 * a]));
   }
 }
 
@@ -245,10 +244,7 @@ VecX Equilibrium::turned_dilatations() const {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
       const double w = geometry_[e].V * (kappa * J_minus_1_[at] - p_[at]);
-      for (int a = 0; a < n_nodes_; ++a) {
-        const Vec3 force = w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a));
-        out.segment<3>(3 * dofs_.node(nodes[a])) += tied ? Vec3(dofs_.tie[nodes[a]].T.transpose() * force) : force;
-      }
+      for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
     }
   }
   return out;
@@ -271,21 +267,24 @@ void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
   for (std::size_t i = 0; i < p_.size(); ++i)
-    p_[i] = dilatation_modulus(static_cast<int>(i) / n_p_) * J_minus_1_[i];
+    p_[i] = material(static_cast<int>(i) / n_p_).volume.quadratic.bulk_modulus() * J_minus_1_[i];
 }
 
 void Equilibrium::prop_cells() {
-  if (formulation_ != Formulation::linear_dilatation) return;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
     const ElementGeometry& geometry = geometry_[e];
-    const double* p = &p_[static_cast<std::size_t>(e) * n_p_];
-    double most = 0;
-    for (int g = 0; g < geometry.n_gauss(); ++g) {
-      double here = 0;
-      for (int k = 0; k < n_p_; ++k) here += geometry.mode[g][k] * p[k];
-      most = std::max(most, -here);
+    const double kappa = material(e).volume.quadratic.bulk_modulus();
+    double* p = &p_[static_cast<std::size_t>(e) * n_p_];
+    if (formulation_ == Formulation::linear_dilatation) {
+      double most = 0;
+      for (int g = 0; g < geometry.n_gauss(); ++g) {
+        double here = 0;
+        for (int k = 0; k < n_p_; ++k) here += geometry.mode[g][k] * p[k];
+        most = std::max(most, -here);
+      }
+      local_[e] = std::min(most, kappa);
     }
-    local_[e] = std::min(most, material(e).volume.quadratic.bulk_modulus());
+    for (int k = 0; k < n_p_; ++k) p[k] *= dilatation_modulus(e) / kappa;
   }
 }
 

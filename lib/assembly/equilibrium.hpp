@@ -45,8 +45,9 @@ class Equilibrium {
   // old is of no use near incompressibility: kappa (b - b0) is large. For modes, not for pressures of Gauss points.
   VecX turned_dilatations() const;
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
-  // From now on cells resist what their modes leave of J - 1 as the pressures that there are now demand (solid.hpp); until the
-  // first call, as they do at rest. Kept while an increment is solved.
+  // Takes the pressures that there are now for the whole ones: from now on cells resist what their modes leave of J - 1 as these
+  // demand (solid.hpp; until the first call, as they do at rest), and the modes keep the rest of them. Once an increment, after
+  // pressures_from(): what it does follows from the accepted states alone, as a run that continues from a file needs it.
   void prop_cells();
   std::vector<double>& pressures() { return p_; }
 
@@ -70,6 +71,7 @@ class Equilibrium {
   void make_blocks();
   void load(const Block& block, const VecX& u, Packet* q) const;
   void compute(const Block& block, const VecX& u, bool with_tangent, PacketElement& out) const;
+  void add_force(VecX& forces, int node, bool tied, const Vec3& force) const;  // to the dofs that the node moves with
   void add_tied(int e, const PacketElement& out, int lane, bool with_tangent);
   void add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed);
 

@@ -34,8 +34,7 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
   const Scene whole = make_scene(config, mesh, material, where);
   const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
   const Scene& scene = part ? part->scene() : whole;
-  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
-                   scene.fibres, part ? part->cell_share() : std::vector<double>{});
+  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
   StaticsOptions options;
   options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);

@@ -90,11 +90,13 @@ struct MeshConfig {
       if (cells == CellType::hex27) found.push_back({"cells", "found hex27", "hex8 or tet15, where geometry is a file", ""});
       if (cells == CellType::tet15 && frames != Frames::global)
         found.push_back({"frames", "found element_edges beside cells: tet15", "global: no edge of a tetrahedron stands for a direction", ""});
-    } else if (cells == CellType::tet15)
-      found.push_back({"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
-    if (const double height = box(geometry).size[1]; !std::holds_alternative<FromFile>(geometry) && !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
-      found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
-                       std::to_string(height) + " mm, the height of the geometry", ""});
+    } else {
+      if (cells == CellType::tet15)
+        found.push_back({"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
+      if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
+        found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
+                         std::to_string(height) + " mm, the height of the geometry", ""});
+    }
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
     else if (!exports.empty() && cells != CellType::hex8)

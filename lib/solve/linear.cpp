@@ -1,14 +1,10 @@
-#include "solve/linear.hpp"
-
-#include <cholmod.h>
-#include <omp.h>
 #include <sys/mman.h>
-#include <umfpack.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
+#include <new>
+
+#include "solve/linear_state.hpp"
 
 extern "C" void openblas_set_num_threads(int);
 extern "C" int openblas_get_num_threads();
@@ -16,17 +12,6 @@ extern "C" int openblas_get_num_threads();
 namespace langer {
 
 namespace {
-
-// CHOLMOD opens its own parallel regions whatever OMP_NUM_THREADS says, and they starve the BLAS beneath them:
-// 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two cores. Held back for the length of a call.
-class NoNestedThreads {
- public:
-  NoNestedThreads() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~NoNestedThreads() { omp_set_max_active_levels(levels_); }
-
- private:
-  int levels_;
-};
 
 // OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and again, for ever:
 // whether there is memory for them is asked beforehand.
@@ -42,43 +27,6 @@ void need_blas_buffers() {
 }
 
 }  // namespace
-
-struct LinearSolver::State {
-  cholmod_common common;
-  cholmod_sparse* A = nullptr;
-  cholmod_factor* L = nullptr;
-  std::vector<int> last;            // rows to eliminate last
-  std::vector<int> place_of;        // row -> index in `last`, or -1
-  bool trailing = false;            // the last rows of L are those of `last`
-  std::vector<int> trailing_order;  // i-th trailing row of L -> index in `last`
-  mutable MatX trailing_block;      // of the present factor, once asked for
-  // fallback: the full matrix by columns
-  std::vector<int> full_start, full_row, full_from;
-  std::vector<double> full_value;
-  void* symbolic = nullptr;
-  void* numeric = nullptr;
-  bool indefinite = false;
-  std::vector<int> props;  // rows with springs in the factor; empty in most
-  MatX prop_moves;         // (n, props): K^-1 of a unit force on each prop, springs included
-  Eigen::PartialPivLU<MatX> prop_share;
-
-  ~State() {
-    if (numeric) umfpack_di_free_numeric(&numeric);
-    if (symbolic) umfpack_di_free_symbolic(&symbolic);
-    cholmod_free_factor(&L, &common);
-    cholmod_free_sparse(&A, &common);
-    cholmod_finish(&common);
-  }
-
-  void analyse();
-  void order_last();
-  bool cholesky();  // of A as it is
-  VecX whole(const VecX& b) const;  // by the CHOLMOD factor, props included
-  bool factorize_indefinite();
-  const MatX& trailing_factor() const;
-  bool halves() const { return trailing && !indefinite && props.empty(); }
-  VecX through(int system, const VecX& b) const;
-};
 
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -146,94 +94,6 @@ bool LinearSolver::State::cholesky() {
   cholmod_factorize(A, L, &common);
   if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   return common.status != CHOLMOD_NOT_POSDEF && L->minor >= L->n;
-}
-
-bool LinearSolver::factorize_propped(const std::vector<double>& values, int most) {
-  State& s = *state_;
-  const NoNestedThreads guard;
-  const int* column_start = static_cast<int*>(s.A->p);
-  double* x = static_cast<double*>(s.A->x);
-  std::copy(values.begin(), values.end(), x);
-  s.indefinite = false;
-  s.props.clear();
-  double mean = 0;  // a column starts with its diagonal
-  for (std::size_t row = 0; row < s.A->nrow; ++row) mean += std::abs(values[column_start[row]]) / static_cast<double>(s.A->nrow);
-  std::vector<double> stiffness;
-  for (int attempt = 0; !s.cholesky(); ++attempt) {
-    const int row = static_cast<int*>(s.L->Perm)[s.L->minor];
-    if (attempt == most) {
-      s.props.clear();
-      return false;
-    }
-    // after an earlier pivot near zero a later one may be as low as any number: then its prop is made stiffer
-    const auto known = std::find(s.props.begin(), s.props.end(), row);
-    double more = 100 * std::max(mean, std::abs(values[column_start[row]]));
-    if (known == s.props.end()) {
-      s.props.push_back(row), stiffness.push_back(more);
-    } else {
-      double& k = stiffness[static_cast<std::size_t>(known - s.props.begin())];
-      more = 9 * k, k += more;
-    }
-    x[column_start[row]] += more;
-  }
-  const int q = static_cast<int>(s.props.size());
-  if (q == 0) return true;
-  // (K + E k E^T - E k E^T)^-1 = Z + Z E (1/k - E^T Z E)^-1 E^T Z
-  MatX share = MatX::Zero(q, q);
-  s.prop_moves.resize(s.A->nrow, q);
-  for (int i = 0; i < q; ++i) s.prop_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.props[i]));
-  for (int i = 0; i < q; ++i) {
-    share(i, i) = 1 / stiffness[i];
-    for (int j = 0; j < q; ++j) share(i, j) -= s.prop_moves(s.props[i], j);
-  }
-  s.prop_share.compute(share);
-  if (s.prop_share.rcond() > 1e-14) return true;
-  s.props.clear();
-  return false;
-}
-
-bool LinearSolver::factorize_indefinite(const std::vector<double>& values) {
-  const NoNestedThreads guard;
-  std::copy(values.begin(), values.end(), static_cast<double*>(state_->A->x));
-  state_->indefinite = true;
-  return state_->factorize_indefinite();
-}
-
-bool LinearSolver::State::factorize_indefinite() {
-  const int n = static_cast<int>(A->nrow);
-  const int *p = static_cast<int*>(A->p), *row = static_cast<int*>(A->i);
-  const double* x = static_cast<double*>(A->x);
-  if (full_start.empty()) {  // both triangles, and from which entry of A each comes
-    full_start.assign(n + 1, 0);
-    for (int c = 0; c < n; ++c)
-      for (int k = p[c]; k < p[c + 1]; ++k) {
-        ++full_start[c + 1];
-        if (row[k] != c) ++full_start[row[k] + 1];
-      }
-    for (int c = 0; c < n; ++c) full_start[c + 1] += full_start[c];
-    full_row.resize(full_start[n]), full_from.resize(full_start[n]), full_value.resize(full_start[n]);
-    std::vector<int> next(full_start.begin(), full_start.end() - 1);
-    for (int c = 0; c < n; ++c)  // ascending c puts the upper entries of a column before its lower ones, in order
-      for (int k = p[c]; k < p[c + 1]; ++k)
-        if (row[k] != c) full_row[next[row[k]]] = c, full_from[next[row[k]]++] = k;
-    for (int c = 0; c < n; ++c)
-      for (int k = p[c]; k < p[c + 1]; ++k) full_row[next[c]] = row[k], full_from[next[c]++] = k;
-  }
-  for (std::size_t k = 0; k < full_from.size(); ++k) full_value[k] = x[full_from[k]];
-  double control[UMFPACK_CONTROL];
-  umfpack_di_defaults(control);
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-  const auto worked = [](int status) {
-    if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
-    return status == UMFPACK_OK;
-  };
-  if (!symbolic &&
-      !worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
-    return false;
-  if (numeric) umfpack_di_free_numeric(&numeric);
-  return worked(
-      umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
 }
 
 VecX LinearSolver::solve(const VecX& b) const {
@@ -368,27 +228,6 @@ std::optional<MatX> LinearSolver::schur() const {
     for (Eigen::Index j = 0; j <= i; ++j)
       S(s.trailing_order[i], s.trailing_order[j]) = S(s.trailing_order[j], s.trailing_order[i]) = ordered(i, j);
   return S;
-}
-
-int LinearSolver::negative_pivots(const std::vector<double>& values) {
-  State& s = *state_;
-  const NoNestedThreads guard;
-  std::copy(values.begin(), values.end(), static_cast<double*>(s.A->x));
-  const auto way = s.common.supernodal;
-  const auto ordering = s.common.method[0].ordering;
-  const auto final_ll = s.common.final_ll;
-  s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0, s.common.method[0].ordering = CHOLMOD_GIVEN;
-  s.common.status = CHOLMOD_OK;
-  cholmod_factor* D = cholmod_analyze_p(s.A, static_cast<int*>(s.L->Perm), nullptr, 0, &s.common);
-  int negative = -1;
-  if (D && cholmod_factorize(s.A, D, &s.common) && D->minor >= D->n && !D->is_ll) {
-    negative = 0;
-    for (std::size_t i = 0; i < D->n; ++i) negative += static_cast<double*>(D->x)[static_cast<int*>(D->p)[i]] < 0;
-  }
-  if (D) cholmod_free_factor(&D, &s.common);
-  s.common.supernodal = way, s.common.final_ll = final_ll, s.common.method[0].ordering = ordering;
-  if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  return negative;
 }
 
 LinearSolver::Size LinearSolver::size() const {

@@ -7,27 +7,18 @@
 #include <numbers>
 #include <random>
 
-#include "config/reader.hpp"
 #include "material/uniaxial.hpp"
 #include "mesh/section.hpp"
-#include "scene/equilibrium_by.hpp"
-#include "scene/make_mesh.hpp"
-#include "scene/step_record.hpp"
-#include "scene/symmetry.hpp"
-#include "solve/load_path.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
+#include "support/solved_scene.hpp"
 
 using namespace langer;
+using test::config_of, test::mesh_in, test::nowhere;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const auto nowhere = [](const std::string&) { return Place{}; };
-
-SolveConfig config_of(const std::string& text) { return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config; }
-Mesh mesh_in(const SolveConfig& config) { return make_mesh(*config.mesh, nowhere).mesh; }
-
 struct Run {
   Mesh mesh;
   Scene scene;
@@ -42,24 +33,7 @@ struct Run {
 
 Run run(const SolveConfig& config, const Mesh& mesh) {
   Run out{mesh, make_scene(config, mesh, config.material, nowhere), {}};
-  const auto part = ReducedScene::find(config.symmetry, mesh, out.scene, nowhere);
-  const Scene& scene = part ? part->scene() : out.scene;
-  Equilibrium body(part ? part->mesh() : mesh, scene.materials, scene.formulation, scene.dofs, 1, Kernel::packets, scene.fibres,
-                   part ? part->cell_share() : std::vector<double>{});
-  Statics statics(body, scene.contacts, {});
-  const PathReport path = load_path(
-      config.path, 0, {}, scene.stops,
-      [&](double t) {
-        statics.begin(t);
-        return equilibrium_by(config.solver, statics.problem(), statics.trial());
-      },
-      [&](double, double taken, double next, const SolveReport& report) {
-        statics.accept();
-        StepRecord record = step_record(statics, body, taken, next, report);
-        out.steps.push_back(part ? part->whole(record) : record);
-        return true;
-      });
-  REQUIRE(path.complete);
+  out.steps = test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver}).steps;
   return out;
 }
 Run run(const std::string& text) { return run(config_of(text), mesh_in(config_of(text))); }
@@ -243,14 +217,14 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
       const Scene whole = make_scene(config, mesh, config.material, nowhere);
       const auto part = ReducedScene::find(config.symmetry, mesh, whole, nowhere);
       REQUIRE(part.has_value());
-      const Scene& scene = part->scene();
-      Equilibrium body(part->mesh(), scene.materials, scene.formulation, scene.dofs, 1, Kernel::packets, {}, part->cell_share());
+      Equilibrium body = equilibrium_of(mesh, whole, part);
       const Dofs& dofs = body.dofs();
       std::mt19937 random(5);
       std::uniform_real_distribution<double> small(-0.02, 0.02);
       VecX u = VecX::Zero(dofs.n);
       for (int dof : dofs.free) u[dof] = small(random);
       body.pressures_from(u);
+      body.prop_cells();
       REQUIRE(body.assemble(u, true));
       const Pattern& pattern = body.pattern();
       const std::vector<double> K = body.K();

@@ -3,16 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include "scene/step_record.hpp"
-#include "solve/load_path.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
+#include "support/solved_scene.hpp"
 
 using namespace langer;
+using test::nowhere;
 
 namespace {
-
-const auto nowhere = [](const std::string&) { return Place{}; };
 
 struct Case {
   int nx = 8, nz = 8;
@@ -47,34 +45,10 @@ Scene scene_of(const Case& c, const Mesh& mesh) {
   return scene;
 }
 
-struct Solved {
-  std::vector<StepRecord> steps;
-  int free = 0;
-};
-
-Solved solved(const Mesh& mesh, const Scene& scene, const ReducedScene* part) {
-  const Scene& own = part ? part->scene() : scene;
-  Equilibrium body(part ? part->mesh() : mesh, own.materials, own.formulation, own.dofs, 1, Kernel::packets, own.fibres,
-                   part ? part->cell_share() : std::vector<double>{});
-  Statics statics(body, own.contacts, {});
-  LoadPathOptions path;
-  path.first = path.largest = 0.25;
-  Solved out;
-  out.free = body.dofs().n_free();
-  const PathReport report = load_path(
-      path, 0, {}, {},
-      [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), NewtonOptions{});
-      },
-      [&](double, double taken, double next, const SolveReport& step) {
-        statics.accept();
-        StepRecord record = step_record(statics, body, taken, next, step);
-        out.steps.push_back(part ? part->whole(record) : record);
-        return true;
-      });
-  REQUIRE(report.complete);
-  return out;
+test::HowToSolve in_four_steps() {
+  test::HowToSolve how;
+  how.path.first = how.path.largest = 0.25;
+  return how;
 }
 
 double largest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -93,7 +67,7 @@ double compare(const Case& c) {
   const Scene scene = scene_of(c, mesh);
   const auto part = ReducedScene::find(c.symmetry, mesh, scene, nowhere);
   REQUIRE(part.has_value());
-  const Solved whole = solved(mesh, scene, nullptr), few = solved(mesh, scene, &*part);
+  const test::Solved whole = solved(mesh, scene, std::nullopt, in_four_steps()), few = solved(mesh, scene, part, in_four_steps());
   REQUIRE(whole.steps.size() == few.steps.size());
   for (std::size_t s = 0; s < whole.steps.size(); ++s) {
     const StepRecord &a = whole.steps[s], &b = few.steps[s];
@@ -171,7 +145,7 @@ TEST_CASE("a reduced run continues from what was written of the whole body") {
   const Scene scene = scene_of(c, mesh);
   const auto part = ReducedScene::find(c.symmetry, mesh, scene, nowhere);
   REQUIRE(part.has_value());
-  const StepRecord record = solved(mesh, scene, &*part).steps.back();
+  const StepRecord record = solved(mesh, scene, part, in_four_steps()).last();
   const BodyState state = part->reduced(record);
   REQUIRE(state.r.size() == 1);
   double kept = 0, all = 0;
