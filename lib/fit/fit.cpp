@@ -69,9 +69,11 @@ bool imposed(const Test& test, const Material& law) {
 FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   FitQuality q;
   const VecX error = model - stress;
-  q.r2 = 1 - error.squaredNorm() / (stress.array() - stress.mean()).matrix().squaredNorm();
-  q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest;
-  q.max_error_percent = 100 * error.cwiseAbs().maxCoeff() / largest;
+  const double spread = (stress.array() - stress.mean()).matrix().squaredNorm();
+  q.r2 = spread > 0 ? 1 - error.squaredNorm() / spread : std::numeric_limits<double>::quiet_NaN();
+  q.mean_error_percent = q.max_error_percent = std::numeric_limits<double>::quiet_NaN();
+  if (largest > 0)
+    q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest, q.max_error_percent = 100 * error.cwiseAbs().maxCoeff() / largest;
   return q;
 }
 
@@ -80,16 +82,19 @@ void judge(const FitProblem& problem, FitResult& fit) {
   const auto n = static_cast<double>(stress.size()), k = static_cast<double>(problem.free.size()) + 1;
   fit.quality = quality(fit.model, stress, 1);
   fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
-  Eigen::Index at = 0;
+  Eigen::Index at = 0, stressed = 0;
   for (const Test& test : problem.tests) {
     const auto m = static_cast<Eigen::Index>(test.values());
-    const double largest = std::max(largest_stress(test), std::numeric_limits<double>::min());
+    const double largest = largest_stress(test);
     const FitQuality q = quality(fit.model.segment(at, m), stress.segment(at, m), largest);
     fit.of_test.push_back(q);
-    fit.quality.mean_error_percent += q.mean_error_percent * static_cast<double>(m) / n;
-    fit.quality.max_error_percent = std::max(fit.quality.max_error_percent, q.max_error_percent);
     at += m;
+    if (!(largest > 0)) continue;
+    fit.quality.mean_error_percent += q.mean_error_percent * static_cast<double>(m);
+    fit.quality.max_error_percent = std::max(fit.quality.max_error_percent, q.max_error_percent);
+    stressed += m;
   }
+  fit.quality.mean_error_percent /= static_cast<double>(stressed);
   const double spread = n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
   fit.quality.aicc = n > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (n - k - 1) : std::numeric_limits<double>::quiet_NaN();
   fit.quality.bic = spread + k * std::log(n);

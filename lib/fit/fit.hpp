@@ -29,8 +29,9 @@ struct FitOptions {
   LeastSquaresOptions least_squares;
 };
 
-// How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test.
-//   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2
+// How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test; NaN for a test
+// without stress, which those of all tests leave out.
+//   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2, NaN where every stress is the same
 //   aicc = n ln(2 cost/n) + 2 k + 2 k (k + 1)/(n - k - 1),  bic = n ln(2 cost/n) + k ln n,  k = parameters + 1
 struct FitQuality {
   double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;

@@ -202,6 +202,7 @@ Mesh read_solid(const std::string& path, bool facets, double edge, CellType cell
   const GmshSession session;
   MshReader reader(path, notes);
   try {
+    const NoTraps in_gmsh;  // it divides zero by zero where it lays out surfaces of triangles
     gmsh::vectorpair shapes, surfaces, volumes;
     if (facets) {
       gmsh::merge(path);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/traps.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
@@ -40,7 +41,10 @@ Mesh meshed_by_gmsh(const std::string& key, Build build) {
   const GmshSession session;
   try {
     build();
-    gmsh::model::mesh::generate(3);
+    {
+      const NoTraps in_gmsh;
+      gmsh::model::mesh::generate(3);
+    }
     return to_mesh();
   } catch (const Failure&) {
     throw;

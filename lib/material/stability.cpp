@@ -69,7 +69,9 @@ double safe_hencky(const Material& material, double most) {
   constexpr int directions = 300;
   constexpr double step = 0.1;
   const std::vector<Vec3> a = fibre_directions(material);
-  const auto stable = [&](const auto& h, double r) { return smallest_shear_stiffness(material, state_at(h, r), a).value >= 0; };
+  const auto stable = [&](const auto& h, double r) {
+    return std::isgreaterequal(smallest_shear_stiffness(material, state_at(h, r), a).value, 0);
+  };
   double safe = inf;
   for (int i = 0; i < directions; ++i) {
     Random random(1, static_cast<std::uint64_t>(i));

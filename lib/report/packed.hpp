@@ -2,6 +2,7 @@
 // shows is right to 1/65535 of its range.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -34,7 +35,7 @@ struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void add(std::span<const double> values) {
     for (double v : values)
-      if (v - v == 0) low = std::min(low, v), high = std::max(high, v);
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
   }
   bool empty() const { return !(low <= high); }
 };
@@ -43,7 +44,7 @@ struct Span {
 inline std::vector<std::uint16_t> quantised(std::span<const double> values, const Span& span) {
   const double per = span.high > span.low ? 65534 / (span.high - span.low) : 0;
   std::vector<std::uint16_t> packed;
-  for (double v : values) packed.push_back(v - v == 0 ? static_cast<std::uint16_t>((v - span.low) * per + 0.5) : 65535);
+  for (double v : values) packed.push_back(std::isfinite(v) ? static_cast<std::uint16_t>((v - span.low) * per + 0.5) : 65535);
   return packed;
 }
 

@@ -67,7 +67,7 @@ std::string fit_csv(const FitRecord& record) {
     double largest = 0;
     for (const auto* list : {&t.stress_x, &t.stress_z})
       for (double s : *list) largest = std::max(largest, std::abs(s));
-    return 100 * (model - stress) / largest;
+    return largest > 0 ? 100 * (model - stress) / largest : std::numeric_limits<double>::quiet_NaN();
   };
   const FittedTest& only = record.tests.front();
   if (record.tests.size() == 1 && only.kind == "uniaxial") {
@@ -140,11 +140,11 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
       lines.push_back(
           fmt::format("c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
                       fibre.hgo.c1));
+  const MatX correlations = correlation(record.covariance);
   for (std::size_t i = 0; i < record.parameters.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
-      const double r = record.covariance(a, b) / std::sqrt(record.covariance(a, a) * record.covariance(b, b));
-      if (std::abs(r) > 0.99)
+      const double r = correlations(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (std::isgreater(std::abs(r), 0.99))  // never NaN, without a trap
         lines.push_back(fmt::format("{} and {} are correlated by {:.4f}: this curve hardly tells them apart",
                                     record.parameters[j].name, record.parameters[i].name, r));
     }
@@ -152,7 +152,7 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   const double far = 1.5 * record.strain_max;
   for (int i = 0; i <= 200 && far > 0; ++i) {
     const Uniaxial u = uniaxial_incompressible(material, 1 + i * far / 200);
-    if (u.converged && smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value > 0) continue;
+    if (u.converged && std::isgreater(smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value, 0)) continue;
     lines.push_back(
         fmt::format("strong ellipticity is lost at strain {:.2g}; the curve ends at {:.2g}", i * far / 200, record.strain_max));
     break;

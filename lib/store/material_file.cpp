@@ -29,11 +29,6 @@ void write_vector(const h5::Group& group, const std::string& name, const std::ve
   group.write<double>(name, {values.size()}, values, unit);
 }
 
-MatX correlation(const MatX& covariance) {
-  const VecX deviation = covariance.diagonal().cwiseSqrt();
-  return (deviation.cwiseInverse().asDiagonal() * covariance * deviation.cwiseInverse().asDiagonal());
-}
-
 void write_fit(const h5::Group& root, const FitRecord& fit) {
   const h5::Group group = root.make_group("fit"), parameters = group.make_group("parameters");
   std::string order;
@@ -141,6 +136,15 @@ FitRecord read_fit(const h5::Group& root) {
 }
 
 }  // namespace
+
+MatX correlation(const MatX& covariance) {
+  const VecX deviation = covariance.diagonal().cwiseSqrt();
+  MatX r = MatX::Constant(covariance.rows(), covariance.cols(), std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 0; i < r.rows(); ++i)
+    for (Eigen::Index j = 0; j < r.cols(); ++j)
+      if (std::isgreater(deviation[i], 0) && std::isgreater(deviation[j], 0)) r(i, j) = covariance(i, j) / deviation[i] / deviation[j];
+  return r;
+}
 
 void write_material(const std::string& path, const Material& material, const std::optional<FitRecord>& fit,
                     const Identity& identity) {

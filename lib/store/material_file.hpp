@@ -44,6 +44,9 @@ struct FitRecord {
   StudyRecord study;                                     // read back: fitted range, verdict and safe radius
 };
 
+// cov_ij / (s_i s_j); NaN where a parameter is not determined or the fit leaves it no variance (exact data)
+MatX correlation(const MatX& covariance);
+
 struct MaterialFile {
   Material material;
   std::optional<FitRecord> fit;

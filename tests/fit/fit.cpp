@@ -159,6 +159,19 @@ TEST_CASE("quality: R2 and the information criteria of a known misfit") {
   CHECK(f.quality.bic == doctest::Approx(n * std::log(rss / n) + 2 * std::log(n)).epsilon(1e-12));
 }
 
+TEST_CASE("quality of a test without stress: no percentage, no R2, and the others' as if it were not there") {
+  const Material law{{NeoHooke{0.1}}, {}, volume};
+  Test stretched = measured_on(law, {imposed(TestKind::pure_shear, 0.4)})[0], slack = imposed(TestKind::pure_shear, 0.01);
+  for (std::size_t i = 0; i < stretched.points(); ++i) stretched.stress_x[i] += i % 2 ? 1e-3 : -1e-3;
+  const FitResult f = fit({law, {free("matrix.neo_hooke.a1", 0.1, 0, 1)}, {slack, stretched}}, {.starts = 1});
+  CHECK(std::isnan(f.of_test[0].r2));
+  CHECK(std::isnan(f.of_test[0].mean_error_percent));
+  CHECK(std::isnan(f.of_test[0].max_error_percent));
+  CHECK(f.of_test[1].mean_error_percent > 0.1);
+  CHECK(f.quality.mean_error_percent == f.of_test[1].mean_error_percent);
+  CHECK(f.quality.max_error_percent == f.of_test[1].max_error_percent);
+}
+
 TEST_CASE("porcine skin P12AC1: admissible HGO-Yeoh and GOH with fitted angle describe five biaxial protocols") {
   const std::string file = SOURCE_DIR "/../shared/data/porcine_skin_biaxial_P12AC1.csv";
   if (!std::filesystem::exists(file)) {

@@ -187,6 +187,20 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(found);
 }
 
+TEST_CASE("correlations do not depend on units, and are not numbers where nothing is determined or nothing varies") {
+  MatX covariance(2, 2);
+  covariance << 4, -3, -3, 9;
+  for (double scale : {1., 1e-200, 1e-300, 1e200}) {  // the product of two variances leaves the range of doubles
+    const MatX r = correlation(scale * covariance);
+    CHECK(r(0, 1) == doctest::Approx(-0.5).epsilon(1e-14));
+    CHECK(r(1, 1) == doctest::Approx(1).epsilon(1e-14));
+  }
+  covariance << std::nan(""), std::nan(""), std::nan(""), 9;
+  CHECK(std::isnan(correlation(covariance)(0, 1)));
+  CHECK(correlation(covariance)(1, 1) == 1);
+  CHECK(correlation(MatX::Zero(2, 2)).array().isNaN().all());
+}
+
 TEST_CASE("curves, columns and summary come back, the CSV names carry units") {
   const std::string folder = example::folder("curves");
   Curves c;
