@@ -42,6 +42,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
         if (dofs_.tie[a].of != a || !dofs_.tie[a].T.isDiagonal(0)) tied_[e] = 1;
   }
   make_blocks();
+  find_beginnings();
   p_.assign(static_cast<std::size_t>(n) * n_p_, 0);
   for (int e = 0; e < n; ++e) local_.push_back(local_modulus(formulation, material(e)));
   J_minus_1_ = p_;
@@ -68,6 +69,28 @@ void Equilibrium::make_blocks() {
       blocks_.push_back(block);
       packet_geometry_.push_back(packed(geometry));
       packet_fibres_.push_back(std::move(fibres));
+    }
+}
+
+void Equilibrium::find_beginnings() {
+  const int per_element = pattern_.blocks_per_element;
+  begins_.assign(static_cast<std::size_t>(mesh_.n_cells()) * per_element, 0);
+  std::vector<char> met(pattern_.nnz(), 0);
+  for (const Block& block : blocks_)
+    for (int l = 0; l < block.n; ++l) {
+      const int e = block.cells[l];
+      if (pattern_.scattered(e)) {
+        for (int k = 0; k < pattern_.slots_per_element; ++k)
+          if (const int at = pattern_.slots(e)[k]; at >= 0 && !met[at]) met[at] = 1, cleared_.push_back(at);
+        continue;
+      }
+      for (int k = 0; k < per_element; ++k) {
+        const int at = pattern_.blocks(e)[3 * k];
+        if (at == Pattern::none) continue;
+        char& first_entry = met[at >= 0 ? at : Pattern::turned(at)];  // no cell meets a part of a block
+        begins_[static_cast<std::size_t>(e) * per_element + k] = !first_entry;
+        first_entry = 1;
+      }
     }
 }
 
@@ -154,6 +177,36 @@ void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_
     }
 }
 
+void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
+  if (pattern_.scattered(e)) {
+    const int* slot = pattern_.slots(e);
+    for (int k = 0; k < pattern_.slots_per_element; ++k)
+      if (slot[k] >= 0) K_[slot[k]] += out.K[k][lane];
+    return;
+  }
+  const int* at = pattern_.blocks(e);
+  const char* begins = &begins_[static_cast<std::size_t>(e) * pattern_.blocks_per_element];
+  const auto column = [this](int position, bool first, int n, const auto& value) {
+    static constexpr double nothing[3] = {};
+    double* to = &K_[position];
+    const double* before = first ? nothing : to;
+    for (int i = 0; i < n; ++i) to[i] = before[i] + value(i);
+  };
+  for (int a = 0; a < n_nodes_; ++a) {
+    const Packet* row[3];
+    for (int i = 0; i < 3; ++i) row[i] = &out.K[(3 * a + i) * (3 * a + i + 1) / 2];
+    for (int b = 0; b <= a; ++b, at += 3, ++begins) {
+      if (at[0] == Pattern::none) continue;
+      if (a == b)
+        for (int j = 0; j < 3; ++j) column(at[j], *begins, 3 - j, [&](int i) { return row[i + j][3 * b + j][lane]; });
+      else if (at[0] >= 0)
+        for (int j = 0; j < 3; ++j) column(at[j], *begins, 3, [&](int i) { return row[i][3 * b + j][lane]; });
+      else
+        for (int i = 0; i < 3; ++i) column(Pattern::turned(at[i]), *begins, 3, [&](int j) { return row[i][3 * b + j][lane]; });
+    }
+  }
+}
+
 void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent,
                       const VecX* du_prescribed) {
   const double kappa = material(block.cells[0]).volume.quadratic.bulk_modulus();
@@ -180,9 +233,7 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
     const double floor = std::numeric_limits<double>::epsilon() * kappa * moved * slope * slope * geometry_[e].V;
     floor_ += floor * floor;
     if (!with_tangent) continue;
-    const int* slot = pattern_.slots(e);
-    for (int k = 0; k < pattern_.slots_per_element && !tied; ++k)
-      if (slot[k] >= 0) K_[slot[k]] += out.K[k][l];
+    if (!tied) add_stiffness(e, out, l);
     if (!du_prescribed) continue;
     const ElementNodes du_nodes = element_displacements(*du_prescribed, e);
     if (du_nodes.isZero(0)) continue;
@@ -199,10 +250,11 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
 
 bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   // blocks computed by one thread before it waits for its turn to add them; they stay in its cache
-  const int chunk = n_nodes_ == 8 ? 8 : 2;
+  const int chunk = threads_ == 1 ? 1 : n_nodes_ == 8 ? 8 : 2;
   const int n = static_cast<int>(blocks_.size()), n_chunks = (n + chunk - 1) / chunk;
   f_.setZero(), K_du_.setZero();
-  if (with_tangent) std::fill(K_.begin(), K_.end(), 0.0);
+  if (with_tangent)
+    for (int position : cleared_) K_[position] = 0;
   W_ = 0, J_min_ = std::numeric_limits<double>::infinity(), floor_ = 0;
   std::vector<PacketElement> out(static_cast<std::size_t>(chunk) * threads_, PacketElement(n_nodes_, n_p_));
   const auto first = [chunk](int c) { return c * chunk; };

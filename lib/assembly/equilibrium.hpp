@@ -69,9 +69,11 @@ class Equilibrium {
     int n;
   };
   void make_blocks();
+  void find_beginnings();
   void load(const Block& block, const VecX& u, Packet* q) const;
   void compute(const Block& block, const VecX& u, bool with_tangent, PacketElement& out) const;
   void add_force(VecX& forces, int node, bool tied, const Vec3& force) const;  // to the dofs that the node moves with
+  void add_stiffness(int e, const PacketElement& out, int lane);
   void add_tied(int e, const PacketElement& out, int lane, bool with_tangent);
   void add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed);
 
@@ -84,6 +86,9 @@ class Equilibrium {
   int threads_;
   Kernel kernel_;
   std::vector<Block> blocks_;
+  // K is not cleared as a whole: whoever comes first to a block of two nodes writes it
+  std::vector<char> begins_;  // by element and pair of nodes, as pattern_.blocks()
+  std::vector<int> cleared_;  // positions to which a scattered element comes first
   std::vector<PacketGeometry> packet_geometry_;  // per block
   std::vector<std::vector<PacketFibre>> packet_fibres_;
   std::vector<ElementGeometry> geometry_;

@@ -11,9 +11,11 @@ using P = Packet;
 
 template <int n>
 void displacement_gradient(const P* dN, const P* u, P* H) {
+  P sum[3][3]{};  // stays in registers
   for (int a = 0; a < n; ++a)
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) H[3 * i + k] += u[3 * a + i] * dN[3 * a + k];
+      for (int k = 0; k < 3; ++k) sum[i][k] += u[3 * a + i] * dN[3 * a + k];
+  for (int i = 0; i < 9; ++i) H[i] = sum[i / 3][i % 3];
 }
 
 // J - 1 = tr H + i2(H) + det H
@@ -27,7 +29,7 @@ P dilatation(const P* H) {
 struct Spatial {
   P tau[6];     // isochoric Kirchhoff stress
   P tau_trace;  // trace of sum 2 W' h, before the deviator is taken
-  P W;
+  P W{};
   int n = 0;  // terms of the tangent  4 W'' dev h x dev h
   P h[1 + 4][6];
   P stiffness[1 + 4];
@@ -45,7 +47,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
     b[p] = m * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
   }
   const P I1_bar = b[0] + b[1] + b[2];
-  P dW, ddW;
+  P dW{}, ddW{};
   for (const MatrixTerm& term : material.matrix)
     std::visit(
         [&](const auto& t) {
@@ -111,7 +113,8 @@ void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
 // times w. The sum stays in registers.
 template <int n, int n_gauss>
 void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6], P* K) {
-  P cB[n_gauss][3][6], sg[n_gauss][3];  // columns of c B_b
+  P cB[n_gauss][3][6];       // columns of c B_b
+  P diagonal[n_gauss][3][3];  // of entry (j, j), against g_a: from c B_b and s g_b
   for (int q = 0; q < n_gauss; ++q) {
     const P* gb = g[q][b];
     for (int p = 0; p < 6; ++p) {
@@ -121,22 +124,23 @@ void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6],
       cB[q][2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
     }
     const P* t = s[q];
-    sg[q][0] = t[0] * gb[0] + t[3] * gb[1] + t[5] * gb[2];
-    sg[q][1] = t[3] * gb[0] + t[1] * gb[1] + t[4] * gb[2];
-    sg[q][2] = t[5] * gb[0] + t[4] * gb[1] + t[2] * gb[2];
+    const P sg[3] = {t[0] * gb[0] + t[3] * gb[1] + t[5] * gb[2], t[3] * gb[0] + t[1] * gb[1] + t[4] * gb[2],
+                     t[5] * gb[0] + t[4] * gb[1] + t[2] * gb[2]};
+    constexpr int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) diagonal[q][j][k] = cB[q][j][entry[j][k]] + sg[k];
   }
   for (int a = b; a < n; ++a) {
-    P sum[3][3];
+    P sum[3][3]{};
     for (int q = 0; q < n_gauss; ++q) {
       const P* ga = g[q][a];
       const P x = ga[0], y = ga[1], z = ga[2];
-      const P geometric = x * sg[q][0] + y * sg[q][1] + z * sg[q][2];
       for (int j = 0; j < 3; ++j) {
-        const P* w = cB[q][j];
-        sum[j][0] += w[0] * x + w[3] * y + w[5] * z;
-        sum[j][1] += w[1] * y + w[3] * x + w[4] * z;
-        sum[j][2] += w[2] * z + w[4] * y + w[5] * x;
-        sum[j][j] += geometric;
+        const P *w = cB[q][j], *d = diagonal[q][j];
+        sum[j][j] += d[0] * x + d[1] * y + d[2] * z;
+        if (j != 0) sum[j][0] += w[0] * x + w[3] * y + w[5] * z;
+        if (j != 1) sum[j][1] += w[1] * y + w[3] * x + w[4] * z;
+        if (j != 2) sum[j][2] += w[2] * z + w[4] * y + w[5] * x;
       }
     }
     for (int j = 0; j < 3; ++j)
@@ -155,7 +159,8 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
   P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
-  P t[n_modes], b[n_modes][n_dofs];  // integrals of mode (J - 1), mode dJ/du
+  P t[n_modes]{}, b[n_modes][n_dofs];  // integrals of mode (J - 1), mode dJ/du
+  for (int k = 0; k < n_p && modal; ++k) std::fill(b[k], b[k] + n_dofs, P());
   out.W = P(), out.J_min = P(1e300);
   for (int q = 0; q < n_gauss; ++q) {
     const P* dN = &geometry.dN_dX[q * n_dofs];
@@ -215,7 +220,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     out.W += w * s.W;
     P force[6];  // w times the Kirchhoff stress in the residual
     for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
-    P bulk, p_K;
+    P bulk{}, p_K{};
     if (modal) {
       p_K = p[0];
       for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];

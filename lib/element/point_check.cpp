@@ -62,7 +62,7 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
     matrix.h[p] = m * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
   }
   const P I1_bar = matrix.h[0] + matrix.h[1] + matrix.h[2];
-  P dW, ddW;
+  P dW{}, ddW{};
   for (const MatrixTerm& term : material.matrix)
     std::visit(
         [&](const auto& t) {
@@ -122,7 +122,7 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
     P B[6], least = std::numeric_limits<double>::infinity();
     const int n = terms(material, F, J, a, law, B);
     for (const Normal& normal : normals) {
-      P aa, ab, bb;
+      P aa{}, ab{}, bb{};
       for (int k = 0; k < n; ++k) {
         const P s = contract(normal.sn, law[k].h), t = contract(normal.tn, law[k].h);
         aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;

@@ -9,8 +9,8 @@ namespace langer {
 struct Packet {
   static constexpr int lanes = 8;
   typedef double Lanes __attribute__((vector_size(64)));
-  Lanes v{};
-  Packet() = default;
+  Lanes v;
+  Packet() = default;  // P x; has any value, P() and P x{} are zero: kernels do not clear what they fill
   Packet(double x) : v(Lanes{} + x) {}
   explicit Packet(Lanes x) : v(x) {}
   double operator[](int i) const { return v[i]; }
@@ -33,8 +33,16 @@ struct Packet {
     for (int i = 0; i < lanes; ++i) r.v[i] = std::log1p(a.v[i]);
     return r;
   }
+  // near 1, where dilatations are: (1 + e)^(1/3) to e^3, and one step of Halley, which cubes what is left of it
   friend Packet cbrt(const Packet& a) {
-    Packet r;
+    const Packet e = a - 1.0;
+    Packet r = 1.0 + e * (1.0 / 3 - e * (1.0 / 9));
+    bool near = true;
+    for (int i = 0; i < lanes; ++i) near = near && std::abs(e.v[i]) < 1e-2;
+    if (near) {
+      const Packet cube = r * r * r;
+      return r + r * ((a - cube) / (2.0 * cube + a));
+    }
     for (int i = 0; i < lanes; ++i) r.v[i] = std::cbrt(a.v[i]);
     return r;
   }
