@@ -51,9 +51,11 @@ void Statics::begin(double t) {
   t_ = t, supported_ = K_current_ = factor_serves_ = again_ = false;
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
-  const double last = now_.t - before_.t;
-  if (!(last > 0)) return;
-  const double s = std::min((t - now_.t) / last, 2.0);
+  if (const double last = now_.t - before_.t; last > 0) extrapolate(std::min((t - now_.t) / last, 2.0));
+  slip_from_touch();
+}
+
+void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!options_.extrapolate || !admissible(now_.u + step)) return equilibrium_.prop_cells();
   // the pressures follow by extrapolation too: kappa (J - 1) at an extrapolated u is meaningless
@@ -63,6 +65,23 @@ void Statics::begin(double t) {
   for (std::size_t i = 0; i < p.size(); ++i) p[i] = p_now[i] + s * (p_now[i] - p[i]);
   equilibrium_.prop_cells();
   u_ += step;
+}
+
+// A node that is open where the increment begins slips only from where it touches: at the share of the extrapolated movement that
+// its gap takes to close. Without this its reaction is that of a slip it never made, an error of first order in the increment.
+void Statics::slip_from_touch() {
+  const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  for (const RigidContact& contact : contacts_) {
+    if (contact.mu == 0) continue;
+    const Vec3 c = indenter_displacement(contact, t_), c0 = indenter_displacement(contact, now_.t);
+    for (int node : contact.nodes) {
+      const auto u0 = now_.u.segment<3>(3 * node), u = u_.segment<3>(3 * node);
+      const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
+      if (!(gap > options_.gap_tolerance)) continue;
+      const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
+      u_start_.segment<3>(3 * node) = u0 + (closed > gap ? gap / closed : 1) * (u - u0 - (c - c0));
+    }
+  }
 }
 
 void Statics::accept() {

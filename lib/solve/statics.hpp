@@ -69,6 +69,8 @@ class Statics {
   const LinearSolver& linear() const { return *linear_; }
 
  private:
+  void extrapolate(double s);  // by s times the last increment
+  void slip_from_touch();
   Assessment assess(const VecX& u, bool with_tangent);
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
@@ -95,7 +97,7 @@ class Statics {
   double t_ = 0;              // of the trial
   VecX u_;
   std::vector<std::vector<Vec3>> r_, r_next_;  // on trial; r_next_: what the last linear solve found
-  VecX u_start_;                               // state that the increment's slip is measured from
+  VecX u_start_;                               // (3 n) what the increment's slip is measured from, the indenter where it began
   bool supported_ = false;                     // the factor is of K + gamma on the candidates' diagonal
   double gamma_ = 0;                           // [N/mm]
   double loose_spring_ = 0;                    // gamma to begin with where the supports leave rigid motions [N/mm]

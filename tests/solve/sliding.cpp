@@ -121,3 +121,19 @@ TEST_CASE("energy where sticking gives way to sliding: in balance to 1e-3 all al
   CHECK(coarse <= 1e-3);
   CHECK(coarse > 3 * fine);
 }
+
+TEST_CASE("a node that touches within an increment slips from there on: the force of an indentation hardly depends on the increments") {
+  const auto force = [](double step) {
+    test::Indentation scene;
+    scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4, scene.step = step;
+    const auto result = scene.run(test::table1(30, 1e-5, 0.317));
+    REQUIRE(result.path.complete);
+    return result.steps.back().force;
+  };
+  const double fine = force(0.0125);
+  for (const auto& [step, allowed] : {std::pair{0.25, 2e-3}, {0.1, 5e-4}, {0.05, 2e-4}}) {
+    const double off = force(step) / fine - 1;
+    MESSAGE("increments of " << step << ": force off by " << off);
+    CHECK(std::abs(off) < allowed);
+  }
+}
