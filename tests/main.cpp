@@ -1,2 +1,9 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
+
+#include "base/traps.hpp"
+
+int main(int argc, char** argv) {
+  langer::set_traps();
+  return doctest::Context(argc, argv).run();
+}

@@ -1,6 +1,6 @@
 // Floating-point traps: a build with LANGER_TRAPS stops at the first invalid operation, division by zero or overflow.
 // Third parties, and the few places of ours that compute first and look afterwards, stand behind a NoTraps.
-// Without LANGER_TRAPS both are empty.
+// Where a third party calls us back, Traps sets them again. Without LANGER_TRAPS all are empty.
 #pragma once
 
 #ifdef LANGER_TRAPS
@@ -22,6 +22,17 @@ class NoTraps {
  private:
   std::fenv_t before_;
 };
+
+class Traps {
+ public:
+  Traps() { std::feholdexcept(&before_), set_traps(); }
+  ~Traps() { std::fesetenv(&before_); }
+  Traps(const Traps&) = delete;
+  Traps& operator=(const Traps&) = delete;
+
+ private:
+  std::fenv_t before_;
+};
 #else
 inline void set_traps() {}
 
@@ -32,6 +43,8 @@ class NoTraps {
   NoTraps(const NoTraps&) = delete;
   NoTraps& operator=(const NoTraps&) = delete;
 };
+
+using Traps = NoTraps;
 #endif
 
 }  // namespace langer

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/traps.hpp"
+
 namespace langer {
 
 std::vector<double> evaluate(const std::string& formula, const std::vector<FormulaPoint>& points, const Place& where,
@@ -16,6 +18,7 @@ std::vector<double> evaluate(const std::string& formula, const std::vector<Formu
   std::vector<double> values;
   FormulaPoint at{0, 0, 0};
   try {
+    const NoTraps in_the_formula;  // 1/0 is refused with its place
     mu::Parser parser;
     parser.DefineVar("x", &at.x), parser.DefineVar("y", &at.y), parser.DefineVar("z", &at.z);
     parser.SetExpr(formula);

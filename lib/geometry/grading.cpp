@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,27 +19,32 @@ namespace {
 
 constexpr double largest_growth = 3;  // from cell to cell; beyond, elements are too unlike their neighbours to trust
 
-// edge (q + q^2 + ... + q^m)
-double growing(double edge, double q, int m) {
-  double sum = 0, term = edge;
-  for (int i = 0; i < m; ++i) sum += term *= q;
-  return sum;
+// edge (q + q^2 + ... + q^m), or infinite where that is more than `enough`; in quarters, so that nothing overflows before it is
+double growing(double edge, double q, int m, double enough) {
+  double sum = 0, term = 0.25 * edge;
+  enough *= 0.25;
+  for (int i = 0; i < m; ++i) {
+    if (term > enough / q) return std::numeric_limits<double>::infinity();
+    sum += term *= q;
+    if (sum > enough) return std::numeric_limits<double>::infinity();
+  }
+  return 4 * sum;
 }
 
 }  // namespace
 
 std::vector<double> refined(double length, int n, double edge, double within, const std::string& key) {
-  const int fine = std::clamp(static_cast<int>(std::lround(within / edge)), 1, n), m = n - fine;
-  const double rest = length - fine * edge;
-  if (growing(edge, 1, m) > rest * (1 + 1e-9))
+  const int fine = 0.5 * within / n < 0.5 * edge ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n) : n, m = n - fine;
+  const double rest = length - fine * edge, most = rest * (1 + 1e-9), least = rest * (1 - 1e-9);
+  if (growing(edge, 1, m, most) > most)
     refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge",
            "");
-  if (growing(edge, largest_growth, m) < rest * (1 - 1e-9))
+  if (growing(edge, largest_growth, m, least) < least)
     refuse(key,
            fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge, largest_growth, length),
            "more divisions or a larger edge", "");
   double low = 1, high = largest_growth;
-  for (int i = 0; i < 200; ++i) (growing(edge, 0.5 * (low + high), m) > rest ? high : low) = 0.5 * (low + high);
+  for (int i = 0; i < 200; ++i) (growing(edge, 0.5 * (low + high), m, rest) > rest ? high : low) = 0.5 * (low + high);
   std::vector<double> lines{0};
   double step = edge;
   for (int i = 0; i < n; ++i) {

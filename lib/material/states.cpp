@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "material/existence.hpp"
 #include "tensor/kinematics.hpp"
 #include "tensor/stress.hpp"
 
@@ -70,9 +71,9 @@ struct Sheet {
 Vec2 step(const Sample& s) {
   const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.curvature);
   const Vec2 along = eigen.eigenvectors().transpose() * s.slope;
+  const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
-  for (int i = 0; i < 2; ++i)
-    d[i] = along[i] == 0 ? 0 : -along[i] / std::max(std::abs(eigen.eigenvalues()[i]), 5 * std::abs(along[i]));
+  for (int i = 0; i < 2; ++i) d[i] = along[i] == 0 ? 0 : -along[i] / curvature[i];
   return eigen.eigenvectors() * d;
 }
 
@@ -112,9 +113,9 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
   const bool slides = kind == TestKind::simple_shear;
   const double lambda_x = slides ? 1 : first;
   double lambda_z = kind == TestKind::biaxial ? second : kind == TestKind::equibiaxial ? first : 1;
-  if (kind == TestKind::uniaxial) lambda_z = 1 / std::sqrt(lambda_x);
   PlaneState state;
-  if (!(lambda_x > 0) || !(lambda_z > 0) || !std::isfinite(lambda_x * lambda_z) || !std::isfinite(first)) return state;
+  if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) || !std::isless(std::abs(first), largest_stretch)) return state;
+  if (kind == TestKind::uniaxial) lambda_z = 1 / std::sqrt(lambda_x);
   Vec2 q(std::log(lambda_z), slides ? first : 0);
   const bool off_axis = !axial(a), free_width = kind == TestKind::uniaxial && off_axis;
   const bool free_shear = shear == OffAxisShear::free && !slides && off_axis;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "material/existence.hpp"
+
 namespace langer {
 
 namespace {
@@ -66,11 +68,9 @@ bool small(const Vec2& g, const Vec2& scale, double relative) {
 Vec2 step(const Sample& s) {
   Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.H);
   const Vec2 along = eigen.eigenvectors().transpose() * s.g;
+  const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
-  for (int i = 0; i < 2; ++i) {
-    const double curvature = std::abs(eigen.eigenvalues()[i]);
-    d[i] = along[i] == 0 ? 0 : -along[i] / std::max(curvature, 5 * std::abs(along[i]));
-  }
+  for (int i = 0; i < 2; ++i) d[i] = along[i] == 0 ? 0 : -along[i] / curvature[i];
   return eigen.eigenvectors() * d;
 }
 
@@ -79,7 +79,7 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
   constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps, acceptable = 1e6 * eps;
   Uniaxial u;
   u.stretch[0] = lambda;
-  if (!(lambda > 0) || !std::isfinite(lambda)) return u;
+  if (!possible_stretch(lambda)) return u;
   const Pull pull{material, fibre_directions(material), std::log(lambda), incompressible};
   double ln_J = 0, z = -0.5 * pull.x;
   std::optional<Sample> s = pull.at(ln_J, z);

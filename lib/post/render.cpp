@@ -260,10 +260,10 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
       box.extend(far), box.extend(far + label), box.extend(far - label);
     }
   if (choice.range) low = (*choice.range)[0], high = (*choice.range)[1];
+  const bool coloured = !scene.values.empty() && low <= high;  // nothing to be seen, no colour bar
   if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) low -= 0.5, high += 0.5;  // one value everywhere
 
   const double title_room = choice.title.empty() ? 0 : 40;
-  const bool coloured = !scene.values.empty();
   const double room = page_width - bar_room - 2 * margin, tallest = 640;
   const Vec3 size = box.isEmpty() ? Vec3(1, 1, 1) : Vec3(box.sizes());
   Page page;

@@ -13,6 +13,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/traps.hpp"
+
 namespace langer {
 
 namespace {
@@ -38,12 +40,18 @@ struct Round {
   }
 };
 
+// finite, and its square too, which KINSOL computes
+bool measurable(const VecX& f) {
+  return std::all_of(f.begin(), f.end(), [](double one) { return std::isless(std::abs(one), 1e150); });
+}
+
 // > 0: KINSOL shortens its step; < 0: it gives up
 int residual(N_Vector u, N_Vector f, void* data) {
+  const Traps ours;
   auto& round = *static_cast<Round*>(data);
   if (++round.evaluations > 20 * round.options.iterations) return -1;
   round.place(u);
-  if (!round.x.allFinite() || !round.problem.residual(round.x, round.f) || !round.f.allFinite()) return 1;
+  if (!measurable(round.x) || !round.problem.residual(round.x, round.f) || !measurable(round.f)) return 1;
   map(f) = round.f;
   if (const double size = round.f.norm(); size < round.least) round.least = size, round.best = round.x;
   // accelerated iterations go on past the answer, where Anderson's system is singular: end them
@@ -52,6 +60,7 @@ int residual(N_Vector u, N_Vector f, void* data) {
 
 // g(u) = u - K0^-1 f(u)
 int fixed_point(N_Vector u, N_Vector g, void* data) {
+  const Traps ours;
   auto& round = *static_cast<Round*>(data);
   if (const int failed = residual(u, g, data)) return failed;
   ++round.iterations;
@@ -65,12 +74,14 @@ SUNMatrix_ID matrix_id(SUNMatrix) { return SUNMATRIX_CUSTOM; }
 int matrix_zero(SUNMatrix) { return 0; }
 SUNLinearSolver_Type solver_type(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
 int solver_setup(SUNLinearSolver solver, SUNMatrix) {
+  const Traps ours;
   auto& round = *static_cast<Round*>(solver->content);
   if (round.fixed_tangent && round.setups > 0) return 0;
   ++round.setups;
   return round.problem.tangent(round.x) ? 0 : 1;
 }
 int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  const Traps ours;
   auto& round = *static_cast<Round*>(solver->content);
   ++round.iterations;
   const VecX step = round.problem.solve(map(b));
@@ -142,6 +153,7 @@ void solve_round(Round& round) {
   KINSetScaledStepTol(memory, 1e-15);
   KINSetMaxNewtonStep(memory, o.largest_move * root);
   const int strategies[] = {KIN_NONE, KIN_LINESEARCH, KIN_PICARD, KIN_FP};
+  const NoTraps in_kinsol;  // Anderson's acceleration divides zero by zero where nothing changes any more
   KINSol(memory, u, strategies[static_cast<int>(o.strategy)], ones, ones);
 }
 
@@ -169,7 +181,8 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     if (!take_step(problem, problem.correction(), x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
-    if (!then.admissible) return stop(Outcome::inadmissible, then.missing);
+    if (!then.admissible || !std::isfinite(then.residual))
+      return stop(Outcome::inadmissible, then.missing.empty() ? "a force is not finite" : then.missing);
     Round inner{.problem = problem, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(problem.free.size()))};
     inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);

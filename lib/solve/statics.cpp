@@ -122,7 +122,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   K_current_ = with_tangent;
   if (!out.admissible) {
     out.missing = equilibrium_.J_min() > 0
-                      ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 709, or the start "
+                      ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
                         "of the step is too far away"
                       : "an element is turned inside out";
     return out;

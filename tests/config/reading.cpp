@@ -104,8 +104,8 @@ TEST_CASE("written numbers are read back bit for bit") {
   for (int i = 0; i < 2000; ++i) {
     const std::uint64_t bits = random();
     double x = 0;
+    if ((bits >> 52 & 0x7ff) == 0x7ff) continue;  // infinite or NaN
     std::memcpy(&x, &bits, sizeof x);
-    if (!std::isfinite(x)) continue;
     Tree t = plain_tree(number_text(x));
     double y = 0;
     Findings f;

@@ -67,7 +67,7 @@ TEST_CASE("the bounded linear problem is solved exactly: no better set of held v
         if (s % 3 == 1) held[i] = lower[i];
         if (s % 3 == 2) held[i] = upper[i];
       }
-      if (!held.allFinite()) continue;
+      if (!held.array().isFinite().all()) continue;
       if (!free.empty()) held(free) = MatX(A(Eigen::all, free)).colPivHouseholderQr().solve(b - A * held);
       if ((held.array() < lower.array()).any() || (held.array() > upper.array()).any()) continue;
       best = std::min(best, (A * held - b).norm());
@@ -157,7 +157,7 @@ TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm"
 TEST_CASE("steps into a region without model are shortened, a start without model is reported") {
   LeastSquares q;  // r = sqrt(p) - 2, defined for p >= 0 only
   q.residual = [](const VecX& p, VecX& r) {
-    r = vec({std::sqrt(p[0]) - 2});
+    r = vec({std::sqrt(std::abs(p[0])) - 2});
     return p[0] >= 0;
   };
   q.start = vec({1e-3}), q.lower = vec({-100}), q.upper = vec({100}), q.typical = vec({1e-4}), q.size = 2;

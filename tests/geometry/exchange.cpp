@@ -218,6 +218,7 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {1}), "flesh");
     gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1, 2}), "ends");
     gmsh::option::setNumber("Mesh.MeshSizeMax", 1.5);
+    const NoTraps in_gmsh;
     gmsh::model::mesh::generate(3);
     gmsh::write(tetrahedra);
   }
@@ -243,6 +244,7 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
     add();
     gmsh::model::occ::synchronize();
     gmsh::option::setNumber("Mesh.MeshSizeMax", 1);
+    const NoTraps in_gmsh;
     gmsh::model::mesh::generate(2);
     gmsh::write(facets);
   };

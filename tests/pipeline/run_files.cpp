@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -99,6 +100,6 @@ TEST_CASE("--set replaces a value, and says so where it cannot") {
 
 TEST_CASE("results as JSON: one object, numbers that read back, null for what is not finite") {
   Identity id{"post", "", "00ff", {}, ""};
-  CHECK(json_text(id, {{"force", 0.1, "N"}, {"c2", 1.0 / 0.0, "-"}}) ==
+  CHECK(json_text(id, {{"force", 0.1, "N"}, {"c2", std::numeric_limits<double>::infinity(), "-"}}) ==
         "{\"stage\": \"post\", \"config_hash\": \"00ff\", \"force_N\": 0.1, \"c2\": null}\n");
 }

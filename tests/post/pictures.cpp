@@ -144,6 +144,13 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   CHECK(discs(render(scene, choice)) == 0);
   choice.cuts[0].at = 2;  // nothing is left: still a drawing
   CHECK_NOTHROW(render(scene, choice));
+  // ... whose colours mean nothing: no bar of values from infinity to infinity
+  choice.range = std::nullopt;
+  scene.values.assign(scene.x.size(), 1), scene.ball = std::nullopt;
+  const Drawing bare = render(scene, choice);
+  for (const Stroke& s : marks_of<Stroke>(bare))
+    for (const PagePoint& c : s.points) CHECK((std::isfinite(c[0]) && std::isfinite(c[1])));
+  CHECK(marks_of<Patch>(bare).empty());
 }
 
 TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break out of either") {

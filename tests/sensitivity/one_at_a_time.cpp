@@ -73,7 +73,7 @@ TEST_CASE("the others stay at their values: an interaction counts by the value o
 
 TEST_CASE("a place without curve is reported") {
   const auto phi = [](const VecX& p, VecX& y) {
-    y = vec({std::sqrt(p[0])});
+    y = vec({std::sqrt(std::abs(p[0]))});
     return p[0] >= 0;
   };
   const OneAtATime e = one_at_a_time(phi, vec({1}), vec({-1}), vec({1}), 4);

@@ -1,0 +1,41 @@
+// Where an energy does not exist, or no double holds it, its invariant becomes NaN before the law sees it. All that follows is then
+// NaN too, without an invalid operation or an overflow on the way, and the state is refused like every other that is not finite.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "material/gent.hpp"
+#include "material/hgo_fibre.hpp"
+#include "tensor/packet.hpp"
+
+namespace langer {
+
+// of c2 (I4_bar - 1)^2: forces of exp(300) = 2e130 and their squares are numbers still
+constexpr double largest_exponent = 300;
+
+inline bool exists(const HgoFibre& fibre, double I4_bar) {
+  return !std::isgreater(std::sqrt(fibre.c2) * std::abs(I4_bar - 1), std::sqrt(largest_exponent));
+}
+inline bool exists(const Gent& law, double I1_bar) { return !std::isgreaterequal(I1_bar - 3, law.Jm); }
+
+// a test at such a stretch, whose invariants and their powers are numbers still
+constexpr double largest_stretch = 1e20;
+inline bool possible_stretch(double lambda) { return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch); }
+
+template <class Law>
+double where_it_exists(const Law& law, double invariant) {
+  if constexpr (requires { exists(law, invariant); })
+    return exists(law, invariant) ? invariant : std::numeric_limits<double>::quiet_NaN();
+  else
+    return invariant;
+}
+
+template <class Law>
+Packet where_it_exists(const Law& law, Packet invariant) {
+  if constexpr (requires { exists(law, 0.0); })
+    for (int i = 0; i < Packet::lanes; ++i) invariant.set(i, where_it_exists(law, invariant[i]));
+  return invariant;
+}
+
+}  // namespace langer
