@@ -72,3 +72,13 @@ macro(kill_until_done output first more attempts)
   endif()
   message("killed ${kept} times with steps kept")
 endmacro()
+
+# expect_same_curves(<post config>): whole/solution.h5 and killed/solution.h5 have the same curves, to the last digit
+macro(expect_same_curves post)
+  foreach(run whole killed)
+    run(0 ${BIN}/langer-post ${post} --solution ${run}/solution.h5 -o ${run}/curves.h5 --quiet)
+  endforeach()
+  file(READ ${folder}/whole/curves.csv whole)
+  file(READ ${folder}/killed/curves.csv killed)
+  expect_equal("${killed}" "${whole}" "curves of the run that was killed")
+endmacro()
