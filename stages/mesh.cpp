@@ -44,10 +44,7 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
                                      {"scaled_jacobian", quality.least_scaled_jacobian, "-"}};
   for (const MeshFormat format : job.config.exports) {
     const std::string path = beside(job.output, format);
-    if (format == MeshFormat::msh)
-      write_msh(path, mesh);
-    else
-      write_text_file(path, inp_text(mesh));
+    write_text_file(path, format == MeshFormat::msh ? msh_text(mesh) : inp_text(mesh));
     job.say("{}", path);
   }
   write_mesh(job.output, mesh, job.identity, summary);

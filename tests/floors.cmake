@@ -21,7 +21,7 @@ set(floor_stages 7)
 
 # include pattern -> where it may stand
 set(third_parties
-  "yaml-cpp/=lib/config/" "hdf5=lib/store/" "gmsh=lib/geometry/" "cholmod=lib/solve/linear" "umfpack=lib/solve/linear"
+  "yaml-cpp/=lib/config/" "hdf5=lib/store/" "gmsh=lib/geometry/gmsh/" "cholmod=lib/solve/linear" "umfpack=lib/solve/linear"
   "kinsol=lib/solve/kinsol.cpp" "sundials=lib/solve/kinsol.cpp" "nvector=lib/solve/kinsol.cpp" "CLI/=stages/" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp")
 set(failed FALSE)
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/lib/*.hpp ${ROOT}/lib/*.cpp ${ROOT}/stages/*.hpp ${ROOT}/stages/*.cpp)

@@ -1,20 +1,14 @@
 #include "geometry/block.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "geometry/grading.hpp"
-#include "geometry/session.hpp"
-#include "mesh/order.hpp"
+#include "geometry/grid.hpp"
 #include "mesh/select.hpp"
 
 namespace langer {
 
 namespace {
-
-using GridLines = std::array<std::vector<double>, 3>;
 
 GridLines grid_lines(const Block& b, const Points& points, std::vector<std::string>& notes) {
   GridLines lines;
@@ -39,44 +33,10 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
   return lines;
 }
 
-// a point extruded along x, z and y, cell by cell
-void extrude_along(const GridLines& lines) {
-  namespace geo = gmsh::model::geo;
-  gmsh::vectorpair shape{{0, geo::addPoint(lines[0][0], lines[1][0], lines[2][0])}};
-  for (int i : {0, 2, 1}) {
-    const std::vector<double>& x = lines[i];
-    const double length = x.back() - x.front();
-    std::vector<double> heights;
-    for (std::size_t k = 1; k < x.size(); ++k) heights.push_back((x[k] - x.front()) / length);
-    const std::vector<int> one_each(heights.size(), 1);
-    gmsh::vectorpair extruded, next;
-    geo::extrude(shape, i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0, extruded, one_each, heights, true);
-    for (const auto& [dim, tag] : extruded)
-      if (dim == shape[0].first + 1) next.push_back({dim, tag});
-    shape = {next.at(0)};
-  }
-  geo::synchronize();
-}
-
-// gmsh's positions carry rounding; the grid lines are exact
-void put_on_lines(Mesh& mesh, const GridLines& lines) {
-  for (Vec3& x : mesh.X)
-    for (int i = 0; i < 3; ++i) {
-      const auto above = std::lower_bound(lines[i].begin(), lines[i].end(), x[i]);
-      const auto below = above == lines[i].begin() ? above : above - 1;
-      x[i] = above != lines[i].end() && std::abs(*above - x[i]) < std::abs(*below - x[i]) ? *above : *below;
-    }
-}
-
 }  // namespace
 
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes) {
-  const GridLines lines = grid_lines(block, points, notes);
-  Mesh mesh = meshed_by_gmsh("geometry.block", [&] { extrude_along(lines); });
-  put_on_lines(mesh, lines);
-  turn_cells(mesh);
-  number_in_order(mesh);
-  return mesh;
+  return hexahedra_between(grid_lines(block, points, notes));
 }
 
 std::vector<Complaint> Block::complaints() const {

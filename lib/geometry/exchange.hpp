@@ -1,4 +1,4 @@
-// Meshes of other programs: Gmsh (.msh, by gmsh itself, any version that it reads; written as 4.1) and Abaqus or CalculiX (.inp).
+// Meshes of other programs: Gmsh (.msh, read by gmsh itself, any version that it knows; written as 4.1) and Abaqus or CalculiX (.inp).
 // 8-node hexahedra only. What has a name there has it here:
 //   bodies      .msh: physical volumes; .inp: element sets of *SOLID SECTION, without any those of *ELEMENT
 //   facet sets  .msh: physical surfaces; .inp: *SURFACE of elements; their nodes are a node set of the same name
@@ -27,7 +27,7 @@ Mesh parse_inp(const std::string& text, const std::string& shown_name, std::vect
 
 // Bodies and sets as above; a node set that is no more than the nodes of the facet set of its name is not written twice.
 // hex8 only. Failure(config) for a name that the format cannot hold.
-void write_msh(const std::string& path, const Mesh& mesh);
+std::string msh_text(const Mesh& mesh);
 std::string inp_text(const Mesh& mesh);
 
 std::vector<int> nodes_of(const Mesh& mesh, const std::vector<Facet>& facets);  // ascending

@@ -1,5 +1,5 @@
-// The O-grid in the x-z plane, quarter by quarter (s = 0..3 stands for +x, +z, -x, -z):
-//   corners of square s and s+1 at 45 degrees, arcs between them on each ring, the sides of the block outside.
+// The O-grid in the x-z plane: the core's square, circles around it, the sides of the block outside.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,7 +7,7 @@
 
 #include "geometry/block.hpp"
 #include "geometry/grading.hpp"
-#include "geometry/session.hpp"
+#include "geometry/grid.hpp"
 #include "mesh/order.hpp"
 
 namespace langer {
@@ -35,34 +35,6 @@ std::vector<Complaint> GradedBlock::complaints() const {
 
 namespace {
 
-namespace geo = gmsh::model::geo;
-using Corners = std::array<int, 4>;  // gmsh tags, one for each quarter
-
-Corners closed_by(const Corners& corners, auto curve, int cells) {
-  Corners curves;
-  for (int s = 0; s < 4; ++s) {
-    curves[s] = curve(corners[s], corners[(s + 1) % 4]);
-    geo::mesh::setTransfiniteCurve(curves[s], cells + 1);
-  }
-  return curves;
-}
-
-Corners spokes(const Corners& inner, const Corners& outer, int cells, double growth) {
-  Corners curves;
-  for (int s = 0; s < 4; ++s) {
-    curves[s] = geo::addLine(inner[s], outer[s]);
-    geo::mesh::setTransfiniteCurve(curves[s], cells + 1, "Progression", growth);
-  }
-  return curves;
-}
-
-int surface(const std::vector<int>& loop) {
-  const int tag = geo::addPlaneSurface({geo::addCurveLoop(loop)});
-  geo::mesh::setTransfiniteSurface(tag);
-  geo::mesh::setRecombine(2, tag);
-  return tag;
-}
-
 // ratio of neighbours so that the outer cells continue with about the length of the last ring's
 double growth_of(const GradedBlock& b, double from, double to) {
   const std::size_t last = b.rings.size() - 1;
@@ -73,35 +45,73 @@ double growth_of(const GradedBlock& b, double from, double to) {
   return lines.size() < 3 ? 1 : (lines[2] - lines[1]) / (lines[1] - lines[0]);
 }
 
-gmsh::vectorpair plan(const GradedBlock& b) {
-  const double y = b.origin[1], half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2];
-  const double x0 = b.origin[0] + half_x, z0 = b.origin[2] + half_z;
-  // corners at 45 degrees on either side of +x, +z, -x, -z
-  const auto square = [&](double dx, double dz) {
-    return Corners{geo::addPoint(x0 + dx, y, z0 - dz), geo::addPoint(x0 + dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 + dz),
-                   geo::addPoint(x0 - dx, y, z0 - dz)};
-  };
-  const auto straight = [](int a, int c) { return geo::addLine(a, c); };
-  const int centre = geo::addPoint(x0, y, z0);
-  const auto arc = [&](int a, int c) { return geo::addCircleArc(a, centre, c); };
-
+// Loops of 4 n points around the core: n from each of its corners, at 45 degrees before +x, +z, -x, -z, to the next; points of
+// neighbouring loops are joined by straight lines.
+Plan plan_of(const GradedBlock& b) {
+  using Loop = std::vector<std::array<double, 2>>;  // from the centre
+  const double half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2];
   const int n = b.core.cells;
-  Corners inner = square(b.core.half_width, b.core.half_width), inner_curves = closed_by(inner, straight, n);
-  gmsh::vectorpair surfaces{{2, surface({inner_curves[0], inner_curves[1], inner_curves[2], inner_curves[3]})}};
-  const auto surround = [&](const Corners& outer, const Corners& outer_curves, int cells, double growth) {
-    const Corners between = spokes(inner, outer, cells, growth);
-    for (int s = 0; s < 4; ++s)
-      surfaces.push_back({2, surface({between[s], outer_curves[s], -between[(s + 1) % 4], -inner_curves[s]})});
-    inner = outer, inner_curves = outer_curves;
+  const auto rectangle = [n](double dx, double dz) {
+    const std::array<std::array<double, 2>, 4> corner{{{dx, -dz}, {dx, dz}, {-dx, dz}, {-dx, -dz}}};
+    Loop loop;
+    for (int s = 0; s < 4; ++s) {
+      const auto &from = corner[s], &to = corner[(s + 1) % 4];
+      for (int i = 0; i < n; ++i)
+        loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
+    }
+    return loop;
   };
+  const auto circle = [n](double radius) {
+    Loop loop;
+    for (int s = 0; s < 4; ++s)
+      for (int i = 0; i < n; ++i) {
+        const double angle = 0.5 * std::numbers::pi * (s + (i - 0.5 * n) / n);
+        loop.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+      }
+    return loop;
+  };
+
+  Plan plan;
+  const auto add_point = [&](double x, double z) {
+    plan.points.push_back({b.origin[0] + half_x + x, b.origin[2] + half_z + z});
+    return static_cast<int>(plan.points.size()) - 1;
+  };
+  std::vector<int> inner(static_cast<std::size_t>(4 * n));  // the last loop's points in the plan
+  const double h = b.core.half_width;
+  for (int k = 0; k <= n; ++k)
+    for (int i = 0; i <= n; ++i) {
+      const int at = add_point(h * (2 * i - n) / n, h * (2 * k - n) / n);
+      if (i < n && k < n) plan.cells.push_back({at, at + 1, at + n + 2, at + n + 1});
+      if (i == n && k < n) inner[k] = at;
+      if (k == n && i > 0) inner[2 * n - i] = at;
+      if (i == 0 && k > 0) inner[3 * n - k] = at;
+      if (k == 0 && i < n) inner[3 * n + i] = at;
+    }
+  const auto surround = [&](const Loop& from, const Loop& to, int cells, double growth) {
+    double step = 1, whole = 0, part = 0;
+    for (int c = 0; c < cells; ++c) whole += step, step *= growth;
+    step = 1;
+    for (int c = 0; c < cells; ++c) {
+      part += step, step *= growth;
+      const double v = c + 1 == cells ? 1 : part / whole;
+      std::vector<int> outer;
+      for (std::size_t p = 0; p < from.size(); ++p)
+        outer.push_back(add_point((1 - v) * from[p][0] + v * to[p][0], (1 - v) * from[p][1] + v * to[p][1]));
+      for (std::size_t p = 0; p < outer.size(); ++p) {
+        const std::size_t q = (p + 1) % outer.size();
+        plan.cells.push_back({inner[p], outer[p], outer[q], inner[q]});
+      }
+      inner = outer;
+    }
+  };
+  Loop last = rectangle(h, h);
   for (const Ring& ring : b.rings) {
-    const double corner = ring.radius / std::numbers::sqrt2;
-    const Corners outer = square(corner, corner);
-    surround(outer, closed_by(outer, arc, n), ring.cells, 1);
+    const Loop next = circle(ring.radius);
+    surround(last, next, ring.cells, 1);
+    last = next;
   }
-  const Corners sides = square(half_x, half_z);
-  surround(sides, closed_by(sides, straight, n), b.outer_cells, growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
-  return surfaces;
+  surround(last, rectangle(half_x, half_z), b.outer_cells, growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
+  return plan;
 }
 
 std::vector<double> layer_heights(const GradedBlock& b) {
@@ -125,18 +135,7 @@ std::vector<Complaint> contradictions(const GradedBlock& b, const Points& points
 }
 
 Mesh mesh_of(const GradedBlock& b, const Points&, std::vector<std::string>&) {
-  const double low = b.origin[1];
-  const std::vector<double> y = layer_heights(b);
-  Mesh mesh = meshed_by_gmsh("geometry.graded_block", [&] {
-    std::vector<double> heights;
-    for (int k = 1; k <= b.layers; ++k) heights.push_back((y[k] - low) / b.size[1]);
-    gmsh::vectorpair extruded;
-    geo::extrude(plan(b), 0, b.size[1], 0, extruded, std::vector<int>(heights.size(), 1), heights, true);
-    geo::synchronize();
-  });
-  for (Vec3& x : mesh.X)  // gmsh's heights carry rounding
-    for (double line : y)
-      if (std::abs(x[1] - line) < 1e-9 * b.size[1]) x[1] = line;
+  Mesh mesh = extruded(plan_of(b), layer_heights(b));
   turn_cells(mesh);
   const Vec3 axis(b.origin[0] + 0.5 * b.size[0], 0, b.origin[2] + 0.5 * b.size[2]);
   make_symmetric(mesh, axis);

@@ -1,15 +1,15 @@
-// Gmsh meshes through gmsh: physical groups are bodies, facet sets and node sets.
+// Gmsh's meshes, read by gmsh, written by ourselves: physical groups are bodies, facet sets and node sets.
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/error.hpp"
 #include "geometry/exchange.hpp"
-#include "geometry/session.hpp"
+#include "geometry/gmsh/load.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/raise.hpp"
 
@@ -17,85 +17,55 @@ namespace langer {
 
 namespace {
 
-struct Group {
-  int dim = 0, tag = 0;
-  std::string name;
-  std::vector<int> entities;
-};
+using namespace gmsh_module;
 
-std::vector<Group> groups() {
-  gmsh::vectorpair pairs;
-  gmsh::model::getPhysicalGroups(pairs);
-  std::vector<Group> all;
-  for (const auto& [dim, tag] : pairs) {
-    Group g{dim, tag, "", {}};
-    gmsh::model::getPhysicalName(dim, tag, g.name);
-    constexpr const char* kinds[] = {"points", "curves", "surfaces", "volume"};
-    if (g.name.empty()) g.name = fmt::format("{}_{}", kinds[dim], tag);
-    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, g.entities);
-    all.push_back(g);
-  }
-  // of one name what has more to say comes first: a node set of its own replaces the nodes of facets
-  std::stable_sort(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.dim > b.dim; });
-  return all;
-}
-
-std::string element_name(int type) {
-  std::string name;
-  int dim = 0, order = 0, n_nodes = 0, n_primary = 0;
-  std::vector<double> xi;
-  gmsh::model::mesh::getElementProperties(type, name, dim, order, n_nodes, xi, n_primary);
-  return name;
+// each by a name; of one name what has more to say comes first: a node set of its own replaces the nodes of facets
+std::vector<Group> named(std::vector<Group> groups) {
+  constexpr const char* kinds[] = {"points", "curves", "surfaces", "volume"};
+  for (Group& g : groups)
+    if (g.name.empty()) g.name = fmt::format("{}_{}", kinds[g.dim], g.tag);
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.dim > b.dim; });
+  return groups;
 }
 
 class MshReader {
  public:
   MshReader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
 
-  Mesh read() {
-    const int hexahedron = gmsh::model::mesh::getElementType("Hexahedron", 1), tetrahedron = gmsh::model::mesh::getElementType("Tetrahedron", 1);
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, 3);
+  Mesh made_of(const Model& model) {
     const char* expected = "8-node hexahedra only, or 4-node tetrahedra only";
-    for (int type : types)
-      if (type != hexahedron && type != tetrahedron) refuse("found cells of the kind " + element_name(type), expected);
-    if (types.size() != 1) refuse(types.empty() ? "no cells" : "hexahedra beside tetrahedra", expected);
-    type_ = types[0];
-    const bool split = type_ == tetrahedron;
+    for (const Elements& of : model.cells)
+      if (of.type != hexahedron && of.type != tetrahedron) refuse("found cells of the kind " + of.name, expected);
+    if (model.cells.size() != 1) refuse(model.cells.empty() ? "no cells" : "hexahedra beside tetrahedra", expected);
+    const Elements& cells = model.cells[0];
+    const bool split = cells.type == tetrahedron;
 
-    std::vector<std::size_t> tags;
-    std::vector<double> X, parametric;
-    gmsh::model::mesh::getNodes(tags, X, parametric);
+    const std::vector<std::size_t>& tags = model.node_tags;
     std::map<std::size_t, std::size_t> place;  // by tag, ascending
     for (std::size_t i = 0; i < tags.size(); ++i) place[tags[i]] = i;
-    const std::set<std::size_t> used(nodes[0].begin(), nodes[0].end());
+    const std::set<std::size_t> used(cells.nodes.begin(), cells.nodes.end());
     for (std::size_t tag : used) {
       const auto found = place.find(tag);
       if (found == place.end()) refuse(fmt::format("a cell has the node {}, which is not there", tag));
       node_at_[tag] = mesh_.n_nodes();
-      mesh_.X.emplace_back(X.data() + 3 * found->second);
+      mesh_.X.emplace_back(model.X.data() + 3 * found->second);
       if (!mesh_.X.back().allFinite()) refuse(fmt::format("the position of the node {} is not finite", tag));
     }
     std::vector<std::pair<std::size_t, std::size_t>> order;  // tag, place
-    for (std::size_t e = 0; e < elements[0].size(); ++e) order.emplace_back(elements[0][e], e);
+    for (std::size_t e = 0; e < cells.tags.size(); ++e) order.emplace_back(cells.tags[e], e);
     std::sort(order.begin(), order.end());
-    std::vector<int> corner{0, 1, 2, 3};
-    if (!split) {
-      const auto of_hexahedron = hexahedron_order(hexahedron);
-      corner.assign(of_hexahedron.begin(), of_hexahedron.end());
-    }
+    const std::size_t n_corners = split ? 4 : 8;
     std::vector<int> corners;
     for (const auto& [tag, e] : order) {
-      cell_at_[tag] = static_cast<int>(corners.size() / corner.size());
-      for (int a : corner) corners.push_back(node_at_.at(nodes[0][corner.size() * e + static_cast<std::size_t>(a)]));
+      cell_at_[tag] = static_cast<int>(corners.size() / n_corners);
+      for (std::size_t a = 0; a < n_corners; ++a) corners.push_back(node_at_.at(cells.nodes[n_corners * e + a]));
     }
     if (split)
       mesh_ = raised_tetrahedra(mesh_.X, corners);
     else
       mesh_.connectivity = corners;
     mesh_.body.assign(static_cast<std::size_t>(mesh_.n_cells()), -1);
-    for (const Group& group : groups()) {
+    for (const Group& group : named(model.groups)) {
       if (group.dim == 3) add_body(group);
       if (group.dim == 2) add_facets(group);
       if (group.dim < 2) add_nodes(group);
@@ -115,7 +85,6 @@ class MshReader {
  private:
   std::string path_;
   std::vector<std::string>& notes_;
-  int type_ = 0;  // gmsh's, of the cells
   Mesh mesh_;
   std::map<std::size_t, int> node_at_, cell_at_;
   std::map<std::array<int, 4>, Facet> facet_at_;
@@ -123,15 +92,12 @@ class MshReader {
   void add_body(const Group& group) {
     const int body = static_cast<int>(mesh_.bodies.size());
     mesh_.bodies.push_back(group.name);
-    for (int entity : group.entities) {
-      std::vector<std::size_t> tags, nodes;
-      gmsh::model::mesh::getElementsByType(type_, tags, nodes, entity);
-      for (std::size_t tag : tags) {
-        int& of = mesh_.body[cell_at_.at(tag)];
-        if (of >= 0) refuse(fmt::format("cell {} belongs to \"{}\" and to \"{}\"", tag, mesh_.bodies[of], group.name), "one physical volume for each cell");
-        of = body;
+    for (const Elements& of : group.elements)
+      for (std::size_t tag : of.tags) {
+        int& body_of = mesh_.body[cell_at_.at(tag)];
+        if (body_of >= 0) refuse(fmt::format("cell {} belongs to \"{}\" and to \"{}\"", tag, mesh_.bodies[body_of], group.name), "one physical volume for each cell");
+        body_of = body;
       }
-    }
   }
 
   void add_facets(const Group& group) {
@@ -139,27 +105,22 @@ class MshReader {
       for (int e = mesh_.n_cells() - 1; e >= 0; --e)  // of two cells that share it the first
         for (int f = 0; f < n_facets(mesh_.type); ++f) facet_at_[facet_key(mesh_, {e, f})] = {e, f};
     std::vector<Facet> facets;
-    for (int entity : group.entities) {
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> elements, nodes;
-      gmsh::model::mesh::getElements(types, elements, nodes, 2, entity);
-      for (std::size_t t = 0; t < types.size(); ++t) {
-        const bool triangles = mesh_.type == CellType::tet15;
-        if (types[t] != gmsh::model::mesh::getElementType(triangles ? "Triangle" : "Quadrangle", 1))
-          refuse(fmt::format("the surface \"{}\" has faces of the kind {}", group.name, element_name(types[t])),
-                 triangles ? "triangles, the facets of tetrahedra" : "quadrangles, the facets of hexahedra");
-        const std::size_t n_corners = triangles ? 3 : 4;
-        for (std::size_t i = 0; i < nodes[t].size(); i += n_corners) {
-          std::array<int, 4> key{-1, -1, -1, -1};
-          for (std::size_t k = 0; k < n_corners; ++k) {
-            const auto node = node_at_.find(nodes[t][i + k]);
-            key[k] = node == node_at_.end() ? -1 : node->second;
-          }
-          std::sort(key.begin(), key.end());
-          const auto facet = facet_at_.find(key);
-          if (facet == facet_at_.end()) refuse(fmt::format("the surface \"{}\" has a face that is no facet of a cell", group.name));
-          facets.push_back(facet->second);
+    const bool triangles = mesh_.type == CellType::tet15;
+    const std::size_t n_corners = triangles ? 3 : 4;
+    for (const Elements& of : group.elements) {
+      if (of.type != (triangles ? triangle : quadrangle))
+        refuse(fmt::format("the surface \"{}\" has faces of the kind {}", group.name, of.name),
+               triangles ? "triangles, the facets of tetrahedra" : "quadrangles, the facets of hexahedra");
+      for (std::size_t i = 0; i < of.nodes.size(); i += n_corners) {
+        std::array<int, 4> key{-1, -1, -1, -1};
+        for (std::size_t k = 0; k < n_corners; ++k) {
+          const auto node = node_at_.find(of.nodes[i + k]);
+          key[k] = node == node_at_.end() ? -1 : node->second;
         }
+        std::sort(key.begin(), key.end());
+        const auto facet = facet_at_.find(key);
+        if (facet == facet_at_.end()) refuse(fmt::format("the surface \"{}\" has a face that is no facet of a cell", group.name));
+        facets.push_back(facet->second);
       }
     }
     std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return std::pair(a.cell, a.local) < std::pair(b.cell, b.local); });
@@ -170,11 +131,8 @@ class MshReader {
   }
 
   void add_nodes(const Group& group) {
-    std::vector<std::size_t> tags;
-    std::vector<double> X;
-    gmsh::model::mesh::getNodesForPhysicalGroup(group.dim, group.tag, tags, X);
     std::set<int> nodes;
-    for (std::size_t tag : tags)
+    for (std::size_t tag : group.nodes)
       if (const auto node = node_at_.find(tag); node != node_at_.end()) nodes.insert(node->second);
     if (nodes.empty())
       notes_.push_back("left out, as no cell has its nodes: " + group.name);
@@ -186,90 +144,40 @@ class MshReader {
 }  // namespace
 
 Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
-  const GmshSession session;
-  MshReader reader(path, notes);
-  try {
-    gmsh::merge(path);
-  } catch (...) {  // gmsh 4.8 throws texts, later ones exceptions
-    std::string words;
-    gmsh::logger::getLastError(words);
-    reader.refuse("gmsh cannot read it: " + (words.empty() ? "no reason given" : words));
-  }
-  return reader.read();
+  return MshReader(path, notes).made_of(read_by_gmsh(path));
 }
 
 Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells, std::vector<std::string>& notes) {
-  const GmshSession session;
+  const Model model = mesh_by_gmsh(path, facets, edge, cells != CellType::tet15);
   MshReader reader(path, notes);
-  try {
-    const NoTraps in_gmsh;  // it divides zero by zero where it lays out surfaces of triangles
-    gmsh::vectorpair shapes, surfaces, volumes;
-    if (facets) {
-      gmsh::merge(path);
-      constexpr double edge_angle = 40 * std::numbers::pi / 180;  // faces meet where triangles turn by more
-      gmsh::model::mesh::classifySurfaces(edge_angle, true, true);
-      gmsh::model::mesh::createGeometry();
-      gmsh::model::getEntities(surfaces, 2);
-      std::vector<int> loop;
-      for (const auto& [dim, tag] : surfaces) loop.push_back(tag);
-      if (!loop.empty()) gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(loop)});
-      gmsh::model::geo::synchronize();
-      surfaces.clear();
-    } else {
-      gmsh::model::occ::importShapes(path, shapes);
-      if (shapes.size() > 1) gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
-      gmsh::model::occ::synchronize();
-    }
-    gmsh::model::getEntities(volumes, 3);
-    for (const auto& [dim, tag] : volumes)
-      if (volumes.size() > 1) gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {tag}), fmt::format("body_{}", tag));
-    gmsh::model::getEntities(surfaces, 2);
-    for (const auto& [dim, tag] : surfaces) gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {tag}), fmt::format("face_{}", tag));
-    // for hexahedra every tetrahedron is split into four, of half its size
-    const double whole = cells == CellType::tet15 ? edge : 2 * edge;
-    if (cells != CellType::tet15) gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);
-    gmsh::option::setNumber("Mesh.MeshSizeMin", whole);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", whole);
-    if (volumes.empty()) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
-    gmsh::model::mesh::generate(3);
-  } catch (const Failure&) {
-    throw;
-  } catch (...) {
-    std::string words;
-    gmsh::logger::getLastError(words);
-    reader.refuse("gmsh cannot mesh it: " + (words.empty() ? "no reason given" : words));
-  }
-  return reader.read();
+  if (!model.has_volumes) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
+  return reader.made_of(model);
 }
 
-void write_msh(const std::string& path, const Mesh& mesh) {
-  const GmshSession session;
-  // one volume for each body, all nodes with the first
-  std::vector<std::size_t> tags;
-  std::vector<double> X;
-  for (int n = 0; n < mesh.n_nodes(); ++n) {
-    tags.push_back(static_cast<std::size_t>(n) + 1);
-    X.insert(X.end(), mesh.X[n].data(), mesh.X[n].data() + 3);
-  }
-  const int hexahedron = gmsh::model::mesh::getElementType("Hexahedron", 1), quadrangle = gmsh::model::mesh::getElementType("Quadrangle", 1),
-            point = gmsh::model::mesh::getElementType("Point", 1);
-  const auto corner = hexahedron_order(hexahedron);
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const int volume = gmsh::model::addDiscreteEntity(3, static_cast<int>(b) + 1);
-    if (b == 0) gmsh::model::mesh::addNodes(3, volume, tags, X);
-    std::vector<std::size_t> cells, nodes;
-    for (int e = 0; e < mesh.n_cells(); ++e) {
-      if (mesh.body[e] != static_cast<int>(b)) continue;
-      cells.push_back(static_cast<std::size_t>(e) + 1);
-      std::array<std::size_t, 8> own;
-      for (int a = 0; a < 8; ++a) own[static_cast<std::size_t>(corner[a])] = static_cast<std::size_t>(mesh.cell(e)[a]) + 1;
-      nodes.insert(nodes.end(), own.begin(), own.end());
-    }
-    gmsh::model::mesh::addElementsByType(volume, hexahedron, cells, nodes);
-    gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume}), mesh.bodies[b]);
-  }
-  // an element of gmsh is of one surface: one for each combination of sets; points likewise
-  std::size_t next = static_cast<std::size_t>(mesh.n_cells()) + 1;
+namespace {
+
+// the numbers of an element's line
+template <class Numbers>
+void add_line(std::string& s, std::size_t tag, const Numbers& nodes) {
+  fmt::format_to(std::back_inserter(s), "{}", tag);
+  for (int n : nodes) fmt::format_to(std::back_inserter(s), " {}", n + 1);
+  s += '\n';
+}
+
+}  // namespace
+
+std::string msh_text(const Mesh& mesh) {
+  // one volume for each body; an element is of one surface: one for each combination of sets; points likewise
+  struct Part {
+    std::vector<std::vector<int>> elements;  // their nodes
+    std::vector<int> groups;
+  };
+  std::map<std::pair<int, std::string>, int> groups;  // dimension and name: tag
+  const auto group = [&](int dim, const std::string& name) {
+    if (name.find_first_of("\"\n") != std::string::npos)
+      throw Failure(Exit::config, Error{{}, "", "found the name '" + name + "'", "a name without quotes, as .msh has them around it", ""});
+    return groups.try_emplace({dim, name}, static_cast<int>(groups.size()) + 1).first->second;
+  };
   std::map<std::pair<int, int>, std::set<std::string>> sets_of_facet;
   std::map<int, std::set<std::string>> sets_of_node;
   for (const auto& [name, facets] : mesh.facet_sets)
@@ -279,32 +187,53 @@ void write_msh(const std::string& path, const Mesh& mesh) {
     if (facets != mesh.facet_sets.end() && nodes_of(mesh, facets->second) == nodes) continue;  // said by the facets
     for (int n : nodes) sets_of_node[n].insert(name);
   }
-  const auto add = [&](int dim, int type, const auto& sets_of, const auto& nodes_of_one) {
-    std::map<std::set<std::string>, std::vector<std::size_t>> parts;
-    for (const auto& [one, sets] : sets_of)
-      for (int n : nodes_of_one(one)) parts[sets].push_back(static_cast<std::size_t>(n) + 1);
-    std::map<std::string, std::vector<int>> entities;
-    for (const auto& [sets, nodes] : parts) {
-      const int entity = gmsh::model::addDiscreteEntity(dim);
-      std::vector<std::size_t> elements(nodes.size() / (dim == 2 ? 4 : 1));
-      for (std::size_t& element : elements) element = next++;
-      gmsh::model::mesh::addElementsByType(entity, type, elements, nodes);
-      for (const std::string& name : sets) entities[name].push_back(entity);
-    }
-    for (const auto& [name, of] : entities) gmsh::model::setPhysicalName(dim, gmsh::model::addPhysicalGroup(dim, of), name);
+  std::array<std::map<std::set<std::string>, Part>, 3> parts;  // of points, nothing, surfaces
+  const auto add = [&](int dim, const std::set<std::string>& sets, std::vector<int> nodes) {
+    Part& part = parts[static_cast<std::size_t>(dim)][sets];
+    if (part.elements.empty())
+      for (const std::string& name : sets) part.groups.push_back(group(dim, name));
+    part.elements.push_back(std::move(nodes));
   };
-  add(2, quadrangle, sets_of_facet, [&](const std::pair<int, int>& f) { return facet_nodes(mesh, {f.first, f.second}); });
-  add(0, point, sets_of_node, [](int n) { return std::vector<int>{n}; });
-  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-  gmsh::option::setNumber("Mesh.Binary", 0);
-  gmsh::option::setNumber("Mesh.SaveAll", 0);
-  const std::string part = path + ".part.msh";
-  try {
-    gmsh::write(part);
-  } catch (...) {
-    throw Failure(Exit::input, Error{{path}, "", "cannot be written", "", ""});
+  for (const auto& [node, sets] : sets_of_node) add(0, sets, {node});
+  for (const auto& [f, sets] : sets_of_facet) add(2, sets, facet_nodes(mesh, {f.first, f.second}));
+  std::vector<int> volumes;
+  for (const std::string& body : mesh.bodies) volumes.push_back(body.empty() ? 0 : group(3, body));
+
+  std::string s = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  const auto out = std::back_inserter(s);
+  fmt::format_to(out, "$PhysicalNames\n{}\n", groups.size());
+  for (const auto& [key, tag] : groups) fmt::format_to(out, "{} {} \"{}\"\n", key.first, tag, key.second);
+  fmt::format_to(out, "$EndPhysicalNames\n$Entities\n{} 0 {} {}\n", parts[0].size(), parts[2].size(), volumes.size());
+  // entities by number: where they are (of points a place, else a box; gmsh finds it itself), groups, what bounds them
+  std::size_t n_parts = 0, n_elements = static_cast<std::size_t>(mesh.n_cells());
+  for (const int dim : {0, 2}) {
+    int entity = 0;
+    for (const auto& [sets, part] : parts[static_cast<std::size_t>(dim)]) {
+      fmt::format_to(out, "{} {} {} {}{}\n", ++entity, dim == 0 ? "0 0 0" : "0 0 0 0 0 0", part.groups.size(), fmt::join(part.groups, " "),
+                     dim == 0 ? "" : " 0");
+      ++n_parts, n_elements += part.elements.size();
+    }
   }
-  std::filesystem::rename(part, path);
+  for (std::size_t b = 0; b < volumes.size(); ++b)
+    fmt::format_to(out, "{} 0 0 0 0 0 0 {} 0\n", b + 1, volumes[b] == 0 ? "0" : fmt::format("1 {}", volumes[b]));
+  fmt::format_to(out, "$EndEntities\n$Nodes\n1 {0} 1 {0}\n3 1 0 {0}\n", mesh.n_nodes());
+  for (int n = 1; n <= mesh.n_nodes(); ++n) fmt::format_to(out, "{}\n", n);
+  for (const Vec3& x : mesh.X) fmt::format_to(out, "{} {} {}\n", x[0], x[1], x[2]);
+  fmt::format_to(out, "$EndNodes\n$Elements\n{} {} 1 {}\n", n_parts + volumes.size(), n_elements, n_elements);
+  std::size_t next = static_cast<std::size_t>(mesh.n_cells());
+  for (const auto& [dim, type] : {std::pair{0, point}, {2, quadrangle}}) {
+    int entity = 0;
+    for (const auto& [sets, part] : parts[static_cast<std::size_t>(dim)]) {
+      fmt::format_to(out, "{} {} {} {}\n", dim, ++entity, type, part.elements.size());
+      for (const auto& nodes : part.elements) add_line(s, ++next, nodes);
+    }
+  }
+  for (std::size_t b = 0; b < volumes.size(); ++b) {
+    fmt::format_to(out, "3 {} {} {}\n", b + 1, hexahedron, std::count(mesh.body.begin(), mesh.body.end(), static_cast<int>(b)));
+    for (int e = 0; e < mesh.n_cells(); ++e)
+      if (mesh.body[static_cast<std::size_t>(e)] == static_cast<int>(b)) add_line(s, static_cast<std::size_t>(e) + 1, mesh.cell(e));
+  }
+  return s + "$EndElements\n";
 }
 
 }  // namespace langer

@@ -1,4 +1,4 @@
-// Meshes made by gmsh, from the project's own configs and from configs made up to go wrong.
+// Structured meshes, from the project's own configs and from configs made up to go wrong.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -56,7 +56,7 @@ TEST_CASE("every mesh config makes a mesh that fills its block, whose cells are 
     const double volume = std::string(name) == "smoke" ? 12 * 4 * 12 : 30 * 4 * 30;
     const double rounding = nodes_per_cell(m.mesh.type) * m.mesh.n_cells() * 2.2e-16;  // of a sum over all Gauss points
     CHECK(std::abs(m.quality.volume - volume) <= rounding * volume);
-    CHECK(m.quality.least_jacobian > 0);  // so gmsh's node order became ours
+    CHECK(m.quality.least_jacobian > 0);
     CHECK(m.quality.least_scaled_jacobian > 0.7);
     for (int e = 0; e < m.mesh.n_cells() && std::string(name) != "brick_graded"; ++e)
       CHECK(jacobian(m.mesh, e, Vec3::Zero()).diagonal().minCoeff() > 0);
@@ -128,7 +128,7 @@ TEST_CASE("in the O-grid each cell's first edge points outwards, and its frame f
       CHECK(frame.col(0).dot((m.mesh.X[nodes[1]] - m.mesh.X[nodes[0]]).normalized()) > 0.9);
       CHECK(std::abs(std::abs(frame(1, 1)) - 1) < 1e-12);  // the layers are level: the angle is measured in them
       if (centre.lpNorm<Eigen::Infinity>() < 1) {
-        CHECK((frame - Mat3::Identity()).norm() < 1e-9);  // gmsh's positions carry rounding
+        CHECK((frame - Mat3::Identity()).norm() < 1e-14);
         ++core;
         continue;
       }

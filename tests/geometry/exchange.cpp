@@ -7,7 +7,8 @@
 
 #include "base/error.hpp"
 #include "geometry/exchange.hpp"
-#include "geometry/session.hpp"
+#include "base/traps.hpp"
+#include "geometry/gmsh/session.hpp"
 #include "mesh/facets.hpp"
 #include "element/surface.hpp"
 #include "mesh/quality.hpp"
@@ -85,13 +86,16 @@ const std::string cube =
 
 }  // namespace
 
-TEST_CASE("a mesh goes to Gmsh and back with its bodies and sets") {
+TEST_CASE("a mesh goes to Gmsh and back with its bodies and sets and every digit") {
   const Mesh mesh = example();
   const std::string path = folder() + "/m.msh";
-  write_msh(path, mesh);
+  std::ofstream(path) << msh_text(mesh);
   std::vector<std::string> notes;
-  check_same(mesh, read_msh(path, notes), 1e-14);
+  check_same(mesh, read_msh(path, notes), 0);
   CHECK(notes.empty());
+  Mesh odd = mesh;
+  odd.bodies[0] = "a \"b\"";
+  CHECK_THROWS_AS(msh_text(odd), Failure);
 }
 
 TEST_CASE("a mesh goes to Abaqus and back with its bodies and sets and every digit") {
