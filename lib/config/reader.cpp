@@ -53,6 +53,12 @@ std::string number_words(const Member& m, bool whole) {
   return s;
 }
 
+// lengths, which must be positive, and positions, both in mm: squares and ratios of what is in here stay numbers
+static bool is_length(double x, const Member& m) {
+  const bool positive_only = m.range.low == 0 && !m.range.low_included;
+  return std::abs(x) <= 1e9 && (!positive_only || x >= 1e-9);
+}
+
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, bool& out, Findings& f) {
   if (tree.kind == Tree::Kind::scalar && !tree.quoted && (tree.scalar == "true" || tree.scalar == "false"))
     out = tree.scalar == "true";
@@ -73,6 +79,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
     return wrong(number_hint(tree, m));
   if (!std::isfinite(x)) return wrong("numbers must be finite");
   if (!within(x, m.range)) return wrong(m.hint);
+  if (std::string_view(m.unit) == unit::mm && !is_length(x, m)) return wrong("lengths and positions are at most 1e9 mm, lengths at least 1e-9 mm");
   out = x;
 }
 

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <set>
+#include <string_view>
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
@@ -25,13 +26,14 @@ std::string label_of(const Tree& value, bool& is_number) {
   return is_number ? number_text(x) : value.scalar;
 }
 
-// nan, inf, 1e400, as YAML or C write them
-bool not_finite(const std::string& text) {
-  const std::string plain = text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1])) ? text.substr(1)
-                            : text.starts_with("-.") || text.starts_with("+.") ? text.substr(2) : text;
-  char* end = nullptr;
-  const double x = std::strtod(plain.c_str(), &end);
-  return !plain.empty() && *end == 0 && !std::isfinite(x);
+// nan, inf, 1e400, 1e-400, as YAML or C write them; strtod would find the same by an overflow
+bool not_finite(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1]))) text.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  return !text.empty() && end == text.data() + text.size() &&
+         (error == std::errc::result_out_of_range || (error == std::errc{} && !std::isfinite(x)));
 }
 
 bool is_label(const std::string& label) {
