@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-peers ladder trade accuracy paper install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-peers ladder trade accuracy paper install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -83,6 +83,19 @@ reliability: soak fuzz
 bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
+	@if command -v valgrind > /dev/null; then $(MAKE) --no-print-directory bench-features; \
+	else echo "not counted: what each feature costs; make bench-features installs valgrind for that"; fi
+
+# what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/trade.md from it. A build of
+# its own: valgrind knows no AVX-512, and lines (-g1) tell whose code it is. Two minutes beside that
+counted := build-features
+bench-features:
+	@$(MAKE) --no-print-directory deps packages="$(packages) valgrind"
+	@[ -f $(counted)/CMakeCache.txt ] || cmake -S . -B $(counted) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DCMAKE_CXX_FLAGS=-g1
+	@cmake --build $(counted) --parallel $(JOBS) --target langer-solve
+	@tests/bench/features/count $(counted)/bin/langer-solve runs/features
+	@tests/soak/page docs/trade.md features runs/features/scenes.md
+	@tests/soak/page docs/trade.md unused runs/features/unused.md
 
 # the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
 # An hour or two. KEEP=1 goes on with what runs/peers/peers.csv has; PEERS_LIMIT: CPU seconds for a run
@@ -172,6 +185,7 @@ help:
 	@echo "make soak                     kill -9 at random times, KILLS=200"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
+	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/trade.md from it; part of make bench"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
