@@ -1,0 +1,69 @@
+// KINSOL as an equal: every shipped scene, on a mesh of few cells, goes where newton goes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "scene/scene.hpp"
+#include "support/solved_scene.hpp"
+
+using namespace langer;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string configs = SOURCE_DIR "/configs/";
+
+Mesh mesh_of(const std::string& text) {
+  return make_mesh(read_config<MeshConfig>(parse_yaml(text, "mesh.yaml", configs + "mesh")).config, test::nowhere).mesh;
+}
+
+// what fits a scene: its own section, or few cells with the sets that it names
+Mesh mesh_for(const std::string& name, const SolveConfig& config) {
+  if (name == "axisymmetric") return test::mesh_in(config);
+  if (name == "scratch")
+    return mesh_of("{geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [14, 3, 14], centre: {edge: 0.6, within: 3}}}, "
+                   "sets: {track: {of: top, within: {box: {from: [-3.7, 4, -2.2], to: [3.7, 4, 2.2]}}}}}");
+  if (!config.contacts.empty()) return mesh_of("{include: smoke.yaml}");
+  return mesh_of("{include: cube_1_8.yaml}");
+}
+
+}  // namespace
+
+TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
+  const Material skin = read_config<Material>(load_yaml(configs + "material/abdomen_hgo_yeoh.yaml")).config;
+  int scenes = 0;
+  for (const auto& entry : fs::directory_iterator(configs + "solve")) {
+    const std::string name = entry.path().stem();
+    if (name.starts_with("accuracy_")) continue;  // those of trade_ on meshes of their own
+    CAPTURE(name);
+    const SolveConfig config = read_config<SolveConfig>(load_yaml(entry.path().string())).config;
+    const Mesh mesh = mesh_for(name, config);
+    const Scene scene = make_scene(config, mesh, config.material ? config.material : skin, test::nowhere);
+    const auto part = ReducedScene::find(config.symmetry, mesh, scene, test::nowhere);
+    test::HowToSolve how;
+    how.path = config.path;
+    how.path.steps.reset();  // equal increments, few: else iterations decide on them, and friction remembers its way
+    how.path.first = how.path.largest = name == "scratch" ? 0.05 : 0.2;
+    how.solver = NewtonOptions{.relative = 1e-10};
+    const std::vector<StepRecord> expected = solved(mesh, scene, part, how).steps;
+    double size = 0;
+    for (const StepRecord& step : expected)
+      for (const Vec3& u : step.u) size = std::max(size, u.norm());
+    for (KinsolStrategy strategy : {KinsolStrategy::linesearch, KinsolStrategy::picard}) {
+      if (name == "scratch" && strategy == KinsolStrategy::picard) continue;  // the longest path
+      CAPTURE(static_cast<int>(strategy));
+      how.solver = KinsolOptions{.strategy = strategy, .relative = 1e-10};
+      const std::vector<StepRecord> found = solved(mesh, scene, part, how).steps;
+      REQUIRE(found.size() == expected.size());
+      double most = 0;
+      for (std::size_t k = 0; k < found.size(); ++k)
+        for (std::size_t i = 0; i < found[k].u.size(); ++i) most = std::max(most, (found[k].u[i] - expected[k].u[i]).norm());
+      CHECK(most <= 1e-8 * size);
+      MESSAGE(name << ": u differs by " << most / size << " of its largest");
+    }
+    ++scenes;
+  }
+  CHECK(scenes >= 14);
+}
