@@ -28,7 +28,7 @@ ConeProjection trial(const Vec3& r, const Vec3& x, double rho, double mu) {
 }
 
 // an indefinite W lets the sweeps run away
-bool ran_away(const VecX& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
+bool ran_away(const Eigen::Ref<const VecX>& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
 
 double residual_of(const LocalProblem& problem, const VecX& rho, const VecX& r, std::vector<ContactStatus>* status) {
   if (ran_away(r)) return std::numeric_limits<double>::infinity();
@@ -51,6 +51,7 @@ void sweep(const LocalProblem& problem, const VecX& rho, VecX& r) {
   for (int i = 0; i < problem.n_contacts(); ++i) {
     const Vec3 x = problem.W.middleRows<3>(3 * i) * r + problem.q.segment<3>(3 * i);
     r.segment<3>(3 * i) = trial(r.segment<3>(3 * i), x, rho[i], problem.mu[i]).r;
+    if (ran_away(r.segment<3>(3 * i))) return;  // contact after contact would take it beyond what a double holds
   }
 }
 
