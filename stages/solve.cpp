@@ -10,6 +10,7 @@
 #include "scene/dry_run.hpp"
 #include "scene/equilibrium_by.hpp"
 #include "scene/error_estimate.hpp"
+#include "scene/homogeneous.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/progress.hpp"
 #include "scene/scene.hpp"
@@ -79,7 +80,8 @@ std::vector<Summary> say_errors(const Job<SolveConfig>& job, const SolveConfig& 
   return summary;
 }
 
-std::vector<Summary> solve(const Job<SolveConfig>& job) {
+// Nothing where a body that was solved at a point ceases to deform alike everywhere: its steps before are kept, to continue from.
+std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool at_a_point) {
   const double began = wall_seconds();
   SolveConfig config = job.config;
   const std::optional<ChosenRung> rung = choose_accuracy(config);
@@ -93,11 +95,17 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
-  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, job.where);
+  const std::unique_ptr<HomogeneousScene> point = at_a_point ? HomogeneousScene::find(mesh, whole, config) : nullptr;
+  if (point) job.say("homogeneous: one hexahedron stands for {} cells", mesh.n_cells());
+  const std::optional<ReducedScene> part = point ? std::nullopt : ReducedScene::find(config.symmetry, mesh, whole, job.where);
   if (part) job.say("{}{}", mesh.section ? "" : "symmetry: ", part->words());
-  const Scene& scene = part ? part->scene() : whole;
-  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
-  const auto state = [&](const StepRecord& record) { return part ? part->reduced(record) : state_of(record, scene); };
+  const Scene& scene = point ? point->scene() : part ? part->scene() : whole;
+  Equilibrium body = point ? point->equilibrium() : equilibrium_of(mesh, whole, part, config.threads);
+  const auto state = [&](const StepRecord& record) {
+    return point ? point->reduced(record) : part ? part->reduced(record) : state_of(record, scene);
+  };
+  const auto solver = point ? point->solver() : config.solver;
+  bool homogeneous = true;
   StaticsOptions options;
   options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);
@@ -134,7 +142,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
       [&](double t) {
         if (interrupted()) return SolveReport{};  // not converged
         statics.begin(t);
-        const SolveReport report = equilibrium_by(config.solver, progress.watched(statics.problem(), t), statics.trial());
+        const SolveReport report = equilibrium_by(solver, progress.watched(statics.problem(), t), statics.trial());
         if (!report.converged()) progress.failed(t, report);
         return report;
       },
@@ -154,6 +162,12 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
           }
         }
         if (part) record = part->whole(record);
+        if (point) {
+          const std::optional<StepRecord> balanced = point->whole(record);
+          homogeneous = balanced.has_value();
+          if (!homogeneous) return false;
+          record = *balanced;
+        }
         if (end) last = record;
         {
           const Stopwatch writing(files);
@@ -162,6 +176,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
         progress.accepted(record, report);
         return !interrupted();
       });
+  if (!homogeneous) return std::nullopt;
   if (!job.quiet)
     for (const std::string& line : watch.warnings()) job.say("warning: {}", line);
   if (!unstable.empty())
@@ -202,11 +217,19 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   if (!scene.contacts.empty()) summary.push_back({"force", last.force_ind.norm(), "N"});
   if (rung) summary.push_back({"accuracy", rung->rung.error, "percent"});
   if (part && !mesh.section) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
+  if (point) summary.push_back({"homogeneous", static_cast<double>(mesh.n_cells()), "-"});
   summary.insert(summary.end(), errors.begin(), errors.end());
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)
     for (const Summary& s : watch.summary()) summary.push_back(s);
   return summary;
+}
+
+std::vector<Summary> solve(const Job<SolveConfig>& job) {
+  const SolveConfig& config = job.config;
+  if (auto summary = solve_by(job, config.homogeneous == Homogeneous::automatic && config.stability == StabilityCheck::off)) return *summary;
+  job.say("homogeneous: the mesh no longer balances, and is solved from there on");
+  return *solve_by(job, false);
 }
 
 }  // namespace

@@ -97,6 +97,10 @@ constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
 constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
 
+// Whether a body that deforms alike everywhere is solved at a point (scene/homogeneous.hpp).
+enum class Homogeneous { automatic, off };
+constexpr auto names(Homogeneous) { return std::array{"auto", "off"}; }
+
 std::optional<double> percent_of(const std::string& text);  // "1%" or "1 %": 1; nothing where it is none above 0
 
 struct BodyConfig {
@@ -136,6 +140,7 @@ struct SolveConfig {
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
   SymmetryChoice symmetry = SymmetryChoice::none;
+  Homogeneous homogeneous = Homogeneous::automatic;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
@@ -167,6 +172,9 @@ struct SolveConfig {
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
+    v(&SolveConfig::homogeneous, "homogeneous", unit::none,
+      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike everywhere, "
+      "one hexahedron is solved in place of the mesh; every state is put to the mesh, which has to balance");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",

@@ -1,0 +1,45 @@
+// A body between plane faces that are held or moved as wholes may deform alike everywhere: then one hexahedron between the same
+// faces says what it does, on any mesh.
+//   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support and load on
+//               whole faces of the box
+//   proved      each state, expanded to the mesh, balances there: what is left at free nodes is rounding and the solver's tolerance
+// The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: not for runs that look at stability.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "assembly/equilibrium.hpp"
+#include "scene/scene.hpp"
+#include "solve/statics.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer {
+
+class HomogeneousScene {
+ public:
+  // Nothing where the scene is not of this kind, or the first increment of its path says so. Refers to the mesh.
+  static std::unique_ptr<HomogeneousScene> find(const Mesh& mesh, const Scene& scene, const SolveConfig& config);
+
+  const Mesh& mesh() const { return mesh_; }  // the hexahedron
+  const Scene& scene() const { return scene_; }
+  Equilibrium equilibrium() const;
+  std::variant<NewtonOptions, KinsolOptions> solver() const { return solver_; }  // more exact than the config's: it costs nothing
+
+  std::optional<StepRecord> whole(const StepRecord& one);  // of the mesh; nothing where that does not balance
+  BodyState reduced(const StepRecord& whole) const;        // to continue from
+
+ private:
+  HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);
+  bool recognise(const Mesh& mesh, const Scene& scene);
+  bool first_increment_balances(const LoadPathOptions& path);
+
+  Mesh mesh_;
+  Scene scene_;
+  std::variant<NewtonOptions, KinsolOptions> solver_;
+  std::array<int, 8> corner_node_;        // of the mesh
+  std::vector<std::array<double, 8>> N_;  // by node of the mesh: weights of the corners
+  std::unique_ptr<Equilibrium> whole_;    // balance of the mesh
+};
+
+}  // namespace langer
