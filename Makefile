@@ -165,7 +165,7 @@ trade:
 accuracy:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/accuracy.yaml
 	@awk -v what=accuracy -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/accuracy/$(s)_table/table.csv) > runs/accuracy/table.md
-	@tests/soak/page docs/trade.md accuracy runs/accuracy/table.md; tail -1 runs/accuracy/table.md
+	@tests/soak/page docs/trade.md accuracy runs/accuracy/table.md; tail -2 runs/accuracy/table.md
 
 clean:
 	rm -rf $(build)

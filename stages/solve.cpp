@@ -56,25 +56,35 @@ Mesh mesh_in(const SolveConfig& config, const Where& where) {
   }
 }
 
-// "force 10.7 N +- 0.9 % (cells 0.8, increments 0.1, solver 1e-7 %)", a line for each quantity; what gather can collect
+// "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6", a line for each quantity; what gather
+// can collect
 std::vector<Summary> say_errors(const Job<SolveConfig>& job, const SolveConfig& config, const std::optional<Material>& material,
-                                const std::vector<Valued>& found, double residual) {
+                                const Scene& scene, const Mesh& mesh, const StepRecord& last) {
   std::vector<Summary> summary;
   std::vector<ErrorEstimate> estimates;
+  const std::vector<Valued> found = valued(scene, mesh, last);
   try {
-    estimates = estimate_errors(config, material, job.where, found, residual);
+    estimates = config.estimate == EstimateBy::recovery ? recovered_errors(scene, mesh, last, found)
+                                                        : estimate_errors(config, material, job.where, found, last.residual);
   } catch (const Failure& failure) {  // the result itself stands
     if (failure.code() != Exit::not_converged) throw;
     job.say("warning: errors are not estimated: {}", failure.what());
   }
   for (const ErrorEstimate& e : estimates) {
     const double whole = 100 / std::max(std::abs(e.of.value), 1e-300);
-    job.say("{} {:.4g} {} +- {:.2g} % (cells {:.2g}, increments {:.2g}, solver {:.1g} %); limit of two meshes {:.4g}", e.of.name,
-            e.of.value, e.of.unit, whole * e.total(), whole * e.cells, whole * e.increments, whole * e.solver, e.extrapolated);
     summary.push_back({e.of.name + "_error", e.total(), e.of.unit});
-    summary.push_back({e.of.name + "_extrapolated", e.extrapolated, e.of.unit});
     summary.push_back({e.of.name + "_error_cells", e.cells, e.of.unit});
-    summary.push_back({e.of.name + "_error_increments", e.increments, e.of.unit});
+    if (e.has_limit) {
+      job.say("{} {:.4g} {} +- {:.2g} % (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}", e.of.name,
+              e.of.value, e.of.unit, whole * e.total(), whole * e.cells, whole * e.increments, whole * e.scatter, whole * e.solver,
+              e.limit());
+      summary.push_back({e.of.name + "_limit", e.limit(), e.of.unit});
+      summary.push_back({e.of.name + "_error_increments", e.increments, e.of.unit});
+      summary.push_back({e.of.name + "_error_scatter", e.scatter, e.of.unit});
+    } else {
+      job.say("{} {:.4g} {} +- {:.2g} % (cells {:.2g} by recovery, solver {:.1g} %)", e.of.name, e.of.value, e.of.unit,
+              whole * e.total(), whole * e.cells, whole * e.solver);
+    }
     summary.push_back({e.of.name + "_error_solver", e.solver, e.of.unit});
   }
   return summary;
@@ -84,12 +94,12 @@ std::vector<Summary> say_errors(const Job<SolveConfig>& job, const SolveConfig& 
 std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool at_a_point) {
   const double began = wall_seconds();
   SolveConfig config = job.config;
-  const std::optional<ChosenRung> rung = choose_accuracy(config);
+  const std::optional<Material> material =
+      job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
+  const std::optional<ChosenRung> rung = choose_accuracy(config, material);
   if (rung) job.say("accuracy: {}", rung->words);
   const Mesh mesh = job.has("mesh") ? read_mesh(job.input("mesh")).mesh : mesh_in(config, job.where);
   refuse_bad(mesh, job.has("mesh") ? job.input("mesh") : "");
-  const std::optional<Material> material =
-      job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
   const Scene whole = make_scene(config, mesh, material, job.where);
   const FibreJump jump = largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); });
   if (jump.degrees > 1e-3)
@@ -208,8 +218,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
                 held_by_contact.empty() ? "try path.smallest or solver.newton.iterations"
                                         : "hold also a node on the indenter's axis and, against turning, one beside it, where contact does not")});
   std::vector<Summary> errors;
-  if (config.estimate == EstimateBy::second_rung)
-    errors = say_errors(job, config, material, valued(whole, mesh, last), last.residual);
+  if (config.estimate.value_or(EstimateBy::none) != EstimateBy::none) errors = say_errors(job, config, material, whole, mesh, last);
   // the processor's time before this function is that of loading the program
   file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt, errors);
   progress.finished(path, statics, files);

@@ -54,6 +54,15 @@ struct Reference {
 
 Reference reference_of(const Job<TuneConfig>& job, const Ladder& ladder, const std::vector<double>& values) {
   const TuneReference& wanted = job.config.reference;
+  if (wanted.fitted) {
+    std::vector<double> lengths, of_members;
+    for (std::size_t i = 0; i < wanted.fitted->members.size(); ++i) {
+      const MemberOfLength& m = wanted.fitted->members[i];
+      lengths.push_back(m.length);
+      of_members.push_back(values[ladder.at(job, fmt::format("reference.fitted.members[{}].member", i), m.member)]);
+    }
+    return {fitted_limit(lengths, of_members, wanted.fitted->order), {}};
+  }
   if (!wanted.richardson) {
     const std::size_t i = ladder.at(job, "reference.member", wanted.member);
     return {{values[i], 0, 0}, {i}};
@@ -110,7 +119,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     for (std::size_t i : reference.no_rungs) as_rung[i] = NAN;
     const std::vector<int> front = pareto_front(cpu, as_rung);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
-            job.config.reference.richardson ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
+            job.config.reference.member.empty() ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
                                                           reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order)
                                                                                     : ", no order seen")
                                             : "");

@@ -7,6 +7,18 @@
 
 namespace langer {
 
+Limit fitted_limit(const std::vector<double>& lengths, const std::vector<double>& values, double order) {
+  const auto n = static_cast<double>(lengths.size());
+  std::vector<double> x;
+  for (double h : lengths) x.push_back(std::pow(h, order));
+  const double x_mean = std::accumulate(x.begin(), x.end(), 0.0) / n, f_mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double xx = 0, xf = 0, left = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - x_mean) * (x[i] - x_mean), xf += (x[i] - x_mean) * (values[i] - f_mean);
+  const double slope = xf / xx;
+  for (std::size_t i = 0; i < x.size(); ++i) left += std::pow(values[i] - f_mean - slope * (x[i] - x_mean), 2);
+  return {f_mean - slope * x_mean, order, std::sqrt(left / (n - 2) * (1 / n + x_mean * x_mean / xx))};
+}
+
 Limit richardson(double coarse, double middle, double fine, double ratio) {
   const double first = coarse - middle, second = middle - fine;
   if (second == 0) return {fine, 0, 0};

@@ -1,7 +1,8 @@
 // Accuracy against cost over the rungs of a ladder: errors against a reference, the front of rungs that none beats in both, the
 // cheapest rung under a wanted error.
 //   error      |value - reference| / |reference|; of the whole ladder's table one column per quantity
-//   reference  a member of the ladder, or the limit that three members with cells in a constant ratio r point to:
+//   reference  a member of the ladder; or what members with cells of lengths h leave at h = 0, fitted as f + A h^p with a given p; or
+//              the limit that three members with cells in a constant ratio r point to:
 //                p = log((f1 - f2) / (f2 - f3)) / log r,   f = f3 + (f3 - f2) / (r^p - 1)                       [R11]
 //              where the differences do not shrink with one sign there is no such limit, and the finest stands for it
 #pragma once
@@ -16,6 +17,8 @@ struct Limit {
   double order = 0;        // p; 0 where the finest value stands for the limit
   double uncertainty = 0;  // |limit - finest|, or the last difference where there is no limit
 };
+// least squares; uncertainty: the standard error of f. Lengths: at least three, not all the same
+Limit fitted_limit(const std::vector<double>& lengths, const std::vector<double>& values, double order);
 Limit richardson(double coarse, double middle, double fine, double ratio);
 
 // Indices by rising cost, each with a smaller error (by more than rounding) than all before it. Rungs that are not a number are left out.

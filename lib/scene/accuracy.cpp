@@ -17,27 +17,37 @@ std::optional<double> percent_of(const std::string& text) {
   return value;
 }
 
-const std::vector<AccuracyRung>& accuracy_rungs(bool friction) {
+const std::vector<AccuracyRung>& accuracy_rungs(bool plain) {
   // make trade; force_error of <scene>/trade.csv: q50-4steps, q35-4steps and q25-5steps in the isotropic scene, rounded up;
   // the first is better there than its neighbours and its estimate: by chance
   static const std::vector<AccuracyRung> smooth{{CellType::hex27, 0.5, 0.25, 2},
                                                 {CellType::hex27, 0.3536, 0.25, 0.5},
                                                 {CellType::hex27, 0.25, 0.2, 0.2}};
-  // h17-4steps, h12-4steps, h10 and h09 in the worse of the scenes with friction, and 1.3 % for what the reference there lacks: h10
-  // then has the worst error of the random scenes of `make accuracy`
-  static const std::vector<AccuracyRung> sticking{{CellType::hex8, 0.175, 0.25, 3.5},
-                                                  {CellType::hex8, 0.125, 0.25, 2.5},
-                                                  {CellType::hex8, 0.1, 0.1, 1.8},
-                                                  {CellType::hex8, 0.0884, 0.1, 1.7}};
-  return friction ? sticking : smooth;
+  // h17-4steps, h15-4steps, h12-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and half as much again
+  // for scenes unlike them. Shorter increments cost more and are no nearer: what cells add, longer increments take away
+  static const std::vector<AccuracyRung> others{{CellType::hex8, 0.175, 0.25, 3.2},
+                                                  {CellType::hex8, 0.15, 0.25, 2.2},
+                                                  {CellType::hex8, 0.125, 0.25, 1.4},
+                                                  {CellType::hex8, 0.1, 0.25, 0.8},
+                                                  {CellType::hex8, 0.0884, 0.25, 0.7}};
+  return plain ? smooth : others;
 }
 
-std::optional<ChosenRung> choose_accuracy(SolveConfig& config) {
+namespace {
+bool has_fibres(const SolveConfig& config, const std::optional<Material>& material) {
+  const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
+  return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
+                                          [&](const auto& body) { return fibrous(body.second.material); });
+}
+}  // namespace
+
+std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material) {
   if (!config.accuracy && !config.fidelity) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenRung chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
-  const auto& rungs = accuracy_rungs(has_friction(config));
+  const bool plain = !has_friction(config) && !has_fibres(config, material);
+  const auto& rungs = accuracy_rungs(plain);
   auto rung = std::find_if(rungs.begin(), rungs.end(), [&](const AccuracyRung& r) { return r.error <= chosen.wanted; });
   chosen.met = rung != rungs.end();
   chosen.rung = chosen.met ? *rung : rungs.back();
@@ -48,10 +58,10 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config) {
   config.mesh->cells = chosen.rung.cells;
   if (!config.estimate) config.estimate = EstimateBy::second_rung;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
-  chosen.words = fmt::format("{:g} % wanted: {} of {:g} contact radii, increments of {:g}; on the ladder's scenes {} friction the "
+  chosen.words = fmt::format("{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the ladder's scenes {} the "
                              "force was within {:g} %{}",
                              chosen.wanted, names(CellType{})[static_cast<int>(chosen.rung.cells)], chosen.rung.edge,
-                             chosen.rung.step, has_friction(config) ? "with" : "without", chosen.rung.error,
+                             chosen.rung.step, plain ? "without fibres and friction" : "with friction", chosen.rung.error,
                              chosen.met ? "" : ", the finest rung measured");
   return chosen;
 }

@@ -7,6 +7,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "post/fields.hpp"
+#include "post/recovery.hpp"
 #include "scene/equilibrium_by.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/step_record.hpp"
@@ -24,6 +25,27 @@ constexpr double ratio = 1.4142135623730951;
 void set_increment(LoadPathOptions& path, double increment) {
   path.steps.reset();
   path.first = path.largest = increment;
+}
+
+struct Fitted {
+  double cells;    // A h^p of the finest
+  double scatter;  // root mean square of what is left
+};
+// of values on cells of h, ratio h and ratio^2 h, weighted 4, 2, 1
+Fitted fit(const Vec3& values, double order) {
+  const double falls = std::pow(ratio, order);
+  const Vec3 x(1, falls, falls * falls), w = Vec3(4, 2, 1) / 7;
+  const double x_mean = w.dot(x), mean = w.dot(values);
+  const Vec3 dx = x.array() - x_mean, dv = values.array() - mean;
+  const double A = w.dot(dx.cwiseProduct(dv)) / w.dot(dx.cwiseProduct(dx));
+  const Vec3 left = dv - A * dx;
+  return {A, std::sqrt(w.dot(left.cwiseProduct(left)))};
+}
+
+Body body_of(const Scene& scene, const Mesh& mesh) {
+  std::vector<std::vector<Vec3>> fibres(static_cast<std::size_t>(mesh.n_cells()));
+  for (int e = 0; e < mesh.n_cells(); ++e) fibres[static_cast<std::size_t>(e)] = scene.fibres_of(mesh, e);
+  return {mesh, scene.materials, scene.formulation, fibres};
 }
 
 }  // namespace
@@ -59,9 +81,7 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
   if (!scene.contacts.empty()) found.push_back({"force", "N", state.force_ind.norm()});
-  std::vector<std::vector<Vec3>> fibres(static_cast<std::size_t>(mesh.n_cells()));
-  for (int e = 0; e < mesh.n_cells(); ++e) fibres[static_cast<std::size_t>(e)] = scene.fibres_of(mesh, e);
-  const Body body(mesh, scene.materials, scene.formulation, fibres);
+  const Body body = body_of(scene, mesh);
   const GaussValues gauss = gauss_values(body, state.u);
   double most = 0;
   for (int n = 0; n < mesh.n_nodes(); ++n)
@@ -70,6 +90,16 @@ std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecor
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) found.push_back({"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
   return found;
+}
+
+std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state, const std::vector<Valued>& found) {
+  const RecoveredError error = recovered_error(body_of(scene, mesh), state.u);
+  std::vector<ErrorEstimate> estimates;
+  for (const Valued& q : found) {
+    const double cells = q.name == "force" ? error.energy_share() * q.value : q.name == "von_mises_max" ? error.von_mises_spread : -1;
+    if (cells >= 0) estimates.push_back({q, cells, 0, 0, state.residual * std::abs(q.value), false});
+  }
+  return estimates;
 }
 
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
@@ -89,7 +119,7 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
   double per_change = 0;
   if (has_friction(config)) {
     const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
-    per_change = increment > 0.5 ? 2 : 1;
+    per_change = increment > 0.5 ? -1 : 1.0 / 3;
     set_increment(coarser.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
     path = end_of_path(coarser, material, where);
   }
@@ -100,10 +130,8 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
     };
     const auto at = in(coarse), before = in(coarsest), along = in(path);
     if (at == coarse.end() || before == coarsest.end() || along == path.end()) continue;
-    const double order = q.name == "von_mises_max" || has_friction(config) ? 1 : 2, falls = std::pow(ratio, order);
-    const double beyond = (q.value - at->value) / (falls - 1);
-    const double cells = std::max(std::abs(beyond), std::abs(at->value - before->value) / falls / (falls - 1));
-    estimates.push_back({q, cells, per_change * std::abs(along->value - at->value), residual * std::abs(q.value), q.value + beyond});
+    const Fitted fitted = fit({q.value, at->value, before->value}, q.name == "von_mises_max" ? 1 : 2);
+    estimates.push_back({q, fitted.cells, per_change * (along->value - at->value), fitted.scatter, residual * std::abs(q.value)});
   }
   return estimates;
 }

@@ -1,14 +1,15 @@
-// What a result is worth: the scene is solved again on cells longer by r = sqrt 2 and by 2, and on those by r in increments of
-// another length.
-//   cells       max(|q(r h) - q(h)|, |q(2 h) - q(r h)| / r^p) / (r^p - 1): two cells may agree by chance, three rarely. Forces and
-//               displacements fall with p = 2 without friction and with p = 1 with it, the greatest stress with p = 1
-//   increments  |q(2 dt) - q(dt)| on the coarser cells (first order); nothing where no friction makes the path matter.
-//               Of a single increment: twice what halving it changes
-//   extrapolated  q(h) - (q(r h) - q(h)) / (r^p - 1), the limit of the two
+// What a result is worth: the scene is solved again on cells longer by sqrt 2 and by 2, and on the former in increments of another
+// length. Errors have a sign: what is found lies above its limit by
+//   cells       A h^p of q = f + A h^p, fitted to the three meshes (weights 4, 2, 1); p = 2, for the greatest stress p = 1
+//   increments  (q(2 dt) - q(dt)) / 3, of second order (Statics::slip_from_touch); nothing where no friction makes the path matter.
+//               Of a single increment: what halving it changes
+//   scatter     root mean square of what the fit leaves: nodes come to the rim of a contact and go
 //   solver      the last residual relative to the forces that it balances
+//   total       |cells + increments| + scatter + solver;   limit   found - cells - increments
 // For meshes of the kind indented_block, whose cells one number scales.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,10 +35,16 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 
 struct ErrorEstimate {
   Valued of;
-  double cells = 0, increments = 0, solver = 0;  // in the unit of the quantity
-  double extrapolated = 0;
-  double total() const { return cells + increments + solver; }
+  double cells = 0, increments = 0;  // signed, in the unit of the quantity
+  double scatter = 0, solver = 0;
+  bool has_limit = true;  // false: by recovery, which knows no sign
+  double total() const { return std::abs(cells + increments) + scatter + solver; }
+  double limit() const { return of.value - cells - increments; }
 };
+
+// Of any mesh, by what its stress lacks to be smooth (post/recovery.hpp): force and greatest von Mises stress, no limit. The error of
+// sticking on coarse cells and that of increments are not among them.
+std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state, const std::vector<Valued>& found);
 
 // Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no equilibrium,
 // Failure(config) for another kind of mesh.

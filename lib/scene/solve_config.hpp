@@ -119,8 +119,8 @@ enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
 // How the errors of a result are estimated (scene/error_estimate.hpp).
-enum class EstimateBy { none, second_rung };
-constexpr auto names(EstimateBy) { return std::array{"none", "second_rung"}; }
+enum class EstimateBy { none, recovery, second_rung };
+constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "second_rung"}; }
 
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
@@ -150,8 +150,9 @@ struct SolveConfig {
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
-      "sqrt 2, and with friction once more there in other increments; wants mesh.geometry.indented_block or indented_disc, and is "
-      "taken where accuracy or fidelity is asked for");
+      "sqrt 2 and by 2, and with friction once more in other increments; wants mesh.geometry.indented_block or indented_disc, and is "
+      "taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
+      "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,

@@ -16,16 +16,44 @@ struct RichardsonConfig {
   }
 };
 
+struct MemberOfLength {
+  std::vector<std::string> member;
+  double length = 0;
+  static void fields(auto& v) {
+    v(&MemberOfLength::member, "member", unit::none, "values on the axes of the member", required);
+    v(&MemberOfLength::length, "length", unit::none, "of its cells, in any unit", required, positive);
+  }
+};
+
+struct FittedLimit {
+  std::vector<MemberOfLength> members;
+  double order = 2;
+  static void fields(auto& v) {
+    v(&FittedLimit::members, "members", unit::none, "three or more, with cells of different lengths", required);
+    v(&FittedLimit::order, "order", unit::none, "power of the length with which errors fall", Range{0, 10, false, true});
+  }
+  std::vector<Complaint> complaints() const {
+    if (members.size() < 3)
+      return {{"members", std::to_string(members.size()) + " members", "three or more: two always lie on a line", ""}};
+    for (const MemberOfLength& m : members)
+      if (m.length != members[0].length) return {};
+    return {{"members", "cells of one length", "different lengths", ""}};
+  }
+};
+
 struct TuneReference {
   std::vector<std::string> member;
+  std::optional<FittedLimit> fitted;
   std::optional<RichardsonConfig> richardson;
   static void fields(auto& v) {
     v(&TuneReference::member, "member", unit::none, "values on the axes of the member that counts as right; it is no rung itself");
-    v(&TuneReference::richardson, "richardson", unit::none, "instead: the limit of three members");
+    v(&TuneReference::fitted, "fitted", unit::none, "instead: what is left at length 0 of q = f + A length^order, fitted to members");
+    v(&TuneReference::richardson, "richardson", unit::none, "instead: the limit of three members, of the order that they show");
   }
   std::vector<Complaint> complaints() const {
-    if (member.empty() != !richardson) return {};
-    return {{"", member.empty() ? "neither a member nor richardson" : "a member and richardson", "one of the two", ""}};
+    const int given = !member.empty() + fitted.has_value() + richardson.has_value();
+    if (given == 1) return {};
+    return {{"", given == 0 ? "nothing" : "more than one of member, fitted and richardson", "one of the three", ""}};
   }
 };
 

@@ -2,8 +2,8 @@
     table.py runs peers.csv isotropic      every run, failures too
     table.py levels peers.csv isotropic    the cheapest run of each tool that is right within 2 %, 1 % and what more the reference allows
     table.py picture peers.csv isotropic   gnuplot script
-Right within p % is a run whose error is at most p % and stays so in all finer runs of its tool with the same cells and settings (no hit
-by chance), and whose sphere is in the body by no more than 10 um, 1 % of the depth."""
+Right within p % is a run whose error is at most p % and stays so in all finer runs of its tool with the same cells and settings, shorter
+cells or as short ones in more increments (no hit by chance), and whose sphere is in the body by no more than 10 um, 1 % of the depth."""
 import csv
 import re
 import sys
@@ -25,8 +25,12 @@ def series(row):
     return row["tool"], row["cells"], re.sub(r"^\d+ increments ?", "", row["settings"])
 
 
+def increments(row):
+    return int(re.match(r"\d*", row["settings"])[0] or 0)
+
+
 def right_within(row, percent):
-    finer = [r for r in rows if series(r) == series(row) and float(r["edge"]) <= float(row["edge"])]
+    finer = [r for r in rows if series(r) == series(row) and (float(r["edge"]), -increments(r)) <= (float(row["edge"]), -increments(row))]
     errors = [number(r["error_percent"]) for r in finer]
     inside = number(row["inside_um"])
     kept = all(e is None or abs(e) <= percent for e in errors)

@@ -17,6 +17,23 @@ TEST_CASE("three members of a power law point to its limit and order") {
   }
 }
 
+TEST_CASE("members fitted with a given order leave their limit at length 0, and say how sure it is") {
+  const std::vector<double> h{0.125, 0.1, 0.0884, 0.0707};
+  std::vector<double> values;
+  for (double x : h) values.push_back(9.36 + 6.9 * x * x);
+  CHECK(fitted_limit(h, values, 2).value == doctest::Approx(9.36).epsilon(1e-13));
+  CHECK(fitted_limit(h, values, 2).uncertainty < 1e-10);
+  const double noise[]{0.003, -0.004, 0.002, -0.001};
+  for (std::size_t i = 0; i < h.size(); ++i) values[i] += noise[i];
+  const Limit noisy = fitted_limit(h, values, 2);
+  CHECK(std::abs(noisy.value - 9.36) < 2 * noisy.uncertainty);
+  CHECK(noisy.uncertainty < 0.02);
+  // a line through (1, 1), (2, 3), (3, 4): 1.5 x - 1/3, residual variance 1/6
+  const Limit line = fitted_limit({1, 2, 3}, {1, 3, 4}, 1);
+  CHECK(line.value == doctest::Approx(-1.0 / 3));
+  CHECK(line.uncertainty == doctest::Approx(std::sqrt(1.0 / 6 * (1.0 / 3 + 2))));
+}
+
 TEST_CASE("members that do not approach a limit give the finest and their last difference") {
   const Limit turns = richardson(1.0, 1.2, 1.1, 2), grows = richardson(1.0, 1.1, 1.4, 2);
   CHECK(turns.value == 1.1);

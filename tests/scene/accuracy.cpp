@@ -25,8 +25,8 @@ TEST_CASE("a percentage is a number above 0 with its sign") {
 }
 
 TEST_CASE("the rungs come with falling errors, and none costs less cells than the one before") {
-  for (bool friction : {false, true}) {
-    const auto& rungs = accuracy_rungs(friction);
+  for (bool plain : {false, true}) {
+    const auto& rungs = accuracy_rungs(plain);
     REQUIRE(rungs.size() >= 3);
     for (std::size_t i = 1; i < rungs.size(); ++i) {
       CHECK(rungs[i].error < rungs[i - 1].error);
@@ -36,11 +36,11 @@ TEST_CASE("the rungs come with falling errors, and none costs less cells than th
 }
 
 TEST_CASE("the first rung that promises the wanted error is taken, its cells, increments and symmetry with it") {
-  for (const auto& [wanted, mu] : {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {2.0, 0.34}}) {
+  for (const auto& [wanted, mu] : {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {1.0, 0.34}}) {
     SolveConfig config = indentation();
     config.contacts["ball"].friction = mu;
     config.accuracy = std::to_string(wanted) + "%";
-    const auto chosen = choose_accuracy(config);
+    const auto chosen = choose_accuracy(config, std::nullopt);
     REQUIRE(chosen.has_value());
     CHECK(chosen->met);
     CHECK(chosen->rung.error <= wanted);
@@ -48,7 +48,7 @@ TEST_CASE("the first rung that promises the wanted error is taken, its cells, in
     CHECK(config.path.largest == chosen->rung.step);
     CHECK(config.symmetry == SymmetryChoice::automatic);
     CHECK(config.mesh->cells == chosen->rung.cells);
-    for (const AccuracyRung& r : accuracy_rungs(mu > 0))
+    for (const AccuracyRung& r : accuracy_rungs(mu == 0))
       if (r.error <= wanted) CHECK(r.edge <= chosen->rung.edge);
   }
 }
@@ -56,19 +56,33 @@ TEST_CASE("the first rung that promises the wanted error is taken, its cells, in
 TEST_CASE("more than the ladder can promise gives its finest rung and says so; nothing wanted changes nothing") {
   SolveConfig config = indentation();
   config.accuracy = "0.0001%";
-  const auto finest = choose_accuracy(config);
+  const auto finest = choose_accuracy(config, std::nullopt);
   REQUIRE(finest.has_value());
   CHECK(!finest->met);
   CHECK(finest->words.find("finest") != std::string::npos);
-  CHECK(edge_of(config) == accuracy_rungs(false).back().edge);
+  CHECK(edge_of(config) == accuracy_rungs(true).back().edge);
 
   SolveConfig plain = indentation();
-  CHECK(!choose_accuracy(plain));
+  CHECK(!choose_accuracy(plain, std::nullopt));
   CHECK(edge_of(plain) == 0.3);
   plain.fidelity = Fidelity::draft;
   plain.symmetry = SymmetryChoice::half_turn;
-  CHECK(choose_accuracy(plain)->wanted == 5);
+  CHECK(choose_accuracy(plain, std::nullopt)->wanted == 5);
   CHECK(plain.symmetry == SymmetryChoice::half_turn);  // what is asked for by name stays
+}
+
+TEST_CASE("fibres take the rungs of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
+  Material fibrous;
+  fibrous.fibres.emplace_back();
+  SolveConfig config = indentation();
+  config.accuracy = "1%";
+  choose_accuracy(config, fibrous);
+  CHECK(config.mesh->cells == CellType::hex8);
+  SolveConfig layered = indentation();
+  layered.accuracy = "1%";
+  layered.materials["dermis"].material = fibrous;
+  choose_accuracy(layered, Material{});
+  CHECK(layered.mesh->cells == CellType::hex8);
 }
 
 TEST_CASE("half the edge of an indented block halves its cells, and they are even under the indenter") {

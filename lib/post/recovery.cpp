@@ -1,0 +1,75 @@
+#include "post/recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tensor/stress.hpp"
+
+namespace langer {
+
+namespace {
+
+// averages of the cells of one region at its nodes, (n, 6)
+std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int region) {
+  const Mesh& mesh = body.mesh();
+  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  std::vector<Vec6> sum(mesh.X.size(), Vec6::Zero());
+  std::vector<double> V(mesh.X.size(), 0);
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    if (body.region(e) != region) continue;
+    const Eigen::Matrix<double, Eigen::Dynamic, 6> at_nodes = cell.at_nodes * gauss[e].leftCols<6>();
+    for (int a = 0; a < cell.n_nodes; ++a) {
+      const int node = mesh.cell(e)[a];
+      sum[node] += body.geometry(e).V * at_nodes.row(a).transpose(), V[node] += body.geometry(e).V;
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (V[i] > 0) sum[i] /= V[i];
+  return sum;
+}
+
+double deviatoric(const Vec6& stress) { return std::pow(von_mises(tensor(stress)), 2) / 1.5; }  // |dev s|^2
+
+}  // namespace
+
+RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
+  const Mesh& mesh = body.mesh();
+  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const GaussValues gauss = gauss_values(body, u);
+  int regions = 1;
+  for (int e = 0; e < mesh.n_cells(); ++e) regions = std::max(regions, body.region(e) + 1);
+  RecoveredError out;
+  double error = 0, whole = 0;
+  for (int region = 0; region < regions; ++region) {
+    const std::vector<Vec6> smooth = smoothed(body, gauss, region);
+    int worst = -1;
+    for (int e = 0; e < mesh.n_cells(); ++e) {
+      if (body.region(e) != region) continue;
+      const double mu = shear_modulus(body.material(e));
+      for (int a = 0; a < cell.n_nodes; ++a) {
+        const int node = mesh.cell(e)[a];
+        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max) out.von_mises_max = here, worst = node;
+      }
+      for (int g = 0; g < cell.n_gauss; ++g) {
+        Vec6 s = Vec6::Zero();
+        for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
+        const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
+        error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()), whole += w * deviatoric(s);
+      }
+    }
+    if (worst < 0) continue;
+    out.von_mises_spread = 0;
+    for (int e = 0; e < mesh.n_cells(); ++e) {
+      if (body.region(e) != region) continue;
+      const auto nodes = mesh.cell(e);
+      const auto at = std::find(nodes.begin(), nodes.end(), worst);
+      if (at == nodes.end()) continue;
+      const Vec6 here = (cell.at_nodes.row(at - nodes.begin()) * gauss[e].leftCols<6>()).transpose();
+      out.von_mises_spread = std::max(out.von_mises_spread, std::abs(von_mises(tensor(here)) - out.von_mises_max));
+    }
+  }
+  out.eta = whole > 0 ? std::sqrt(error / whole) : 0;
+  return out;
+}
+
+}  // namespace langer
