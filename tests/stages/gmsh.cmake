@@ -8,7 +8,7 @@ set(folder ${WORK})
 # loads(<TRUE|FALSE> <command>...): whether the command's dynamic loader meets libgmsh
 macro(loads expected)
   run(0 ${CMAKE_COMMAND} -E env LD_DEBUG=files ${ARGN})
-  expect_said("libhdf5")  # so the loader speaks
+  expect_said("libyaml-cpp")  # so the loader speaks
   string(FIND "${said}" "libgmsh" at)
   if(${expected} AND at EQUAL -1)
     message(FATAL_ERROR "${ARGN}: does not load gmsh")

@@ -44,7 +44,7 @@ foreach(file ./usr/bin/langer ./usr/bin/langer-mesh ./usr/lib/langer/langer_gmsh
 endforeach()
 run(0 ${DPKG} -I ${deb})
 expect_said("Depends: ")
-expect_said("libhdf5")
+expect_said("libyaml-cpp")
 expect_said("libgmsh")
 run(0 ${DPKG} -x ${deb} ${WORK}/unpacked)
 expect_runs(${WORK}/unpacked/usr/bin)
