@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,6 +65,15 @@ Handle dataspace(const Shape& shape, const Shape& most = {}) {
   return {H5Screate_simple(static_cast<int>(shape.size()), now.data(), limit.empty() ? nullptr : limit.data()), H5Sclose};
 }
 
+std::optional<Shape> shape_of(hid_t dataset) {
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) return std::nullopt;
+  std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
+  if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  return Shape(extent.begin(), extent.end());
+}
+
 }  // namespace
 
 template <class T>
@@ -113,15 +123,17 @@ void Group::make_extendible(const std::string& name, const Shape& row, std::size
 
 template <class T>
 void Group::append(const std::string& name, std::span<const T> rows) const {
-  Shape whole = shape(name), block = whole;
+  const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
+  const auto before = shape_of(dataset);
+  if (!before) refuse(name, "dataset is missing");
+  Shape whole = *before, block = whole;
   const std::size_t row = product({whole.begin() + 1, whole.end()}), count = row ? rows.size() / row : 0;
   if (count * row != rows.size())
     throw Failure(Exit::bug, Error{{file_->path}, full(name), fmt::format("{} values", rows.size()), "whole rows", ""});
   if (count == 0) return;
   std::vector<hsize_t> first(whole.size(), 0);
   first[0] = whole[0], whole[0] += count, block[0] = count;
-  const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
-  written(dataset.good() && H5Dset_extent(dataset, extents(whole).data()) >= 0, *this, name);
+  written(H5Dset_extent(dataset, extents(whole).data()) >= 0, *this, name);
   const Handle space(H5Dget_space(dataset), H5Sclose), memory = dataspace(block);
   written(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extents(block).data(), nullptr) >= 0 &&
               H5Dwrite(dataset, Kind<T>::memory(), memory, space, H5P_DEFAULT, rows.data()) >= 0,
@@ -131,12 +143,9 @@ void Group::append(const std::string& name, std::span<const T> rows) const {
 Shape Group::shape(const std::string& name) const {
   const Handle dataset(has(name) ? H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT) : -1, H5Dclose);
   if (!dataset.good()) refuse(name, "dataset is missing");
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank < 0) refuse(name, "cannot be read");
-  std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
-  if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-  return {extent.begin(), extent.end()};
+  const auto shape = shape_of(dataset);
+  if (!shape) refuse(name, "cannot be read");
+  return *shape;
 }
 
 template <class T>
