@@ -174,7 +174,12 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the patience they need
   int sweeps = 0, newton_steps = 0;
   while (least > options.tolerance && sweeps < options.sweeps) {
-    for (int s = 0; s < round && !ran_away(r); ++s, ++sweeps) sweep(problem, rho, r);
+    const VecX start = r;
+    bool fled = false;
+    for (const int until = std::min(sweeps + round, options.sweeps); sweeps < until && !fled; ++sweeps) {
+      sweep(problem, rho, r);
+      fled = ran_away(r);
+    }
     if (judge() <= options.tolerance) break;
     double last = least;
     VecX before_newton = r;
@@ -186,7 +191,8 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
     }
     if (least <= options.tolerance || least < 1e-12) break;  // the rest is rounding
     if (!(last < 1e-3)) r = before_newton;
-    round *= 2;
+    if (fled && r == start) break;  // all of this would come again
+    round = std::min(2 * round, options.sweeps);
   }
   report.sweeps += sweeps, report.newton_steps += newton_steps;
   r = best;

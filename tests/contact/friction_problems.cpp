@@ -70,3 +70,21 @@ TEST_CASE("a thousand random problems of up to eight contacts satisfy the law") 
   }
   CHECK(failed == 0);
 }
+
+// Two contacts that push each other down harder than they hold themselves: no forces keep both out, and sweeps grow a million
+// times with each contact. Their end does not come from counting sweeps that will never be made.
+TEST_CASE("forces that run away end the search at once, without convergence and finite") {
+  LocalProblem p;
+  p.W.setIdentity(6, 6);
+  p.W(0, 3) = p.W(3, 0) = -1e6;
+  p.q.setZero(6);
+  p.q[0] = p.q[3] = -1;
+  p.mu = Eigen::Vector2d(0.3, 0);
+  for (double start : {0.0, 1.0}) {
+    VecX r = VecX::Constant(6, start);
+    const LocalReport report = solve_local(p, r);
+    CHECK_FALSE(report.converged);
+    CHECK(r.allFinite());
+    CHECK(report.sweeps < 2000);
+  }
+}
