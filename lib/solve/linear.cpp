@@ -6,9 +6,6 @@
 
 #include "solve/linear_state.hpp"
 
-extern "C" void openblas_set_num_threads(int);
-extern "C" int openblas_get_num_threads();
-
 namespace langer {
 
 namespace {

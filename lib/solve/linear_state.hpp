@@ -10,13 +10,23 @@
 
 #include "solve/linear.hpp"
 
+extern "C" {
+void openblas_set_num_threads(int);
+int openblas_get_num_threads();
+int openblas_get_parallel();
+}
+
 namespace langer {
 
 // CHOLMOD opens its own parallel regions whatever OMP_NUM_THREADS says, and they starve the BLAS beneath them:
-// 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two cores. Held back for the length of a call.
+// 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two cores. Held back for the length of a call, but for several
+// threads of an OpenBLAS that is itself made with OpenMP: it would wait for ever for those that it does not get.
 class NoNestedThreads {
  public:
-  NoNestedThreads() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  NoNestedThreads() : levels_(omp_get_max_active_levels()) {
+    constexpr int by_openmp = 2;
+    if (openblas_get_parallel() != by_openmp || openblas_get_num_threads() == 1) omp_set_max_active_levels(0);
+  }
   ~NoNestedThreads() { omp_set_max_active_levels(levels_); }
 
  private:
