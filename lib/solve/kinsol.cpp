@@ -167,6 +167,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
   };
   for (int round = 0;; ++round) {
     const Assessment now = problem.assess(x, true);
+    ++report.evaluations;
     report.residual = now.residual, report.reference = now.reference;
     report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
     if (!now.admissible || !std::isfinite(now.residual))
@@ -181,6 +182,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     if (!take_step(problem, problem.correction(), x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
+    ++report.evaluations;
     if (!then.admissible || !std::isfinite(then.residual))
       return stop(Outcome::inadmissible, then.missing.empty() ? "a force is not finite" : then.missing);
     Round inner{.problem = problem, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(problem.free.size()))};

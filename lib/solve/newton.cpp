@@ -66,6 +66,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
   OldTangent old(problem.price);
   for (;;) {
     const Assessment now = problem.assess(x, report.iterations == 0 || !reuses);
+    ++report.evaluations;
     report.residual = now.residual, report.reference = now.reference;
     report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
     if (!now.admissible || !std::isfinite(now.residual))

@@ -69,7 +69,7 @@ struct SolveReport {
   Outcome outcome = Outcome::not_converged;
   int iterations = 0;  // each with a tangent of its own
   int again = 0;       // corrections with the tangent of an iteration
-  int evaluations = 0;
+  int evaluations = 0;  // of the residual
   double residual = 0, tolerance = 0, reference = 0;
   std::string why;  // in words, when not converged
   bool converged() const { return outcome == Outcome::converged; }

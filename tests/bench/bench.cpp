@@ -11,6 +11,7 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "bench/growth.hpp"
+#include "bench/solvers.hpp"
 #include "material/path.hpp"
 #include "sensitivity/sobol.hpp"
 #include "solve/forecast.hpp"
@@ -132,27 +133,6 @@ void measure_assembly(const Material& skin) {
   }
 }
 
-// what each nonlinear solver needs for the same answer
-void measure_solvers(const Material& skin) {
-  test::Indentation scene;
-  scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45;
-  fmt::print("indentation to 1 mm in ten steps, {} hexahedra, friction\n", 14 * 14 * 4);
-  const auto line = [&](const std::string& name) {
-    const double cpu = cpu_seconds();
-    const auto result = scene.run(skin);
-    fmt::print("  {:<20} {:4} iterations, {:4} factorizations, {:2} cuts, {:6.2f} s CPU, force {:.6f} N\n", name,
-               result.path.iterations, result.cost.factorizations, result.path.cuts, cpu_seconds() - cpu,
-               result.steps.empty() ? 0 : result.steps.back().force);
-  };
-  line("newton");
-  for (KinsolStrategy strategy :
-       {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
-    scene.kinsol = KinsolOptions{};
-    scene.kinsol->strategy = strategy;
-    line(std::string("kinsol ") + names(strategy)[static_cast<int>(strategy)]);
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -160,7 +140,7 @@ int main(int argc, char** argv) {
   const auto wanted = [&](const char* name) { return asked.empty() || asked.count(name) > 0; };
   const Material skin = test::table1(60, 1e-6);
   if (wanted("assembly")) measure_assembly(skin);
-  if (wanted("solvers")) measure_solvers(skin);
+  if (wanted("solvers")) measure_solvers();
   if (wanted("indentation")) {  // what an iteration costs at the paper's size
     auto scene = paper_block();
     scene.depth = 0.2;
