@@ -57,7 +57,8 @@ times:
 
 test: configure
 	@cmake --build $(build) --parallel $(JOBS)
-	@LSAN_OPTIONS=suppressions=$(CURDIR)/tests/support/leaks.txt:print_suppressions=0 ctest --test-dir $(build) --output-on-failure -j2
+	@ASAN_OPTIONS=allocator_may_return_null=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/support/leaks.txt:print_suppressions=0 \
+	  ctest --test-dir $(build) --output-on-failure -j2
 
 # kill -9 at random times in every program; KILLS and SEED may be given
 KILLS ?= 200

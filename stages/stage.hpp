@@ -7,6 +7,9 @@
 #pragma once
 
 #include <unistd.h>
+#ifdef LANGER_SANITIZE
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -87,12 +90,12 @@ class RunLog {
 
 // The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
 // (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
-inline int leave(int code) {
+[[noreturn]] inline void leave(int code) {
   std::fflush(nullptr);
-#ifndef LANGER_SANITIZE  // which looks for leaks at the end
-  _exit(code);
+#ifdef LANGER_SANITIZE
+  __lsan_do_leak_check();
 #endif
-  return code;
+  _exit(code);
 }
 
 // Runs the body and turns what it throws into a message and an exit code.
@@ -126,7 +129,7 @@ int exit_code_after(const std::string& program, auto&& body) {
 int guarded(const std::string& program, auto&& body) {
   const int code = exit_code_after(program, body);
   RunLog::end(code);
-  return leave(code);
+  leave(code);
 }
 
 // Reads the arguments; nothing if the program has said all it was asked for, then `code` is its exit code.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/traps.hpp"
 #include "geometry/gmsh/session.hpp"
 #include "geometry/read_surface.hpp"
 
@@ -71,6 +72,7 @@ TEST_CASE("what gmsh writes as STL is read as gmsh reads it") {
     const std::string path = folder + "/ball.stl";
     std::size_t n_triangles = 0, n_points = 0;
     {
+      const NoTraps in_gmsh;
       const GmshSession session;
       gmsh::model::occ::addSphere(1, 2, 3, 5);
       gmsh::model::occ::synchronize();
@@ -79,6 +81,7 @@ TEST_CASE("what gmsh writes as STL is read as gmsh reads it") {
       gmsh::write(path);
     }
     {
+      const NoTraps in_gmsh;
       const GmshSession session;
       gmsh::merge(path);
       std::vector<std::size_t> tags;
