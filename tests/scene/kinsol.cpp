@@ -51,8 +51,8 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
     double size = 0;
     for (const StepRecord& step : expected)
       for (const Vec3& u : step.u) size = std::max(size, u.norm());
-    for (KinsolStrategy strategy : {KinsolStrategy::linesearch, KinsolStrategy::picard}) {
-      if (name == "scratch" && strategy == KinsolStrategy::picard) continue;  // the longest path
+    for (KinsolStrategy strategy :
+         {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
       CAPTURE(static_cast<int>(strategy));
       how.solver = KinsolOptions{.strategy = strategy, .relative = 1e-10};
       const std::vector<StepRecord> found = solved(mesh, scene, part, how).steps;
