@@ -37,7 +37,14 @@ if table.exists():
 
 
 def measured(command, where, log):
-    """CPU seconds, memory in MB, exit code, what was said; stopped after LIMIT CPU seconds"""
+    """CPU seconds (of a run below 3 s the median of five), memory in MB, exit code, what was said; stopped after LIMIT CPU seconds"""
+    first = measured_once(command, where, log)
+    if first[2] or first[0] > 3:
+        return first
+    return sorted([first] + [measured_once(command, where, log) for _ in range(4)], key=lambda run: run[0])[2]
+
+
+def measured_once(command, where, log):
     def limits():
         resource.setrlimit(resource.RLIMIT_CPU, (int(LIMIT), int(LIMIT) + 5))
 
@@ -60,7 +67,7 @@ def record(scene, tool, cells, edge, settings, run):
         cpu, memory, found = float("nan"), float("nan"), {"words": f"{Path(str(e.cmd[0])).name} ended with {e.returncode}"}
     force = found.get("force")
     row = dict(zip(COLUMNS, key))
-    row.update(unknowns=found.get("unknowns", ""), cpu_s=f"{cpu:.2f}", memory_MB=f"{memory:.0f}")
+    row.update(unknowns=found.get("unknowns", ""), cpu_s=f"{cpu:.3f}", memory_MB=f"{memory:.0f}")
     row.update(words=found.get("words", "").replace(",", ";"))
     if force is not None:
         row.update(force_N=f"{force:.5g}", error_percent=f"{100 * (force / REFERENCE[scene] - 1):+.3f}")
