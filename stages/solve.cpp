@@ -103,8 +103,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   const Mesh mesh = job.has("mesh") ? read_mesh(job.input("mesh")).mesh : mesh_in(config, job.where);
   refuse_bad(mesh, job.has("mesh") ? job.input("mesh") : "");
   const Scene whole = make_scene(config, mesh, material, job.where);
-  const bool fibrous = std::any_of(whole.materials.begin(), whole.materials.end(), [](const Material& m) { return !m.fibres.empty(); });
-  const FibreJump jump = fibrous ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
+  const FibreJump jump = whole.has_fibres() ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);

@@ -8,6 +8,16 @@
 
 namespace langer {
 
+namespace {
+
+bool has_fibres(const SolveConfig& config, const std::optional<Material>& material) {
+  const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
+  return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
+                                          [&](const auto& body) { return fibrous(body.second.material); });
+}
+
+}  // namespace
+
 std::optional<double> percent_of(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -26,20 +36,12 @@ const std::vector<AccuracyRung>& accuracy_rungs(bool plain) {
   // h17-4steps, h15-4steps, h12-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and half as much again
   // for scenes unlike them. Shorter increments cost more and are no nearer: what cells add, longer increments take away
   static const std::vector<AccuracyRung> others{{CellType::hex8, 0.175, 0.25, 3.2},
-                                                  {CellType::hex8, 0.15, 0.25, 2.2},
-                                                  {CellType::hex8, 0.125, 0.25, 1.4},
-                                                  {CellType::hex8, 0.1, 0.25, 0.8},
-                                                  {CellType::hex8, 0.0884, 0.25, 0.7}};
+                                                {CellType::hex8, 0.15, 0.25, 2.2},
+                                                {CellType::hex8, 0.125, 0.25, 1.4},
+                                                {CellType::hex8, 0.1, 0.25, 0.8},
+                                                {CellType::hex8, 0.0884, 0.25, 0.7}};
   return plain ? smooth : others;
 }
-
-namespace {
-bool has_fibres(const SolveConfig& config, const std::optional<Material>& material) {
-  const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
-  return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
-                                          [&](const auto& body) { return fibrous(body.second.material); });
-}
-}  // namespace
 
 std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material) {
   if (!config.accuracy && !config.fidelity) return std::nullopt;

@@ -91,6 +91,10 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
 
 }  // namespace
 
+bool Scene::has_fibres() const {
+  return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return !m.fibres.empty(); });
+}
+
 std::vector<Vec3> Scene::fibres_of(const Mesh& mesh, int cell) const {
   if (!fibres.empty()) return fibres[cell];
   return fibre_directions(materials[mesh.body.empty() ? 0 : mesh.body[cell]],

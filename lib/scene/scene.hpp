@@ -23,6 +23,7 @@ struct Scene {
   std::vector<RigidContact> contacts;  // empty: no contact code runs
   std::vector<double> stops;           // values of t where an indenter turns
 
+  bool has_fibres() const;
   std::vector<Vec3> fibres_of(const Mesh& mesh, int cell) const;  // from its field, or its material's angles and its frame
 };
 

@@ -36,9 +36,8 @@ bool stays(const Facets&, const Operation&, const Vec3&) { return false; }
 
 // What of the scene is not its own image; empty where nothing.
 std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, const Scene& scene) {
-  bool any = false;
-  for (const Material& m : scene.materials) any = any || !m.fibres.empty();
-  for (int e = 0; e < mesh.n_cells() && any; ++e) {
+  const bool fibrous = scene.has_fibres();
+  for (int e = 0; e < mesh.n_cells() && fibrous; ++e) {
     const auto a = scene.fibres_of(mesh, e), b = scene.fibres_of(mesh, g.cell[e]);
     for (std::size_t k = 0; k < a.size(); ++k)
       if (const Vec3 turned = op.signs.cwiseProduct(a[k]); std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
