@@ -84,6 +84,7 @@ expect_equal("${parts}" "" "unfinished files")
 # make: the step that fails says so, the results of the others stay, and the next run is complete
 file(SHA256 ${folder}/fit/material.h5 sum)
 string(REPLACE "${row}" "\n0.30,nan" bad "${good}")
+wait_a_tick()
 file(WRITE ${curve} "${bad}")
 run(2 make -k -j2 -C .)
 expect_said(".csv:")

@@ -18,8 +18,8 @@ file(REMOVE ${WORK}/project/${run}/table/sweep.h5)
 expect_pending("after a result was deleted" report/report.html table/sweep.h5)
 run(0 make -j2 -C ${run})
 
-file(APPEND ${WORK}/project/configs/solve/smoke.yaml "\n# a comment\n")
-file(APPEND ${WORK}/project/pipelines/smoke.yaml "\n# a comment\n")
+add_to(${WORK}/project/configs/solve/smoke.yaml "\n# a comment\n")
+add_to(${WORK}/project/pipelines/smoke.yaml "\n# a comment\n")
 expect_pending("after comments")
 
 edit(${WORK}/project/configs/post/smoke.yaml "snapshots: [last]" "snapshots: [last, 1]")
@@ -40,7 +40,7 @@ expect_pending("after a new material" alpha_000/post/curves.h5 alpha_000/solve/s
 run(0 make -j2 -C ${run})
 
 file(GLOB curve ${WORK}/project/data/abdomen*.csv)
-file(APPEND ${curve} "# one more remark\n")
+add_to(${curve} "# one more remark\n")
 expect_pending("after a change of the data" fit/material.h5 report/report.html sensitivity/sensitivity.h5)
 run(0 make -j2 -C ${run})
 
@@ -48,6 +48,7 @@ run(0 make -j2 -C ${run})
 file(MAKE_DIRECTORY ${WORK}/bin)
 file(GLOB programs ${BIN}/langer-*)
 file(COPY ${programs} DESTINATION ${WORK}/bin NO_SOURCE_PERMISSIONS FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+wait_a_tick()
 file(TOUCH ${WORK}/bin/langer-post)
 run(0 make -q -C ${run} BIN=${WORK}/bin)
 run(1 make -q -C ${run} BIN=${WORK}/bin STRICT=1)

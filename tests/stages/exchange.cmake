@@ -35,7 +35,7 @@ file(WRITE ${WORK}/project/p.yaml "pipeline: p\nnodes:\n  mesh: {stage: mesh, co
 run(0 ${BIN}/langer-plan p.yaml)
 run(0 make -C runs/p)
 run(0 make -q -C runs/p)
-file(APPEND ${WORK}/project/mesh.inp "*NSET, NSET=new\n1\n")
+add_to(${WORK}/project/mesh.inp "*NSET, NSET=new\n1\n")
 run(1 make -q -C runs/p)
 
 find_program(CCX ccx)

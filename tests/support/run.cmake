@@ -31,7 +31,19 @@ macro(copy_project)
   file(COPY ${ROOT}/configs ${ROOT}/pipelines ${ROOT}/data DESTINATION ${WORK}/project)
 endmacro()
 
+# Times of files are those of the last tick of a clock, every 10 ms at worst; what changes within the tick in which something was made
+# from it does not pass for newer.
+macro(wait_a_tick)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 0.05)
+endmacro()
+
+macro(add_to file text)
+  wait_a_tick()
+  file(APPEND "${file}" "${text}")
+endmacro()
+
 macro(edit file from to)
+  wait_a_tick()
   file(READ ${file} before)
   string(REPLACE "${from}" "${to}" after "${before}")
   if(before STREQUAL after)
