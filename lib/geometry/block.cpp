@@ -21,6 +21,7 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
       lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.block.centre.edge");
     else
       lines[i] = even_lines(low, high, n);
+    if (b.instead) lines[i] = resampled(lines[i], (*b.instead)[i]);
     std::vector<Demand> demands;
     for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
     const std::string axis(1, "xyz"[i]);

@@ -31,6 +31,7 @@ struct Block {
   std::array<int, 3> divisions{1, 1, 1};
   std::optional<TowardsCentre> centre;
   std::optional<TowardsTop> top;
+  std::optional<std::array<int, 3>> instead;  // of `divisions`, graded as they are; not for files
   static void fields(auto& v) {
     v(&Block::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -91,6 +92,7 @@ struct IndentedBlock {
   static constexpr const char* key = "indented_block";
   std::array<double, 3> origin{}, size{};
   double radius = 0, depth = 0, edge = 0.175;
+  double longer = 1;  // all cells by this factor, as nearly as their numbers allow; not for files
   static void fields(auto& v) {
     v(&IndentedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -122,6 +124,7 @@ struct FromFile {
 using Geometry = std::variant<Block, GradedBlock, IndentedBlock, FromFile, SectionBox, IndentedDisc>;
 bool is_section(const Geometry& geometry);
 double* edge_in_contact_radii(Geometry& geometry);  // of the kinds that one number scales, else nullptr
+double* longer_cells(Geometry& geometry);           // of the same kinds
 inline bool has_edge_in_contact_radii(Geometry geometry) { return edge_in_contact_radii(geometry); }
 Box box(const Geometry& geometry);  // what it spans; of a file, not read yet, nothing
 using Points = std::map<std::string, Vec3>;

@@ -92,6 +92,12 @@ double* edge_in_contact_radii(Geometry& geometry) {
   return nullptr;
 }
 
+double* longer_cells(Geometry& geometry) {
+  if (auto* block = std::get_if<IndentedBlock>(&geometry)) return &block->longer;
+  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) return &disc->longer;
+  return nullptr;
+}
+
 std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }
 
 }  // namespace langer

@@ -88,6 +88,22 @@ std::vector<double> lines_to_top(double low, double high, int n, double edge, co
   return lines;
 }
 
+std::vector<double> resampled(const std::vector<double>& lines, int n) {
+  const int most = static_cast<int>(lines.size()) - 2;  // the last cell
+  const auto length = [&](int i) { return lines[static_cast<std::size_t>(i) + 1] - lines[static_cast<std::size_t>(i)]; };
+  std::vector<double> found{lines.front()};
+  for (int j = 1; j < n; ++j) {
+    const double s = (most + 1.0) * j / n;
+    const int cell = std::min(static_cast<int>(s), most), before = std::max(cell - 1, 0), after = std::min(cell + 1, most);
+    // within the cell lengths grow as from the one before to the one after: of cells that grow by one factor, exactly so
+    const double growth = after == before ? 0 : std::log(length(after) / length(before)) / (after - before);
+    const double part = std::abs(growth) < 1e-9 ? s - cell : std::expm1(growth * (s - cell)) / std::expm1(growth);
+    found.push_back(lines[static_cast<std::size_t>(cell)] + part * length(cell));
+  }
+  found.push_back(lines.back());
+  return found;
+}
+
 Moved through(const std::vector<double>& lines, std::vector<Demand> demands, const std::string& axis, const std::string& key) {
   const int n = static_cast<int>(lines.size()) - 1;
   const double tolerance = 1e-12 * (lines.back() - lines.front());

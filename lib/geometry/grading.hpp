@@ -1,6 +1,7 @@
 // Grid lines along one axis of a block.
 //   even        n cells of equal length
 //   refined     cells near one end (or around the centre) have a given edge; the others grow geometrically so that n fit
+//   resampled   more or fewer cells, graded in the same way
 //   through     moves lines so that demanded coordinates are hit, the lines between two of them in proportion
 // Lengths in mm. Throws Failure(config) with the key where the numbers contradict each other.
 #pragma once
@@ -29,6 +30,9 @@ std::vector<double> lines_to_centre(double low, double high, int n, double edge,
 
 // the uppermost cell is `edge` long
 std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key);
+
+// n other cells over the same length, whose lengths change with the place as those of `lines` do, all by one factor
+std::vector<double> resampled(const std::vector<double>& lines, int n);
 
 struct Moved {
   std::vector<double> lines;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,25 @@ int needed_cells(double rest, double cell) {
   for (double step = 2.5 * cell; rest > 1e-9 * cell && n < 1000; step *= 2.5) rest -= step, ++n;
   return n;
 }
+
+// n[i] / factor for a factor near `wanted` by which all three can be divided best; fewer than n of at least one
+std::array<int, 3> divided(const std::array<int, 3>& n, double wanted) {
+  std::array<int, 3> best = n;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k : n)
+    for (double to : {std::floor(k / wanted), std::ceil(k / wanted)}) {
+      if (to < 1) continue;
+      const double factor = k / to;
+      double off = 0.7 * std::abs(std::log(factor / wanted));
+      std::array<int, 3> counts{};
+      for (int i = 0; i < 3; ++i) {
+        counts[i] = std::max(1, bounded(std::round(n[i] / factor)));
+        off = std::max(off, std::abs(std::log(n[i] / (counts[i] * factor))));
+      }
+      if (counts != n && off < least) least = off, best = counts;
+    }
+  return best;
+}
 }  // namespace
 
 double IndentedBlock::contact_radius() const {
@@ -43,6 +63,10 @@ Block IndentedBlock::block() const {
   b.centre = TowardsCentre{std::min(cell, std::min(size[0] / b.divisions[0], size[2] / b.divisions[2])), covered * a};
   b.divisions[1] = std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3), 1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
   b.top = TowardsTop{std::min(1.6 * cell, size[1] / b.divisions[1])};
+  if (longer != 1) {
+    const std::array<int, 3> n = divided({b.divisions[0] / 2, b.divisions[1], b.divisions[2] / 2}, longer);
+    b.instead = {2 * n[0], n[1], 2 * n[2]};
+  }
   return b;
 }
 

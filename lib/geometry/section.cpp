@@ -36,6 +36,7 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   } else {
     lines = even_lines(low, high, n);
   }
+  if (b.instead) lines = resampled(lines, (*b.instead)[axis]);
   std::vector<Demand> demands;
   for (const auto& [name, x] : points) demands.push_back({x[axis], "points." + name});
   const std::string name(1, "xy"[axis]);
@@ -85,9 +86,11 @@ std::vector<Complaint> SectionBox::complaints() const {
 }
 
 SectionBox IndentedDisc::section() const {
-  const IndentedBlock whole{{-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge};
+  const IndentedBlock whole{{-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer};
   const Block b = whole.block();
-  return {SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}};
+  SectionBox half{SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}, {}};
+  if (b.instead) half.instead = {(*b.instead)[0] / 2, (*b.instead)[1]};
+  return half;
 }
 
 std::vector<Complaint> IndentedDisc::complaints() const {

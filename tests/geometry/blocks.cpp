@@ -80,6 +80,32 @@ TEST_CASE("a block has the cells it was asked for") {
   CHECK(ring.mesh.n_cells() == 5 * (8 * 8 + 4 * 8 * (5 + 3 + 6)));
 }
 
+TEST_CASE("longer cells of an indented block are fewer by one factor along all axes, as nearly as whole numbers are") {
+  const double wide[]{30, 24}, thick[]{4, 2.3};
+  for (double width : wide)
+    for (double thickness : thick)
+      for (double edge : {0.18, 0.15, 0.125, 0.1, 0.0707}) {
+        CAPTURE(edge);
+        IndentedBlock block{{-15, 0, -12}, {30, thickness, width}, 2.5, 1, edge};
+        const auto n = block.block().divisions;
+        CHECK(!block.block().instead);
+        double last = 1;
+        for (double longer : {1.25, 1.5}) {
+          CAPTURE(longer);
+          block.longer = longer;
+          const Block other = block.block();
+          REQUIRE(other.instead);
+          CHECK(other.divisions == n);
+          const auto factor = [&](int axis) { return 1.0 * n[axis] / (*other.instead)[axis]; };
+          const double mean = std::cbrt(factor(0) * factor(1) * factor(2));
+          CHECK(mean > 1.05 * last);
+          CHECK(std::abs(mean / longer - 1) < 0.15);
+          for (int axis : {0, 1, 2}) CHECK(std::abs(factor(axis) / mean - 1) < 0.06);
+          last = mean;
+        }
+      }
+}
+
 TEST_CASE("observation points are nodes, to the last digit") {
   for (const char* name : {"indentation", "indentation_hex27", "brick_regular", "brick_graded", "smoke"}) {
     CAPTURE(std::string(name));

@@ -60,6 +60,28 @@ TEST_CASE("refinements that cannot fit are refused with both numbers") {
   CHECK(refusal([] { refined(15, 11, 15.0 / 11, 0, "edge"); }) == "");  // even cells are the limit
 }
 
+TEST_CASE("lines in another number are graded alike: exactly where cells are even or grow by one factor") {
+  for (int n : {3, 7, 12, 15, 24}) {
+    const auto s = steps(resampled(even_lines(0, 6, 12), n));
+    for (double step : s) CHECK(step == doctest::Approx(6.0 / n).epsilon(1e-12));
+  }
+  std::vector<double> growing{0};
+  for (int i = 0; i < 12; ++i) growing.push_back(growing.back() + std::pow(1.3, i));
+  for (int n : {3, 4, 6, 8, 18, 24}) {
+    const auto s = steps(resampled(growing, n));
+    REQUIRE(s.size() == static_cast<std::size_t>(n));
+    for (int i = 1; i < n; ++i) CHECK(s[i] / s[i - 1] == doctest::Approx(std::pow(1.3, 12.0 / n)).epsilon(1e-9));
+  }
+  const auto graded = lines_to_centre(-15, 15, 22, 0.36, 2.2, "edge");
+  const auto same = resampled(graded, 22), twice = resampled(graded, 44), odd = resampled(graded, 17);
+  for (int i = 0; i <= 22; ++i) {
+    CHECK(same[i] == doctest::Approx(graded[i]).epsilon(1e-12));
+    CHECK(twice[2 * i] == doctest::Approx(graded[i]).epsilon(1e-12));
+  }
+  for (int i = 0; i <= 17; ++i) CHECK(odd[i] == doctest::Approx(-odd[17 - i]).epsilon(1e-12));
+  for (double step : steps(odd)) CHECK(step > 0);
+}
+
 TEST_CASE("lines moved through points hit them, stay in order and stay mirror images") {
   const auto lines = lines_to_centre(-15, 15, 22, 0.36, 2.2, "edge");
   const Moved moved = through(lines, {{4, "A"}, {-4, "C"}, {0, "M"}, {0, "B"}}, "x", "divisions");
