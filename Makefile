@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-peers ladder trade accuracy paper install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-peers ladder trade accuracy estimates paper install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -168,6 +168,12 @@ accuracy:
 	@awk -v what=accuracy -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/accuracy/$(s)_table/table.csv) > runs/accuracy/table.md
 	@tests/soak/page docs/trade.md accuracy runs/accuracy/table.md; tail -2 runs/accuracy/table.md
 
+# are errors as large as their estimates say, on the ladder of `make trade`
+estimates:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/estimates.yaml
+	@awk -v what=estimates -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/estimates/$(s)_table/table.csv) > runs/estimates/table.md
+	@tests/soak/page docs/trade.md estimates runs/estimates/table.md; tail -1 runs/estimates/table.md
+
 clean:
 	rm -rf $(build)
 
@@ -191,6 +197,7 @@ help:
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
 	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
+	@echo "make estimates                estimated errors against true ones, on the ladder of make trade"
 	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package"

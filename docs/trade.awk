@@ -1,8 +1,13 @@
 # Tables of docs/trade.md.   awk -v what=front -f docs/trade.awk runs/trade/<scene>/trade.csv
 #   front     rungs on the front of the force, by cost
 #   rungs     one line per rung: errors of the force in all scenes given, seconds and memory of the last one
+#   estimates  estimated errors against true ones, of runs/estimates/<scene>_table/table.csv
 #   accuracy  asked against a finer mesh's limit, of runs/accuracy/<law>_table/table.csv
 BEGIN { FS = "," }
+BEGIN {  # fitted limits of make trade, and how far they may be off in %
+  right["isotropic"] = 10.763; right["table1"] = 9.362; right["positive"] = 12.670
+  open["isotropic"] = 0.03; open["table1"] = 0.06; open["positive"] = 0.06
+}
 FNR == 1 { ++file; delete head; for (i = 1; i <= NF; ++i) head[$i] = i; next }
 what == "front" && $head["force_front"] == 1 {
   row[++n] = sprintf("| %s | %.2g | %.2g | %.2g | %.0f |", $1, $head["force_error_percent"], $head["cpu_s"], $head["wall_s"], $head["memory_MB"])
@@ -16,6 +21,21 @@ what == "accuracy" {
   if ($1 == "asked") { asked[$2] = $head["force_N"]; said[$2] = $head["force_error_N"]; limit[$2] = $head["force_limit_N"] }
   else { fine[$2] = $head["force_limit_N"]; unsure[$2] = $head["force_error_N"] }
   if (!($2 in seen)) { order[++n] = $2; seen[$2] = FILENAME }
+}
+what == "estimates" {
+  scene = FILENAME; sub(/_table\/table.csv$/, "", scene); sub(/.*\//, "", scene)
+  column = "increments" in head ? scene " " $head["increments"] : scene
+  if (!($1 in at)) { order[++n] = $1; at[$1] = n }
+  if (!(column in seen)) { columns[++m] = column; seen[column] = 1 }
+  off = 100 * ($head["force_N"] / right[scene] - 1); est = 100 * $head["force_error_N"] / $head["force_N"]
+  cell[$1, column] = sprintf("%+.2f, %.2g", off, est)
+  size = off < 0 ? -off : off
+  if (size > open[scene]) {
+    kind = substr($1, 1, 1) == "h" ? "hex8" : "hex27"
+    ++cases; ++cases_of[kind]
+    if (est < 3 * size && est > size / 3) { ++good; ++good_of[kind] }
+    else if (est < size) ++low
+  }
 }
 END {
   if (what == "front") {
@@ -33,6 +53,18 @@ END {
       for (f = 1; f <= files; ++f) line = line sprintf(" %.2g, %.2g |", error[order[k], f], cpu[order[k], f])
       print line
     }
+  }
+  if (what == "estimates") {
+    line = "| rung |"; rule = "| --- |"
+    for (k = 1; k <= m; ++k) { line = line " " columns[k] " |"; rule = rule " --- |" }
+    print line "\n" rule
+    for (k = 1; k <= n; ++k) {
+      line = "| " order[k] " |"
+      for (j = 1; j <= m; ++j) line = line " " cell[order[k], columns[j]] " |"
+      print line
+    }
+    printf "\nOf %d errors that are larger than what the limits leave open, the estimate is within a factor of three in %d (%.0f %%; ", cases, good, 100 * good / cases
+    printf "hex8 %d of %d, hex27 %d of %d), below a third in %d.\n", good_of["hex8"], cases_of["hex8"], good_of["hex27"], cases_of["hex27"], low
   }
   if (what == "accuracy") {
     print "| scene | law | force N, finer mesh | its own +- % | asked for 1 %: off by % | estimated +- % | limit: off by % |\n| --- | --- | --- | --- | --- | --- | --- |"

@@ -121,7 +121,9 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   StaticsOptions options;
   options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);
-  if (job.dry_run) return dry_run(config, scene, body, statics, job.quiet);
+  if (job.dry_run)
+    return dry_run(config, scene, body, statics, config.estimate == EstimateBy::second_rung ? estimate_seconds(config, material, job.where) : 0,
+                   job.quiet);
   need_memory(statics, config.threads);
   SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, job.identity));
   Progress progress(job.quiet, job.verbose, body, scene);

@@ -40,7 +40,8 @@ void need_memory(const Statics& statics, int threads) {
                                     "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, bool quiet) {
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,
+                             bool quiet) {
   const double free = std::min(free_memory(), free_address());
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, newton && newton->reuse_tangent);
@@ -66,6 +67,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                                f.size.factor_bytes > free ? ": this will not fit" : ""));
     line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}",
                              duration(f.seconds()), f.per_iteration(), f.assembly, f.factor, f.solving));
+    if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration(estimate)));
   }
   return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},
           {"cells", static_cast<double>(body.mesh().n_cells()), "-"},
@@ -73,7 +75,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
           {"iterations", std::round(f.iterations), "-"},
           {"memory", 1e-6 * f.bytes, "MB"},
           {"memory_free", 1e-6 * free, "MB"},
-          {"cpu", f.seconds(), "s"},
+          {"cpu", f.seconds() + estimate, "s"},
           {"cpu_iteration", f.per_iteration(), "s"}};
 }
 

@@ -14,6 +14,8 @@ namespace langer {
 void need_memory(const Statics& statics, int threads);
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, bool quiet);
+// estimate: seconds that the estimate of its errors takes, 0 where none is wanted
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,
+                             bool quiet);
 
 }  // namespace langer

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "assembly/equilibrium.hpp"
 #include "post/fields.hpp"
@@ -12,6 +14,7 @@
 #include "scene/make_mesh.hpp"
 #include "scene/step_record.hpp"
 #include "scene/symmetry.hpp"
+#include "solve/forecast.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "tensor/stress.hpp"
@@ -20,26 +23,117 @@ namespace langer {
 
 namespace {
 
-constexpr double ratio = 1.4142135623730951;
+constexpr double fine_enough = 0.18;  // distance of nodes in contact radii up to which errors follow the law (pipelines/estimates.yaml)
+constexpr double finest = 0.125;     // of the meshes for coarser ones
+constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
+using Find = std::function<Place(const std::string&)>;
 
 void set_increment(LoadPathOptions& path, double increment) {
   path.steps.reset();
   path.first = path.largest = increment;
 }
 
-struct Fitted {
-  double cells;    // A h^p of the finest
-  double scatter;  // root mean square of what is left
+double cells_along(const Geometry& geometry) {
+  if (const auto* disc = std::get_if<IndentedDisc>(&geometry)) {
+    const SectionBox section = disc->section();
+    const auto n = section.instead.value_or(section.divisions);
+    return std::sqrt(1.0 * n[0] * n[1]);
+  }
+  const Block block = std::get<IndentedBlock>(geometry).block();
+  const auto n = block.instead.value_or(block.divisions);
+  return std::cbrt(1.0 * n[0] * n[1] * n[2]);
+}
+
+// one scene on meshes whose cells differ by one factor everywhere
+struct Family {
+  std::vector<double> length;  // of cells, in those of the first
+  std::vector<std::vector<Valued>> found;
+
+  std::optional<double> of(std::size_t mesh, const std::string& name) const {
+    for (const Valued& v : found[mesh])
+      if (v.name == name) return v.value;
+    return std::nullopt;
+  }
 };
-// of values on cells of h, ratio h and ratio^2 h, weighted 4, 2, 1
-Fitted fit(const Vec3& values, double order) {
-  const double falls = std::pow(ratio, order);
-  const Vec3 x(1, falls, falls * falls), w = Vec3(4, 2, 1) / 7;
-  const double x_mean = w.dot(x), mean = w.dot(values);
-  const Vec3 dx = x.array() - x_mean, dv = values.array() - mean;
-  const double A = w.dot(dx.cwiseProduct(dv)) / w.dot(dx.cwiseProduct(dx));
-  const Vec3 left = dv - A * dx;
-  return {A, std::sqrt(w.dot(left.cwiseProduct(left)))};
+
+struct Limit {
+  double value;
+  double scatter;  // root mean square of what the fit leaves
+};
+// f of q = f + A length^order, weights falling with the square of the length
+std::optional<Limit> limit_of(const Family& family, const std::string& name, double order) {
+  const auto n = static_cast<Eigen::Index>(family.length.size());
+  VecX w(n), x(n), q(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto mesh = static_cast<std::size_t>(i);
+    const std::optional<double> value = family.of(mesh, name);
+    if (!value) return std::nullopt;
+    w[i] = std::pow(family.length[mesh], -2), x[i] = std::pow(family.length[mesh], order), q[i] = *value;
+  }
+  w /= w.sum();
+  const double x_mean = w.dot(x), q_mean = w.dot(q);
+  const VecX dx = x.array() - x_mean, dq = q.array() - q_mean;
+  const double A = w.dot(dx.cwiseProduct(dq)) / w.dot(dx.cwiseProduct(dx));
+  const VecX left = dq - A * dx;
+  return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
+}
+
+// what an estimate solves
+struct SecondRungs {
+  std::vector<SolveConfig> hex8, hex27;  // without what is known
+  std::vector<double> length;            // of the hex8 meshes' cells, `own` included
+  bool own = false;                      // the solved mesh is the finest of its family
+  SolveConfig other_increments;
+  double per_change = 0;  // error of the increments per what these change; 0: none, the path does not matter
+};
+
+SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
+  if (!config.mesh || !has_edge_in_contact_radii(config.mesh->geometry))
+    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block or indented_disc of this config", "", ""});
+  SecondRungs rungs;
+  SolveConfig other = config;
+  Geometry& geometry = other.mesh->geometry;
+  const double edge = *edge_in_contact_radii(geometry);
+  const bool quadratic = config.mesh->cells == CellType::hex27;
+  const bool locks = config.formulation == Formulation::displacement;  // and with it its limit on such cells
+  rungs.own = !quadratic && !locks && edge <= fine_enough;
+  if (!rungs.own) {
+    other.mesh->cells = CellType::hex8;
+    other.formulation.reset();
+    *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * edge : edge, finest);
+    rungs.hex8.push_back(other);
+  }
+  rungs.length = {1};
+  const double cells = cells_along(geometry);
+  for (double factor : longer) {
+    *longer_cells(geometry) = factor;
+    rungs.length.push_back(cells / cells_along(geometry));
+    rungs.hex8.push_back(other);
+  }
+  if (has_friction(config)) {
+    const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
+    rungs.per_change = increment > 0.5 ? -1 : 1.0 / 3;
+    set_increment(other.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
+    rungs.other_increments = other;
+  }
+  for (double factor : hex27_longer) {
+    if (!quadratic) continue;
+    rungs.hex27.push_back(config);
+    *edge_in_contact_radii(rungs.hex27.back().mesh->geometry) = factor * edge;
+  }
+  return rungs;
+}
+
+// act(mesh, scene, what symmetry leaves, equilibrium, statics) of a config that holds its mesh
+auto with_scene(const SolveConfig& config, const std::optional<Material>& material, const Find& where, auto act) {
+  const Mesh mesh = make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
+  const Scene whole = make_scene(config, mesh, material, where);
+  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
+  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
+  StaticsOptions options;
+  options.threads = config.blas_threads;
+  Statics statics(body, (part ? part->scene() : whole).contacts, options);
+  return act(mesh, whole, part, body, statics);
 }
 
 Body body_of(const Scene& scene, const Mesh& mesh) {
@@ -50,32 +144,26 @@ Body body_of(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
-                                const std::function<Place(const std::string&)>& where) {
-  const Mesh mesh = make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
-  const Scene whole = make_scene(config, mesh, material, where);
-  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
-  const Scene& scene = part ? part->scene() : whole;
-  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
-  StaticsOptions options;
-  options.threads = config.blas_threads;
-  Statics statics(body, scene.contacts, options);
-  StepRecord last;
-  const PathReport path = load_path(
-      config.path, 0, std::nullopt, scene.stops,
-      [&](double t) {
-        statics.begin(t);
-        return equilibrium_by(config.solver, statics.problem(), statics.trial());
-      },
-      [&](double t, double taken, double next, const SolveReport& report) {
-        statics.accept();
-        if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
-        return true;
-      });
-  if (!path.complete)
-    throw Failure(Exit::not_converged,
-                  Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
-  return valued(whole, mesh, part ? part->whole(last) : last);
+std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
+  return with_scene(config, material, where, [&](const Mesh& mesh, const Scene& whole, const std::optional<ReducedScene>& part,
+                                                 Equilibrium& body, Statics& statics) {
+    StepRecord last;
+    const PathReport path = load_path(
+        config.path, 0, std::nullopt, whole.stops,
+        [&](double t) {
+          statics.begin(t);
+          return equilibrium_by(config.solver, statics.problem(), statics.trial());
+        },
+        [&](double t, double taken, double next, const SolveReport& report) {
+          statics.accept();
+          if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
+          return true;
+        });
+    if (!path.complete)
+      throw Failure(Exit::not_converged,
+                    Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
+    return valued(whole, mesh, part ? part->whole(last) : last);
+  });
 }
 
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
@@ -102,38 +190,42 @@ std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh
   return estimates;
 }
 
-std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
-                                           const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
-                                           double residual) {
-  if (!config.mesh || !has_edge_in_contact_radii(config.mesh->geometry))
-    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block or indented_disc of this config", "", ""});
-  const auto on_cells = [&](double longer) {
-    SolveConfig coarser = config;
-    *edge_in_contact_radii(coarser.mesh->geometry) *= longer;
-    return coarser;
+std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
+                                           const std::vector<Valued>& found, double residual) {
+  const SecondRungs rungs = second_rungs(config, where);
+  const auto solved = [&](const std::vector<SolveConfig>& scenes, Family family) {
+    for (const SolveConfig& scene : scenes) family.found.push_back(end_of_path(scene, material, where));
+    return family;
   };
-  SolveConfig coarser = on_cells(ratio);
-  const std::vector<Valued> coarse = end_of_path(coarser, material, where);
-  const std::vector<Valued> coarsest = end_of_path(on_cells(ratio * ratio), material, where);
-  std::vector<Valued> path = coarse;
-  double per_change = 0;
-  if (has_friction(config)) {
-    const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
-    per_change = increment > 0.5 ? -1 : 1.0 / 3;
-    set_increment(coarser.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
-    path = end_of_path(coarser, material, where);
-  }
+  const std::vector<std::vector<Valued>> itself{found}, nothing;
+  const Family family = solved(rungs.hex8, {rungs.length, rungs.own ? itself : nothing});
+  // stresses and what lies far from the contact are those of the cells: meshes of the same kind
+  const Family alike = rungs.hex27.empty() ? family : solved(rungs.hex27, {{1, hex27_longer[0], hex27_longer[1]}, itself});
+  const Family path = rungs.per_change == 0 ? Family{} : solved({rungs.other_increments}, {{}, {family.found.back()}});
+
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
-    const auto in = [&](const std::vector<Valued>& other) {
-      return std::find_if(other.begin(), other.end(), [&](const Valued& v) { return v.name == q.name; });
-    };
-    const auto at = in(coarse), before = in(coarsest), along = in(path);
-    if (at == coarse.end() || before == coarsest.end() || along == path.end()) continue;
-    const Fitted fitted = fit({q.value, at->value, before->value}, q.name == "von_mises_max" ? 1 : 2);
-    estimates.push_back({q, fitted.cells, per_change * (along->value - at->value), fitted.scatter, residual * std::abs(q.value)});
+    const auto limit = q.name == "force" ? limit_of(family, q.name, 2) : limit_of(alike, q.name, q.name == "von_mises_max" ? 1 : 2);
+    if (!limit) continue;
+    double increments = 0;
+    if (!path.found.empty()) increments = rungs.per_change * (path.of(1, q.name).value_or(0) - path.of(0, q.name).value_or(0));
+    estimates.push_back({q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value)});
   }
   return estimates;
+}
+
+double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
+  const SecondRungs rungs = second_rungs(config, where);
+  const auto seconds = [&](const SolveConfig& scene) {
+    return with_scene(scene, material, where, [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
+      const auto* newton = std::get_if<NewtonOptions>(&scene.solver);
+      return forecast(body, statics.linear(), scene.path, whole.stops, newton && newton->reuse_tangent).seconds();
+    });
+  };
+  double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);
+  for (const auto* scenes : {&rungs.hex8, &rungs.hex27})
+    for (const SolveConfig& scene : *scenes) sum += seconds(scene);
+  return sum;
 }
 
 }  // namespace langer

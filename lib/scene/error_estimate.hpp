@@ -1,9 +1,15 @@
-// What a result is worth: the scene is solved again on cells longer by sqrt 2 and by 2, and on the former in increments of another
-// length. Errors have a sign: what is found lies above its limit by
-//   cells       A h^p of q = f + A h^p, fitted to the three meshes (weights 4, 2, 1); p = 2, for the greatest stress p = 1
-//   increments  (q(2 dt) - q(dt)) / 3, of second order (Statics::slip_from_touch); nothing where no friction makes the path matter.
-//               Of a single increment: what halving it changes
-//   scatter     root mean square of what the fit leaves: nodes come to the rim of a contact and go
+// What a result is worth: the scene is solved again on other meshes, all of whose cells differ by one factor (Block::instead), and q is
+// set against f of q = f + A h^p fitted to them; p = 2, for the greatest stress p = 1. Only where all cells grow alike does an error
+// follow such a law: layers and cells to the side have errors of opposite signs.
+//   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
+//               radii, which is too coarse for the law, hex8 of 0.125 and by as much longer, whatever that costs
+//   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
+//               hex27 longer by sqrt 2 and by 2
+// Errors have a sign: what is found lies above its limit by
+//   cells       q - f
+//   increments  (q(2 dt) - q(dt)) / 3, of second order (Statics::slip_from_touch), on the longest of these cells; nothing where no
+//               friction makes the path matter. Of a single increment: what halving it changes
+//   scatter     root mean square of what the fit leaves
 //   solver      the last residual relative to the forces that it balances
 //   total       |cells + increments| + scatter + solver;   limit   found - cells - increments
 // For meshes of the kind indented_block, whose cells one number scales.
@@ -51,5 +57,8 @@ std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
                                            const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
                                            double residual);
+
+// CPU seconds that it will take, about (solve/forecast.hpp)
+double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

@@ -150,8 +150,8 @@ struct SolveConfig {
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
-      "sqrt 2 and by 2, and with friction once more in other increments; wants mesh.geometry.indented_block or indented_disc, and is "
-      "taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
+      "1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
+      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");

@@ -24,6 +24,12 @@ run(0 ${BIN}/langer-post configs/post/force.yaml --solution together.h5 -o curve
 
 run(2 ${BIN}/langer-solve together.yaml --mesh mesh.h5 -o both.h5)
 run(2 ${BIN}/langer-solve apart.yaml -o none.h5)
+run(0 ${BIN}/langer-solve together.yaml --set accuracy=8% --dry-run)
+expect_said("  estimate    about ")
+run(0 ${BIN}/langer-solve together.yaml --dry-run)
+if(said MATCHES "estimate")
+  message(FATAL_ERROR "an estimate is forecast that nobody asked for:\n${said}")
+endif()
 run(0 ${BIN}/langer-solve together.yaml -o good.h5 --set accuracy=8% --set path.first=1 --set path.largest=1)
 expect_said("8 % wanted")
 expect_said("+- ")
