@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-peers ladder trade accuracy estimates paper install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -97,6 +97,12 @@ bench-features:
 	@tests/bench/features/count $(counted)/bin/langer-solve runs/features
 	@tests/soak/page docs/trade.md features runs/features/scenes.md
 	@tests/soak/page docs/trade.md unused runs/features/unused.md
+
+# CPU seconds that --dry-run foretells beside those that it takes, and the table of docs/scenes.md from it; alone on the machine, two minutes
+bench-forecasts: build
+	@mkdir -p runs/forecasts
+	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
+	@tests/soak/page docs/scenes.md forecasts runs/forecasts/table.md
 
 # the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
 # An hour or two. KEEP=1 goes on with what runs/peers/peers.csv has; PEERS_LIMIT: CPU seconds for a run
@@ -193,6 +199,7 @@ help:
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/trade.md from it; part of make bench"
+	@echo "make bench-forecasts          what --dry-run foretells beside what it takes, docs/scenes.md from it"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"

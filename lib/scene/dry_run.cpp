@@ -19,6 +19,7 @@ std::string amount(double bytes) {
 
 std::string duration(double seconds) {
   if (seconds < 1) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
   return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
@@ -44,7 +45,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                              bool quiet) {
   const double free = std::min(free_memory(), free_address());
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
-  const Forecast f = forecast(body, statics.linear(), config.path, scene.stops, newton && newton->reuse_tangent);
+  const Forecast f = forecast(body, statics.linear(), statics.contacts(), config.path, scene.stops, newton && newton->reuse_tangent);
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");
@@ -65,8 +66,9 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                              f.again > 0 ? fmt::format(" and {:.0f} corrections with their tangents", f.again) : ""));
     line("memory", fmt::format("{}; {} are free{}", amount(f.bytes), amount(free),
                                f.size.factor_bytes > free ? ": this will not fit" : ""));
-    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}",
-                             duration(f.seconds()), f.per_iteration(), f.assembly, f.factor, f.solving));
+    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}{}",
+                             duration(f.seconds()), f.per_iteration() + f.contact, f.assembly, f.factor, f.solving,
+                             f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
     if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration(estimate)));
   }
   return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},

@@ -219,7 +219,7 @@ double estimate_seconds(const SolveConfig& config, const std::optional<Material>
   const auto seconds = [&](const SolveConfig& scene) {
     return with_scene(scene, material, where, [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
       const auto* newton = std::get_if<NewtonOptions>(&scene.solver);
-      return forecast(body, statics.linear(), scene.path, whole.stops, newton && newton->reuse_tangent).seconds();
+      return forecast(body, statics.linear(), statics.contacts(), scene.path, whole.stops, newton && newton->reuse_tangent).seconds();
     });
   };
   double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);

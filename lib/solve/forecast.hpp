@@ -3,6 +3,7 @@
 #pragma once
 
 #include "assembly/equilibrium.hpp"
+#include "contact/contact.hpp"
 #include "solve/linear.hpp"
 #include "solve/load_path.hpp"
 
@@ -15,8 +16,10 @@ struct Forecast {
   int steps = 0;                                 // if none is cut back
   double iterations = 0;                         // about; each with a tangent
   double again = 0;                              // corrections with their tangents
+  double contact = 0;                            // CPU seconds per iteration and per correction
+  double files = 0;                              // CPU seconds of start and files, all steps
   double per_iteration() const { return assembly + factor + solving; }
-  double seconds() const { return iterations * per_iteration() + again * (0.4 * assembly + solving); }
+  double seconds() const { return iterations * (per_iteration() + contact) + again * (0.4 * assembly + solving + contact) + files; }
 };
 
 // bytes alone, without timing anything
@@ -24,8 +27,8 @@ double forecast_bytes(const LinearSolver& linear);
 
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
 // reuses: corrections with a tangent that is there already
-Forecast forecast(Equilibrium& body, const LinearSolver& linear, const LoadPathOptions& path, const std::vector<double>& stops,
-                  bool reuses);
+Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
+                  const std::vector<double>& stops, bool reuses);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

@@ -27,7 +27,7 @@ Row indentation(const Material& skin, int nx, int ny) {
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
   scene.before = [&](Equilibrium& body, const LinearSolver& linear, const LoadPathOptions& path) {
-    told = forecast(body, linear, path, {}, false);
+    told = forecast(body, linear, {}, path, {}, false);
   };
   const auto result = scene.run(skin);
   const double n = static_cast<double>(result.cost.factorizations);
