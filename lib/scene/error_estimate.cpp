@@ -23,8 +23,12 @@ namespace langer {
 
 namespace {
 
-constexpr double fine_enough = 0.18;  // distance of nodes in contact radii up to which errors follow the law (pipelines/estimates.yaml)
-constexpr double finest = 0.125;     // of the meshes for coarser ones
+// distances of nodes in contact radii
+struct Lengths {
+  double fine_enough;  // up to which errors follow the law (pipelines/estimates.yaml)
+  double finest;       // of the meshes for coarser ones
+};
+constexpr Lengths of_block{0.18, 0.125}, of_disc{0.07, 0.0442};  // a disc has a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 using Find = std::function<Place(const std::string&)>;
 
@@ -94,13 +98,14 @@ SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;
   const double edge = *edge_in_contact_radii(geometry);
+  const Lengths lengths = is_section(geometry) ? of_disc : of_block;
   const bool quadratic = config.mesh->cells == CellType::hex27;
   const bool locks = config.formulation == Formulation::displacement;  // and with it its limit on such cells
-  rungs.own = !quadratic && !locks && edge <= fine_enough;
+  rungs.own = !quadratic && !locks && edge <= lengths.fine_enough;
   if (!rungs.own) {
     other.mesh->cells = CellType::hex8;
     other.formulation.reset();
-    *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * edge : edge, finest);
+    *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * edge : edge, lengths.finest);
     rungs.hex8.push_back(other);
   }
   rungs.length = {1};

@@ -2,7 +2,8 @@
 // set against f of q = f + A h^p fitted to them; p = 2, for the greatest stress p = 1. Only where all cells grow alike does an error
 // follow such a law: layers and cells to the side have errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
-//               radii, which is too coarse for the law, hex8 of 0.125 and by as much longer, whatever that costs
+//               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much longer, whatever that
+//               costs
 //   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
 //               hex27 longer by sqrt 2 and by 2
 // Errors have a sign: what is found lies above its limit by
