@@ -168,17 +168,11 @@ trade:
 	@awk -v what=rungs -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/rungs.md
 	@tests/soak/page docs/trade.md rungs runs/trade/rungs.md
 
-# does `accuracy: 1%` keep its word on 24 random scenes
-accuracy:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/accuracy.yaml
-	@awk -v what=accuracy -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/accuracy/$(s)_table/table.csv) > runs/accuracy/table.md
-	@tests/soak/page docs/trade.md accuracy runs/accuracy/table.md; tail -2 runs/accuracy/table.md
-
-# are errors as large as their estimates say, on the ladder of `make trade`
-estimates:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/estimates.yaml
-	@awk -v what=estimates -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/estimates/$(s)_table/table.csv) > runs/estimates/table.md
-	@tests/soak/page docs/trade.md estimates runs/estimates/table.md; tail -1 runs/estimates/table.md
+# does `accuracy: 1%` keep its word on 24 random scenes; are errors as large as their estimates say, on the ladder of `make trade`
+accuracy estimates:
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/$@.yaml
+	@awk -v what=$@ -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
+	@tests/soak/page docs/trade.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
 
 clean:
 	rm -rf $(build)

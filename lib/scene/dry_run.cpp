@@ -41,11 +41,15 @@ void need_memory(const Statics& statics, int threads) {
                                     "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
+Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops) {
+  const auto* newton = std::get_if<NewtonOptions>(&config.solver);
+  return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent);
+}
+
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,
                              bool quiet) {
   const double free = std::min(free_memory(), free_address());
-  const auto* newton = std::get_if<NewtonOptions>(&config.solver);
-  const Forecast f = forecast(body, statics.linear(), statics.contacts(), config.path, scene.stops, newton && newton->reuse_tangent);
+  const Forecast f = forecast_of(config, body, statics, scene.stops);
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");

@@ -13,6 +13,9 @@ namespace langer {
 // Throws Failure(config) where the factor of the tangent exceeds the memory that is free or allowed.
 void need_memory(const Statics& statics, int threads);
 
+// solve/forecast.hpp, by the solver and the path of `config`
+Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops);
+
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
 // estimate: seconds that the estimate of its errors takes, 0 where none is wanted
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,

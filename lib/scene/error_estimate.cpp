@@ -10,11 +10,11 @@
 #include "assembly/equilibrium.hpp"
 #include "post/fields.hpp"
 #include "post/recovery.hpp"
+#include "scene/dry_run.hpp"
 #include "scene/equilibrium_by.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/step_record.hpp"
 #include "scene/symmetry.hpp"
-#include "solve/forecast.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "tensor/stress.hpp"
@@ -223,8 +223,7 @@ double estimate_seconds(const SolveConfig& config, const std::optional<Material>
   const SecondRungs rungs = second_rungs(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
     return with_scene(scene, material, where, [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
-      const auto* newton = std::get_if<NewtonOptions>(&scene.solver);
-      return forecast(body, statics.linear(), statics.contacts(), scene.path, whole.stops, newton && newton->reuse_tangent).seconds();
+      return forecast_of(scene, body, statics, whole.stops).seconds();
     });
   };
   double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);

@@ -73,7 +73,8 @@ Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vect
   };
   const auto accepted = [&](double, double taken, double, const SolveReport&) {
     const double decades = std::log10(taken / 0.1);
-    out.iterations += reuses ? std::clamp(2.4 + (friction && decades > 0 ? 3.5 : 1.1) * decades, 1.3, friction ? 4.0 : 2.6) : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0);
+    const double per_decade = friction && decades > 0 ? 3.5 : 1.1;
+    out.iterations += reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6) : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0);
     out.again += reuses ? 7 : 0;
     return true;
   };
