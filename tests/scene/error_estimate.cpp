@@ -44,6 +44,7 @@ TEST_CASE("the estimated error of the force is within a factor of three of the t
   };
   for (const Case& c : {Case{"isotropic", CellType::hex8, 0.35, 10.763}, {"isotropic", CellType::hex8, 0.2, 10.763},
                         {"isotropic", CellType::hex27, 0.6, 10.763}, {"isotropic", CellType::hex27, 0.3536, 10.763},
+                        {"isotropic", CellType::hex27, 0.25, 10.763},
                         {"table1", CellType::hex8, 0.175, 9.362}, {"positive", CellType::hex8, 0.2, 12.67}}) {
     CAPTURE(c.scene);
     CAPTURE(static_cast<int>(c.cells));
@@ -57,7 +58,8 @@ TEST_CASE("the estimated error of the force is within a factor of three of the t
     CHECK(force.total() < 3 * std::abs(error));
     CHECK(force.total() > std::abs(error) / 3);
     CHECK(force.cells * error > 0);
-    CHECK(std::abs(force.limit() - c.right) < std::max(0.003 * c.right, 0.6 * std::abs(error)));
+    const bool longest_of_its_own = c.cells == CellType::hex8 && c.edge == 0.175;  // their limit is no nearer than this
+    CHECK(std::abs(force.limit() - c.right) < (longest_of_its_own ? 0.6 * std::abs(error) : 0.002 * c.right));
     CHECK(force.solver < 1e-7);
     if (!has_friction(config)) CHECK(force.increments == 0);
   }
@@ -82,12 +84,22 @@ TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
   config.formulation = Formulation::displacement;
   const ErrorEstimate force = estimates_of(config)[0];
   CHECK(force.of.value > 2 * 10.763);
-  CHECK(std::abs(force.limit() - 10.763) < 0.003 * 10.763);
+  CHECK(std::abs(force.limit() - 10.763) < 0.002 * 10.763);
 }
 
-TEST_CASE("with friction the increments have an error, without it none") {
+TEST_CASE("two meshes that agree by chance do not pass for right") {
+  const ErrorEstimate force = estimates_of(rung("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
+  CHECK(force.total() > std::abs(force.of.value - 10.763));
+}
+
+TEST_CASE("with friction the increments have an error, which falls with them, without it none") {
+  double last = 1e300;
   for (double step : {1.0, 0.5, 0.25}) {
-    CHECK(estimates_of(rung("table1", CellType::hex8, 0.18, step))[0].increments != 0);
+    const double increments = std::abs(estimates_of(rung("table1", CellType::hex8, 0.15, step))[0].increments);
+    CAPTURE(step);
+    CHECK(increments > 0);
+    CHECK(increments < last);
+    last = increments;
     CHECK(estimates_of(rung("isotropic", CellType::hex8, 0.18, step))[0].increments == 0);
   }
 }
