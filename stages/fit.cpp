@@ -2,10 +2,10 @@
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
 #include "fit/second_answer.hpp"
-#include "scene/cards.hpp"
-#include "scene/fit_report.hpp"
-#include "scene/long_work.hpp"
-#include "scene/study_files.hpp"
+#include "export/cards.hpp"
+#include "study/fit_report.hpp"
+#include "study/long_work.hpp"
+#include "study/study_files.hpp"
 #include "store/curves_file.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"

@@ -1,11 +1,11 @@
 // langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv;
 // figures and maps of all members.
-#include "post/gather.hpp"
-#include "post/gnuplot.hpp"
-#include "scene/design_tables.hpp"
-#include "scene/gather_config.hpp"
-#include "scene/pictures.hpp"
-#include "scene/sweep_file.hpp"
+#include "sweep/gather.hpp"
+#include "plot/gnuplot.hpp"
+#include "sweep/design_tables.hpp"
+#include "sweep/gather_config.hpp"
+#include "plot/pictures.hpp"
+#include "sweep/sweep_file.hpp"
 #include "stage.hpp"
 #include "store/material_file.hpp"
 #include "store/seal.hpp"

@@ -4,10 +4,10 @@
 #include <set>
 
 #include "material/ellipticity.hpp"
-#include "scene/export_scene.hpp"
-#include "scene/pictures.hpp"
-#include "scene/post_config.hpp"
-#include "scene/post_files.hpp"
+#include "export/export_scene.hpp"
+#include "plot/pictures.hpp"
+#include "run/post_config.hpp"
+#include "run/post_files.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
 #include "store/seal.hpp"

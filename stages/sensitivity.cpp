@@ -2,11 +2,11 @@
 //   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
 #include <memory>
 
-#include "scene/long_work.hpp"
-#include "scene/ranking.hpp"
-#include "scene/sensitivity_tables.hpp"
-#include "scene/step_record.hpp"
-#include "scene/study_files.hpp"
+#include "study/long_work.hpp"
+#include "study/ranking.hpp"
+#include "study/sensitivity_tables.hpp"
+#include "run/step_record.hpp"
+#include "study/study_files.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
 

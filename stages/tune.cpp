@@ -2,12 +2,12 @@
 // rung, also as trade.csv; the front of each quantity as picture and CSV; the cheapest rung for each error wanted.
 #include <cmath>
 
-#include "post/gather.hpp"
-#include "post/gnuplot.hpp"
-#include "post/trade.hpp"
-#include "scene/pictures.hpp"
-#include "scene/sweep_file.hpp"
-#include "scene/tune_config.hpp"
+#include "sweep/gather.hpp"
+#include "plot/gnuplot.hpp"
+#include "sweep/trade.hpp"
+#include "plot/pictures.hpp"
+#include "sweep/sweep_file.hpp"
+#include "sweep/tune_config.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {

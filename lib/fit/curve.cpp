@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "fit/csv_table.hpp"
+#include "base/csv_table.hpp"
 
 namespace langer {
 

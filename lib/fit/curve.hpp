@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/csv_table.hpp"
+#include "base/csv_table.hpp"
 #include "material/uniaxial.hpp"
 
 namespace langer {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/csv_table.hpp"
+#include "base/csv_table.hpp"
 #include "fit/curve.hpp"
 #include "material/states.hpp"
 

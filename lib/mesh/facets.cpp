@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 

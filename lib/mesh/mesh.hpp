@@ -1,6 +1,6 @@
 // A mesh with named sets and one orthonormal frame per cell.
 //   X             reference positions [mm], one per node
-//   connectivity  nodes of cell e at [e * nodes_per_cell, ...), in VTK order (element/reference.hpp)
+//   connectivity  nodes of cell e at [e * nodes_per_cell, ...), in VTK order (mesh/reference.hpp)
 //   body          per cell, index into `bodies`
 //   frames        per cell, columns e_x e_y e_z (orthonormal, right-handed); a = cos(alpha) e_x + sin(alpha) e_z   [A23] eq. 1
 //   node_sets     name -> nodes, ascending; observation points are sets of one node

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/select.hpp"
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 
 namespace langer {

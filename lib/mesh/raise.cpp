@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <map>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 

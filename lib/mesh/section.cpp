@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 

@@ -6,13 +6,13 @@
 #include "config/reader.hpp"
 #include "material/material.hpp"
 #include "report/report_config.hpp"
-#include "scene/fit_config.hpp"
-#include "scene/gather_config.hpp"
+#include "study/fit_config.hpp"
+#include "sweep/gather_config.hpp"
 #include "scene/mesh_config.hpp"
-#include "scene/post_config.hpp"
-#include "scene/sensitivity_config.hpp"
+#include "run/post_config.hpp"
+#include "study/sensitivity_config.hpp"
 #include "scene/solve_config.hpp"
-#include "scene/tune_config.hpp"
+#include "sweep/tune_config.hpp"
 
 namespace langer {
 

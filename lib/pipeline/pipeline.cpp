@@ -11,7 +11,7 @@
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
-#include "scene/design.hpp"
+#include "sweep/design.hpp"
 
 namespace langer::pipeline {
 

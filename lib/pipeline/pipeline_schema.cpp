@@ -4,7 +4,7 @@
 
 #include "config/json_schema.hpp"
 #include "pipeline/ports.hpp"
-#include "scene/design.hpp"
+#include "sweep/design.hpp"
 
 namespace langer::pipeline {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "post/curves.hpp"
-#include "post/gnuplot.hpp"
+#include "plot/gnuplot.hpp"
 
 namespace langer {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "post/curves.hpp"
-#include "post/gnuplot.hpp"
+#include "plot/gnuplot.hpp"
 
 namespace langer {
 

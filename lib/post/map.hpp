@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "post/curves.hpp"
-#include "post/drawing.hpp"
+#include "plot/drawing.hpp"
 #include "store/curves_file.hpp"
 
 namespace langer {

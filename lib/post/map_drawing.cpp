@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "post/figure.hpp"
-#include "post/gnuplot.hpp"
+#include "plot/gnuplot.hpp"
 #include "post/map.hpp"
 
 namespace langer {

@@ -12,7 +12,7 @@
 
 #include "mesh/mesh.hpp"
 #include "post/curves.hpp"
-#include "post/drawing.hpp"
+#include "plot/drawing.hpp"
 
 namespace langer {
 

@@ -11,7 +11,7 @@
 #include "post/render.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
-#include "scene/post_files.hpp"
+#include "run/post_files.hpp"
 
 namespace langer::report {
 

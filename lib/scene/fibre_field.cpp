@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "config/formula.hpp"
-#include "fit/csv_table.hpp"
+#include "base/csv_table.hpp"
 #include "mesh/facets.hpp"
 #include "store/h5.hpp"
 

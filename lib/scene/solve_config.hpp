@@ -97,7 +97,7 @@ constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
 constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
 
-// Whether a body that deforms alike everywhere is solved at a point (scene/homogeneous.hpp).
+// Whether a body that deforms alike everywhere is solved at a point (run/homogeneous.hpp).
 enum class Homogeneous { automatic, off };
 constexpr auto names(Homogeneous) { return std::array{"auto", "off"}; }
 
@@ -114,11 +114,11 @@ struct BodyConfig {
   }
 };
 
-// Named points of the measured front of accuracy against cost (scene/accuracy.hpp).
+// Named points of the measured front of accuracy against cost (run/accuracy.hpp).
 enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
-// How the errors of a result are estimated (scene/error_estimate.hpp).
+// How the errors of a result are estimated (run/error_estimate.hpp).
 enum class EstimateBy { none, recovery, second_rung };
 constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "second_rung"}; }
 

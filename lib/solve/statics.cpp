@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/stopwatch.hpp"
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
 #include "solve/free_motions.hpp"
 

@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "base/random.hpp"
-#include "scene/study.hpp"
+#include "study/study.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;

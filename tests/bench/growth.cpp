@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/stopwatch.hpp"
-#include "post/gnuplot.hpp"
+#include "plot/gnuplot.hpp"
 #include "solve/forecast.hpp"
 #include "support/indentation.hpp"
 

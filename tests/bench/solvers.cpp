@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.hpp"
 #include "config/reader.hpp"
-#include "scene/equilibrium_by.hpp"
+#include "run/equilibrium_by.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/scene.hpp"
 #include "scene/symmetry.hpp"

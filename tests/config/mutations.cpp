@@ -20,7 +20,7 @@
 #include "config/reader.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/expand.hpp"
-#include "scene/fit_config.hpp"
+#include "study/fit_config.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/scene.hpp"
 #include "support/slow_build.hpp"

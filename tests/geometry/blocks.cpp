@@ -7,7 +7,7 @@
 #include <set>
 
 #include "config/reader.hpp"
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "scene/make_mesh.hpp"
 
 using namespace langer;

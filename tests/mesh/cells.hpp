@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "element/reference.hpp"
+#include "mesh/reference.hpp"
 #include "support/block.hpp"
 
 namespace langer::example {

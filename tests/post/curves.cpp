@@ -6,7 +6,7 @@
 #include "config/reader.hpp"
 #include "config/writer.hpp"
 #include "post/steps.hpp"
-#include "scene/post_config.hpp"
+#include "run/post_config.hpp"
 #include "store/curves_file.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"

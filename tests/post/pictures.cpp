@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "post/drawing.hpp"
+#include "plot/drawing.hpp"
 #include "post/figure.hpp"
-#include "post/gnuplot.hpp"
+#include "plot/gnuplot.hpp"
 #include "post/map.hpp"
 #include "post/render.hpp"
 #include "support/block.hpp"

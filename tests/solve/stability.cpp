@@ -1,5 +1,5 @@
 // What an accepted state says about its stability: signs of the constrained tangent, strong ellipticity, falling force.
-#include "scene/stability_watch.hpp"
+#include "run/stability_watch.hpp"
 
 #include <doctest/doctest.h>
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "config/reader.hpp"
-#include "scene/equilibrium_by.hpp"
+#include "run/equilibrium_by.hpp"
 #include "scene/make_mesh.hpp"
-#include "scene/step_record.hpp"
+#include "run/step_record.hpp"
 #include "scene/symmetry.hpp"
 #include "solve/load_path.hpp"
 

@@ -1,0 +1,234 @@
+#include "export/export_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "base/version.hpp"
+#include "config/reader.hpp"
+#include "mesh/facets.hpp"
+#include "scene/scene.hpp"
+#include "scene/symmetry.hpp"
+
+namespace langer {
+
+namespace {
+
+// no negative zeros
+Vec3 plain(const Vec3& x) {
+  return x.unaryExpr([](double v) { return v + 0.0; });
+}
+
+const auto nowhere = [](const std::string&) { return Place{}; };
+
+[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found,
+                         const std::string& expected) {
+  throw Failure(Exit::config, Error{{path}, key, found, expected, ""});
+}
+
+using Spot = std::tuple<double, double, double>;
+Spot spot(const Vec3& X) { return {X[0], X[1], X[2]}; }
+
+// The config as it was solved, with the laws that it found: what files held stands in the solution itself.
+SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
+  SolveConfig config = read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
+  config.fibre_angles.clear(), config.fibre_field.reset(), config.materials.clear();
+  for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b) {
+    BodyConfig body;
+    body.material = header.materials.empty() ? header.material : header.materials[b];
+    config.materials[header.mesh.bodies[b]] = body;
+  }
+  for (const auto& [name, contact] : config.contacts)
+    if (!std::holds_alternative<Sphere>(contact.rigid))
+      refuse(path, "contacts." + name + ".rigid", "an indenter of another shape",
+             "a sphere, or no indenter: other shapes are not exported");
+  return config;
+}
+
+// The mirrored part of a body whose cells the planes do not cut; nothing where the whole has to be written.
+const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
+  if (!part) return nullptr;
+  const auto& share = part->cell_share();
+  if (std::any_of(share.begin(), share.end(), [&](double s) { return std::abs(s - share[0]) > 1e-12; })) return nullptr;
+  const auto& tie = part->scene().dofs.tie;
+  for (std::size_t i = 0; i < tie.size(); ++i)
+    if (tie[i].of != static_cast<int>(i)) return nullptr;
+  return &*part;
+}
+
+std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
+  std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const int body = mesh.body.empty() ? 0 : mesh.body[e];
+    const std::vector<Vec3> fibres = scene.materials[body].fibres.empty() ? std::vector<Vec3>{} : scene.fibres_of(mesh, e);
+    std::pair<int, std::vector<long long>> key{body, {}};
+    for (const Vec3& a : fibres)
+      for (int k = 0; k < 3; ++k) key.second.push_back(std::llround(1e9 * a[k]));
+    FibreGroup& group = groups[key];
+    if (group.cells.empty()) group.body = body, group.fibres = fibres;
+    group.cells.push_back(e);
+  }
+  std::vector<FibreGroup> list;
+  for (auto& [key, group] : groups) list.push_back(std::move(group));
+  return list;
+}
+
+std::vector<Facet> outer_facets(const Mesh& mesh, const std::vector<int>& nodes) {
+  const std::set<int> may(nodes.begin(), nodes.end());
+  std::map<std::array<int, 4>, std::pair<int, Facet>> seen;
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    for (int f = 0; f < n_facets(mesh.type); ++f) {
+      const auto key = facet_key(mesh, {e, f});
+      if (!std::all_of(key.begin(), key.end(), [&](int n) { return may.count(n) > 0; })) continue;
+      auto& [times, facet] = seen[key];
+      ++times, facet = {e, f};
+    }
+  std::vector<Facet> facets;
+  for (const auto& [key, found] : seen)
+    if (found.first == 1) facets.push_back(found.second);
+  return facets;
+}
+
+double shortest_side(const Mesh& mesh, const std::vector<Facet>& facets) {
+  double least = 1e300;
+  for (const Facet& facet : facets)
+    for (const auto& quad : facet_quads(mesh, facet))
+      for (int k = 0; k < 4; ++k) least = std::min(least, (mesh.X[quad[k]] - mesh.X[quad[(k + 1) % 4]]).norm());
+  return least;
+}
+
+DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set, const Vec3& towards,
+                       const std::string& path) {
+  DeckContact contact{law, set, outer_facets(mesh, law.nodes), {}};
+  if (contact.facets.empty())
+    refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set, "a set that covers facets");
+  std::vector<Vec3> places;
+  for (int n : law.nodes) {
+    places.push_back(mesh.X[n]);
+    for (const Waypoint& w : law.motion) places.push_back(mesh.X[n] - w.u_ind);
+  }
+  contact.cap = rigid_cap(std::get<Sphere>(law.shape), towards, places, 0.5 * shortest_side(mesh, contact.facets));
+  return contact;
+}
+
+}  // namespace
+
+FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
+  FibreFrame frame;
+  frame.e1 = fibres[0];
+  Vec3 other = Vec3::Zero();
+  for (const Vec3& a : fibres)
+    if (const Vec3 rest = a - a.dot(frame.e1) * frame.e1; rest.norm() > 1e-6 && other.isZero()) other = rest;
+  if (other.isZero()) {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(frame.e1[k]) < std::abs(frame.e1[axis])) axis = k;
+    other = Vec3::Unit(axis) - frame.e1[axis] * frame.e1;
+  }
+  frame.e2 = other.normalized();
+  const Vec3 e3 = frame.e1.cross(frame.e2);
+  for (const Vec3& a : fibres) frame.in_frame.push_back(Vec3(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3)));
+  return frame;
+}
+
+Deck deck_of(const SolutionReader& solution, const std::string& path) {
+  const SolutionHeader& header = solution.header();
+  if (header.mesh.section) refuse(path, "", "a section", "a body in three dimensions: sections are not exported");
+  const SolveConfig config = config_of(header, path);
+  if (header.mesh.type == CellType::tet15)
+    refuse(path, "", "cells tet15", "hex8 or hex27: CalculiX has no such cell, and FEBio's order of their nodes is not known here");
+  Scene whole = make_scene(config, header.mesh, {}, nowhere);
+  whole.fibres = header.fibres;
+  const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);
+  const ReducedScene* part = exportable(found);
+  const Scene& scene = part ? part->scene() : whole;
+
+  Deck deck;
+  deck.mesh = part ? part->mesh() : header.mesh;
+  deck.mesh.node_sets.clear(), deck.mesh.facet_sets.clear();
+  deck.materials = scene.materials;
+  deck.groups = groups_of(deck.mesh, scene);
+  deck.share = static_cast<double>(header.mesh.n_cells()) / deck.mesh.n_cells();
+
+  std::map<Spot, int> number;  // of the places in what is written
+  for (int n = 0; n < deck.mesh.n_nodes(); ++n) number[spot(deck.mesh.X[n])] = n;
+  const auto name_set = [&](const std::string& set) {
+    std::vector<int>& nodes = deck.mesh.node_sets[set];
+    if (!nodes.empty()) return !nodes.empty();
+    for (int n : header.mesh.node_sets.at(set))
+      if (const auto at = number.find(spot(header.mesh.X[n])); at != number.end()) nodes.push_back(at->second);
+    std::sort(nodes.begin(), nodes.end());
+    if (nodes.empty()) deck.mesh.node_sets.erase(set);
+    return deck.mesh.node_sets.count(set) > 0;
+  };
+  for (const SupportConfig& support : config.supports)
+    for (Axis axis : support.hold)
+      if (name_set(support.on)) deck.held.push_back({support.on, static_cast<int>(axis), 0});
+  for (const LoadConfig& load : config.loads)
+    for (int k = 0; k < 3; ++k)
+      if (const auto& to = k == 0   ? load.displacement.x
+                           : k == 1 ? load.displacement.y
+                                    : load.displacement.z;
+          to && name_set(load.on))
+        deck.held.push_back({load.on, k, *to});
+  if (part)
+    for (int k = 0; k < 3; ++k) {
+      std::vector<int> plane;
+      for (int n = 0; n < deck.mesh.n_nodes(); ++n)
+        if (scene.dofs.tie[n].T(k, k) == 0) plane.push_back(n);
+      if (plane.empty()) continue;
+      std::string name = fmt::format("mirror_{}", "xyz"[k]);
+      while (header.mesh.node_sets.count(name)) name += "_";
+      deck.mesh.node_sets[name] = plane, deck.held.push_back({name, k, 0});
+    }
+  deck.words.push_back(fmt::format("a scene of langer-solve, written by langer {} ({}); mm, N, MPa", version, revision));
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const RigidContact& law = scene.contacts[c];
+    const Sphere& sphere = std::get<Sphere>(law.shape);
+    const Vec3 to = plain(indenter_displacement(law, 1));
+    deck.words.push_back(fmt::format(
+        "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}", law.name,
+        sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
+    Vec3 middle = Vec3::Zero();  // of the whole body's candidates
+    for (int n : whole.contacts[c].nodes) middle += header.mesh.X[n] / static_cast<double>(whole.contacts[c].nodes.size());
+    const std::string& set = config.contacts.at(law.name).on;
+    name_set(set);
+    deck.contacts.push_back(contact_of(deck.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path));
+  }
+
+  const LoadPathOptions& increments = config.path;
+  deck.first = increments.steps ? 1.0 / *increments.steps : increments.first;
+  deck.largest = increments.steps ? deck.first : increments.largest, deck.smallest = increments.smallest;
+  std::set<double> stops(scene.stops.begin(), scene.stops.end());
+  stops.insert(1.0);
+  deck.stops.assign(stops.begin(), stops.end());
+
+  deck.words.push_back(fmt::format("{} cells {}, {} nodes", deck.mesh.n_cells(),
+                                   names(deck.mesh.type)[static_cast<int>(deck.mesh.type)], deck.mesh.n_nodes()));
+  if (part) deck.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part->words(), deck.share));
+  if (found && !part)
+    deck.words.push_back("solved by symmetry (" + found->words() +
+                         "), which mirror planes between cells cannot express: the whole body");
+  if (solution.n_steps() > 0) {
+    const StepRecord last = solution.step(solution.n_steps() - 1);
+    if (!scene.contacts.empty())
+      deck.words.push_back(
+          fmt::format("Langer's answer at t = {:g}: force on the indenter of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
+                      plain(last.force_ind)[0], plain(last.force_ind)[1], plain(last.force_ind)[2]));
+    for (const LoadConfig& load : config.loads) {
+      Vec3 force = Vec3::Zero();
+      for (int n : header.mesh.node_sets.at(load.on)) force += last.reaction[n];
+      deck.words.push_back(
+          fmt::format("Langer's answer at t = {:g}: force on \"{}\" of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
+                      load.on, force[0], force[1], force[2]));
+    }
+  }
+  return deck;
+}
+
+}  // namespace langer

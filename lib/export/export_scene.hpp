@@ -1,0 +1,67 @@
+// A solved scene as the input of another program, so that its answer can be checked there: CalculiX (.inp) and FEBio 4 (.feb).
+//   what is written  the body that was solved (its symmetric part, where mirror planes cut it between cells), cells with the
+//                    directions of their fibres, law, supports, imposed displacements, the increments, spheres as rigid facets
+//                    with penalty contact
+//   what is not      half turns (the whole body is written), indenters other than spheres, laws that the program lacks: the last
+//                    two are refused, as Failure(config). What differs there is said at the head of the file.
+// Positions in mm, forces in N, stress in MPa.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "mesh/mesh.hpp"
+#include "export/rigid_cap.hpp"
+#include "scene/solve_config.hpp"
+#include "store/solution_file.hpp"
+
+namespace langer {
+
+// cells of one body with the same fibre directions; none: isotropic
+struct FibreGroup {
+  int body = 0;
+  std::vector<Vec3> fibres;
+  std::vector<int> cells;
+};
+
+struct HeldSet {
+  std::string set;  // of nodes
+  int axis = 0;
+  double value = 0;  // at the end of the path [mm], proportional to it
+};
+
+struct DeckContact {
+  RigidContact law;
+  std::string set;            // of nodes
+  std::vector<Facet> facets;  // whose corners all may touch
+  RigidCap cap;
+};
+
+struct Deck {
+  Mesh mesh;                        // node sets: those that are held, moved or may touch
+  std::vector<Material> materials;  // by body
+  std::vector<FibreGroup> groups;
+  std::vector<HeldSet> held;
+  std::vector<DeckContact> contacts;
+  double first = 0.1, largest = 0.1, smallest = 1e-4;  // increments of the path
+  std::vector<double> stops;                           // ascending, the last is 1
+  double share = 1;                                    // the body is this many times what is written
+  std::vector<std::string> words;                      // where the scene comes from, what was found, line by line
+};
+
+// Throws Failure(config) for what no deck holds.
+Deck deck_of(const SolutionReader& solution, const std::string& path);
+
+std::string calculix_deck(const Deck& deck);
+std::string febio_deck(const Deck& deck);
+
+// components of a family's direction in the frame of its group: the first family is the first axis, the second lies in the
+// plane of the first two
+struct FibreFrame {
+  Vec3 e1, e2;
+  std::vector<Vec3> in_frame;
+};
+FibreFrame fibre_frame(const std::vector<Vec3>& fibres);
+
+}  // namespace langer

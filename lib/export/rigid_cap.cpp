@@ -1,0 +1,71 @@
+#include "export/rigid_cap.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace langer {
+
+RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places, double side) {
+  const Vec3 centre = vec(sphere.centre);
+  const double R = sphere.radius, degree = std::numbers::pi / 180;
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(towards[k]) < std::abs(towards[axis])) axis = k;
+  const Vec3 e1 = (Vec3::Unit(axis) - towards[axis] * towards).normalized(), e2 = towards.cross(e1);
+
+  Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+  double farthest = 0;
+  for (const Vec3& x : places) {
+    const Eigen::Vector2d p((x - centre).dot(e1), (x - centre).dot(e2));
+    low = low.cwiseMin(p), high = high.cwiseMax(p), farthest = std::max(farthest, p.norm());
+  }
+  const double margin = 0.1 * R + side;
+  const double rim = std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);  // polar angle
+  const int n = std::max(6, static_cast<int>(std::ceil(rim * R / side)));
+
+  // a square grid that turns into circles towards the rim
+  RigidCap cap;
+  cap.side = rim * R / n;
+  const double raised = R + cap.side * cap.side / (6 * R);
+  const int row = 2 * n + 1;
+  std::vector<Vec3> direction;
+  for (int j = -n; j <= n; ++j)
+    for (int i = -n; i <= n; ++i) {
+      const Eigen::Vector2d q(static_cast<double>(i) / n, static_cast<double>(j) / n);
+      const double r = q.cwiseAbs().maxCoeff(), round = 0.5 * r;
+      if (r == 0) {
+        direction.push_back(towards);
+        continue;
+      }
+      const double polar = rim * q.norm() * (1 - round + round * r / q.norm());
+      const Eigen::Vector2d d = q.normalized();
+      direction.push_back(std::cos(polar) * towards + std::sin(polar) * (d[0] * e1 + d[1] * e2));
+    }
+  std::vector<int> number(direction.size(), -1);
+  for (int j = 0; j < 2 * n; ++j)
+    for (int i = 0; i < 2 * n; ++i) {
+      const int at = j * row + i;
+      std::array<int, 4> corners{at, at + 1, at + row + 1, at + row};
+      Eigen::Vector2d least(1e300, 1e300), most(-1e300, -1e300);
+      for (int c : corners) {
+        const Eigen::Vector2d p(R * direction[c].dot(e1), R * direction[c].dot(e2));
+        least = least.cwiseMin(p), most = most.cwiseMax(p);
+      }
+      if ((least.array() > high.array() + margin).any() || (most.array() < low.array() - margin).any()) continue;
+      for (int& c : corners) {
+        if (number[c] < 0) {
+          number[c] = static_cast<int>(cap.outer.size());
+          const Vec3 d = direction[c].unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0 : x; });
+          cap.outer.push_back(centre + raised * d);
+          cap.inner.push_back(centre + 0.8 * R * d);
+        }
+        c = number[c];
+      }
+      cap.facets.push_back(corners);
+    }
+  return cap;
+}
+
+}  // namespace langer

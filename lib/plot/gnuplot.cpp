@@ -1,0 +1,156 @@
+#include "plot/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace langer {
+
+namespace {
+
+constexpr std::array colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array markers{7, 5, 8, 10, 12, 6, 4};
+constexpr std::array open_markers{6, 4, 8, 10, 12};
+constexpr std::array dashes{1, 1, 2, 2, 4, 4, 5};  // of two curves that coincide both colours are seen
+constexpr int most_markers = 25;                   // on a line
+constexpr std::chrono::seconds longest{120};
+
+// the end of a file, for messages
+std::string last_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string last;
+  for (std::string line; std::getline(file, line);)
+    if (line.find_first_not_of(" \t^") != std::string::npos) last = line;
+  return last;
+}
+
+// spaces that stay: SVG viewers drop a space beside a subscript
+std::string printed(const std::string& text) {
+  std::string s;
+  for (char c : text) s += c == ' ' ? "\u00a0" : std::string(1, c);
+  return gnuplot_string(s);
+}
+
+}  // namespace
+
+std::string gnuplot_string(const std::string& text) {
+  std::string s = "'";
+  for (char c : text) {
+    if (c == '\'') s += '\'';
+    s += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return s + "'";
+}
+
+std::string literal(const std::string& name) {
+  std::string s;
+  for (char c : name) {
+    if (std::strchr("_^{}@&~\\", c)) s += '\\';
+    s += c;
+  }
+  return s;
+}
+
+std::string plain(const std::string& text) {
+  std::string s;
+  for (char c : text)
+    if (!std::strchr("{}\\", c)) s += c;
+  return s;
+}
+
+std::string gnuplot_script(const Plot& plot, const std::string& name) {
+  std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name);
+  s += "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
+  s += "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
+  s += "set key outside center top horizontal reverse Left samplen 3\n";
+  if (plot.lines.size() == 1) s += "unset key\n";
+  if (!plot.title.empty()) s += fmt::format("set title {}\n", printed(plot.title));
+  s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
+  if (plot.logarithmic) s += "set logscale xy\n";
+  if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
+  const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
+  std::string draw = "plot ";
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    const PlotLine& line = plot.lines[i];
+    const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
+    // lines beyond the last colour begin with other dashes
+    const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
+    const char* const rgb = colours[colour % colours.size()];
+    draw += fmt::format("{}{} using {}:{}", i ? ", \\\n     " : "", gnuplot_string(line.csv), gnuplot_string(line.x),
+                        gnuplot_string(line.y));
+    if (line.points)
+      draw += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
+                          open_markers[dash % open_markers.size()]);
+    else
+      draw += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
+                          markers[dash % markers.size()], every);
+    draw += fmt::format(" title {}", printed(line.legend));
+    if (!line.names.empty())
+      draw += fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
+                          gnuplot_string(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
+  }
+  for (const auto& [terminal, size, type] :
+       {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})
+    s += fmt::format("set terminal {} enhanced size {} font 'DejaVu Sans,{}' {}background rgb 'white'\nset output {}\n{}\n",
+                     terminal, size, type == std::string("svg") ? 14 : 13,
+                     type == std::string("svg") ? "" : "fontscale 2 linewidth 2 pointscale 2 ",
+                     gnuplot_string(name + "." + type), draw);
+  return s + "unset output\n";
+}
+
+std::string run_gnuplot(const std::string& folder, const std::string& script) {
+  const std::string log = (std::filesystem::path(folder) / (script + ".log")).string();
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.empty() ? "." : folder.c_str());
+  std::string program = "gnuplot", file = script;
+  char* const arguments[] = {program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  posix_spawnattr_t attributes;  // what this program ignores, gnuplot need not
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual), sigaddset(&usual, SIGPIPE), sigaddset(&usual, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  std::string problem;
+  if (error) {
+    problem = error == ENOENT ? "there is no gnuplot on the PATH"
+                              : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
+  } else {
+    int status = 0;
+    const auto deadline = std::chrono::steady_clock::now() + longest;
+    pid_t ended = 0;
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (ended == 0) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      problem = fmt::format("gnuplot took longer than {} s", longest.count());
+    } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+      problem = "gnuplot: " + last_line(log);
+    }
+  }
+  std::error_code ignored;
+  std::filesystem::remove(log, ignored);
+  return problem;
+}
+
+}  // namespace langer

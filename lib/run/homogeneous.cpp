@@ -1,0 +1,168 @@
+#include "run/homogeneous.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesh/reference.hpp"
+#include "mesh/quality.hpp"
+#include "run/equilibrium_by.hpp"
+#include "run/step_record.hpp"
+#include "solve/load_path.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double same = 1e-9;
+
+struct Hull {
+  Vec3 low, high;
+  double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
+  bool on(const Vec3& X, int axis, int side) const { return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm(); }
+};
+
+bool same_fibres(const Mesh& mesh, const Scene& scene) {
+  if (scene.materials.front().fibres.empty()) return true;
+  const std::vector<Vec3> first = scene.fibres_of(mesh, 0);
+  for (int e = 1; e < mesh.n_cells(); ++e) {
+    const std::vector<Vec3> here = scene.fibres_of(mesh, e);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      if (std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
+  }
+  return true;
+}
+
+// What whole faces are told, as values of the box's corners; nothing where a node is told something that is not its face's.
+std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs, const Hull& hull) {
+  std::map<int, double> imposed, explained;
+  for (const Prescribed& p : dofs.prescribed) imposed[p.dof] = p.value;
+  std::vector<Prescribed> corners;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side : {-1, 1}) {
+      std::vector<int> nodes;
+      for (int n = 0; n < mesh.n_nodes(); ++n)
+        if (hull.on(mesh.X[n], axis, side)) nodes.push_back(n);
+      for (int k = 0; k < 3; ++k) {
+        const auto value = imposed.find(3 * nodes.front() + k);
+        const auto alike = [&](int n) {
+          const auto found = imposed.find(3 * n + k);
+          return found != imposed.end() && found->second == value->second;
+        };
+        if (value == imposed.end() || !std::all_of(nodes.begin(), nodes.end(), alike)) continue;
+        for (int n : nodes) explained[3 * n + k] = value->second;
+        for (int a = 0; a < 8; ++a)
+          if (Hex8::corner[a][axis] == side) corners.push_back({3 * a + k, value->second});
+      }
+    }
+  if (imposed != explained) return std::nullopt;
+  return corners;
+}
+
+}  // namespace
+
+HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config) : solver_(config.solver) {
+  if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
+  corner_node_.fill(-1);
+  if (!recognise(mesh, scene)) return;
+  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets, scene.fibres);
+}
+
+std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
+  std::unique_ptr<HomogeneousScene> found(new HomogeneousScene(mesh, scene, config));
+  return found->whole_ && found->first_increment_balances(config.path) ? std::move(found) : nullptr;
+}
+
+bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
+  if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene)) return false;
+  Hull hull{mesh.X[0], mesh.X[0]};
+  for (const Vec3& X : mesh.X) hull.low = hull.low.cwiseMin(X), hull.high = hull.high.cwiseMax(X);
+  const double volume = (hull.high - hull.low).prod();
+  if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
+  const auto corners = told_to_faces(mesh, scene.dofs, hull);
+  if (!corners) return false;
+
+  for (int a = 0; a < 8; ++a) {
+    Vec3 X;
+    for (int i = 0; i < 3; ++i) X[i] = hull.bound(i, Hex8::corner[a][i]);
+    mesh_.X.push_back(X), mesh_.connectivity.push_back(a);
+    for (int n = 0; n < mesh.n_nodes() && corner_node_[a] < 0; ++n)
+      if ((mesh.X[n] - X).norm() <= same * (hull.high - hull.low).norm()) corner_node_[a] = n;
+    if (corner_node_[a] < 0) return false;
+  }
+  mesh_.body = {0}, mesh_.bodies = {"all"}, mesh_.frames = {Mat3::Identity()};
+  for (const Vec3& X : mesh.X) {
+    std::array<double, 8>& N = N_.emplace_back();
+    for (int a = 0; a < 8; ++a) {
+      N[a] = 1;
+      for (int i = 0; i < 3; ++i) {
+        const double s = (X[i] - hull.low[i]) / (hull.high[i] - hull.low[i]);
+        N[a] *= Hex8::corner[a][i] > 0 ? s : 1 - s;
+      }
+    }
+  }
+  scene_.formulation = usual_formulation(CellType::hex8);
+  scene_.materials = scene.materials, scene_.stops = scene.stops;
+  if (!scene.materials.front().fibres.empty()) scene_.fibres = {scene.fibres_of(mesh, 0)};
+  scene_.dofs = number_dofs(8, *corners).dofs;
+  return scene_.dofs.n_free() > 0;  // nothing to solve where every corner is told where to go
+}
+
+Equilibrium HomogeneousScene::equilibrium() const {
+  return Equilibrium(mesh_, scene_.materials, scene_.formulation, scene_.dofs, 1, Kernel::packets, scene_.fibres);
+}
+
+bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
+  Equilibrium body = equilibrium();
+  Statics statics(body, {}, {});
+  bool balances = false;
+  load_path(
+      path, 0, std::nullopt, scene_.stops,
+      [&](double t) {
+        statics.begin(t);
+        return equilibrium_by(solver_, statics.problem(), statics.trial());
+      },
+      [&](double, double taken, double next, const SolveReport& report) {
+        statics.accept();
+        balances = whole(step_record(statics, body, taken, next, report)).has_value();
+        return false;
+      });
+  return balances;
+}
+
+std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) {
+  StepRecord record = one;
+  const int n = whole_->mesh().n_nodes();
+  record.u.assign(static_cast<std::size_t>(n), Vec3::Zero());
+  VecX u(3 * static_cast<Eigen::Index>(n));
+  for (std::size_t i = 0; i < record.u.size(); ++i) {
+    for (std::size_t a = 0; a < 8; ++a) record.u[i] += N_[i][a] * one.u[a];
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+  }
+  whole_->pressures_from(u);
+  if (!whole_->assemble(u, false)) return std::nullopt;
+  const VecX& f = whole_->f_int();
+  double left = 0, reactions = 0;
+  for (int dof : whole_->dofs().free) left += f[dof] * f[dof];
+  record.reaction.assign(record.u.size(), Vec3::Zero());
+  for (const Prescribed& p : whole_->dofs().prescribed) {
+    reactions += f[p.dof] * f[p.dof];
+    record.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
+  }
+  left = std::sqrt(left), reactions = std::sqrt(reactions);
+  if (!(left <= 1e-9 * reactions + 10 * whole_->rounding_floor())) return std::nullopt;
+  record.residual = reactions > 0 ? left / reactions : left;
+  for (auto& [name, values] : record.cell_fields) values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
+  record.scalars["J_min"] = whole_->J_min(), record.scalars["energy"] = whole_->W();
+  return record;
+}
+
+BodyState HomogeneousScene::reduced(const StepRecord& whole) const {
+  BodyState state;
+  state.t = whole.t;
+  state.u.resize(24);
+  for (int a = 0; a < 8; ++a) state.u.segment<3>(3 * a) = whole.u[static_cast<std::size_t>(corner_node_[a])];
+  return state;
+}
+
+}  // namespace langer

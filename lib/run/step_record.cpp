@@ -1,0 +1,111 @@
+#include "run/step_record.hpp"
+
+#include <filesystem>
+
+#include "config/reader.hpp"
+#include "store/material_file.hpp"
+#include "tensor/stress.hpp"
+
+namespace langer {
+
+Material material_from(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  if (extension == ".yaml" || extension == ".yml") return read_config<Material>(load_yaml(path)).config;
+  return read_material(path).material;
+}
+
+SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity) {
+  SolutionHeader header;
+  header.mesh = mesh;
+  header.material = scene.materials.front();
+  if (scene.materials.size() > 1) header.materials = scene.materials;
+  header.fibres = scene.fibres;
+  header.formulation = names(formulation)[static_cast<int>(formulation)];
+  for (const RigidContact& contact : scene.contacts) header.contact_nodes[contact.name] = contact.nodes;
+  header.identity = identity;
+  return header;
+}
+
+namespace {
+
+// means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress, I4_bar of the first family
+void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u) {
+  const int n = body.mesh().n_cells();
+  bool fibres = false;
+  for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
+  for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
+  if (fibres) record.cell_fields["I4_bar"].resize(n);
+  auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"], &mises = record.cell_fields["von_mises"];
+  for (int e = 0; e < n; ++e) {
+    const auto a = body.fibres(e);
+    Mat3 sigma = Mat3::Zero();
+    double I4_bar = 0;
+    const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e));
+    const double w = 1.0 / static_cast<double>(states.size());
+    for (const GaussState& g : states) {
+      sigma += w * g.sigma;
+      J[e] += w * g.J;
+      if (!a.empty()) I4_bar += w * (g.F * a[0]).squaredNorm() / std::cbrt(g.J * g.J);
+    }
+    pressure[e] = mean_stress(sigma), mises[e] = von_mises(sigma);
+    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : I4_bar;
+  }
+}
+
+}  // namespace
+
+StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report) {
+  const BodyState& state = statics.accepted();
+  StepRecord record;
+  record.t = state.t, record.increment = taken, record.iterations = report.iterations;
+  record.residual = report.reference > 0 ? report.residual / report.reference : report.residual;
+  const VecX reactions = statics.reactions();
+  for (int i = 0; i < body.mesh().n_nodes(); ++i) {
+    record.u.push_back(state.u.segment<3>(3 * i));
+    record.reaction.push_back(reactions.segment<3>(3 * i));
+  }
+  add_cell_fields(record, body, state.u);
+  record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
+  record.scalars["J_min"] = body.J_min();
+  record.scalars["energy"] = body.W();
+  const auto& contacts = statics.contacts();
+  if (contacts.empty()) return record;
+  const auto defects = statics.defects();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ContactDefect& d = defects[k];
+    ContactRecord& contact = record.contacts[contacts[k].name];
+    contact.r = state.r[k], contact.gap = d.gap;
+    for (ContactStatus status : d.status) contact.status.push_back(static_cast<int>(status));
+    for (const auto& [name, value] :
+         {std::pair{"penetration", d.penetration}, {"cone", d.cone}, {"complementarity", d.complementarity}})
+      record.scalars[name] = std::max(record.scalars[name], value);
+    if (contacts.size() > 1)
+      for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
+  }
+  record.u_ind = indenter_displacement(contacts[0], state.t);
+  record.force_ind = -defects[0].force;
+  return record;
+}
+
+BodyState state_of(const StepRecord& record, const Scene& scene) {
+  BodyState state;
+  state.t = record.t;
+  state.u.resize(3 * static_cast<Eigen::Index>(record.u.size()));
+  for (std::size_t i = 0; i < record.u.size(); ++i) state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+  for (const RigidContact& contact : scene.contacts) state.r.push_back(record.contacts.at(contact.name).r);
+  return state;
+}
+
+std::vector<Summary> summary_of(int n_steps, const PathReport& path, const Statics& statics) {
+  const auto& cost = statics.cost();
+  return {{"steps", static_cast<double>(n_steps), "-"},
+          {"iterations", static_cast<double>(path.iterations), "-"},
+          {"cuts", static_cast<double>(path.cuts), "-"},
+          {"indefinite", static_cast<double>(statics.n_indefinite()), "-"},
+          {"cpu_assembly", cost.assembly, "s"},
+          {"cpu_factor", cost.factor, "s"},
+          {"cpu_solve", cost.solve, "s"},
+          {"cpu_contact", cost.contact, "s"}};
+}
+
+}  // namespace langer

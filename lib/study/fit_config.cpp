@@ -1,0 +1,188 @@
+#include "study/fit_config.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "base/error.hpp"
+#include "config/writer.hpp"
+#include "study/specimen.hpp"
+
+namespace langer {
+
+std::vector<Complaint> FitData::complaints() const {
+  std::vector<Complaint> all;
+  if (strain_from && strain_to && *strain_from >= *strain_to)
+    all.push_back({"strain_to", "found " + number_text(*strain_to), "more than strain_from, " + number_text(*strain_from), ""});
+  if (weight && standard_deviation)
+    all.push_back({"weight", "beside standard_deviation", "one of the two", "the weight is 1/standard_deviation"});
+  const bool biaxial = kind == TestKind::biaxial;
+  if (!columns && (biaxial || kind == TestKind::simple_shear))
+    all.push_back({"kind", std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
+                   "the columns of deformation and stress",
+                   "columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}"});
+  if (!columns && (!split.empty() || !where.empty()))
+    all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
+  const std::pair<const char*, bool> of_columns[] = {{"stress", stress.has_value()},
+                                                     {"strain", strain.has_value()},
+                                                     {"stress_unit", stress_unit.has_value()},
+                                                     {"strain_unit", strain_unit.has_value()}};
+  for (const auto& [key, given] : of_columns)
+    if (given && !columns)
+      all.push_back({key, "found without `columns`", "the columns of deformation and stress",
+                     "without them the names of the file's columns tell measure and unit"});
+  if (columns && biaxial && columns->strain_z.empty())
+    all.push_back({"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes", ""});
+  if (columns && !biaxial && !columns->strain_z.empty())
+    all.push_back({"columns.strain_z", "found in a test that is not biaxial", "kind: biaxial, or no strain_z", ""});
+  if (columns && !columns->stress_z.empty() && (kind == TestKind::uniaxial || kind == TestKind::simple_shear))
+    all.push_back({"columns.stress_z", "found in a test without stress along z", "equibiaxial, biaxial or pure_shear", ""});
+  return all;
+}
+
+void FitConfig::complete(Tree& tree) {
+  for (auto& entry : tree.map)
+    if (entry.key == "data")
+      for (Tree& item : entry.value.list) add_what_the_file_says(item);
+}
+
+Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start) {
+  const bool power = parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
+  Range box{-10, 10, true, true};
+  if (parameter.unit == std::string(unit::MPa))
+    box.low = bounds == Bounds::admissible ? 0 : -10;
+  else if (parameter.unit == std::string(unit::deg))
+    box = {-90, 90, true, true};
+  else if (power && bounds == Bounds::admissible)
+    box = start < 0 ? Range{-20, -1, true, true} : Range{1, 20, true, true};
+  else if (power)
+    box = {-20, 20, true, true};
+  else if (parameter.name.starts_with("Jm"))
+    box = {0.1, 200, true, true};
+  else if (parameter.name.starts_with("locking"))
+    box = {1, 20, true, true};
+  else if (parameter.unit == std::string(unit::per_MPa))
+    box = {1e-8, 10, true, true};
+  box.low = std::max(box.low, parameter.range.low);
+  box.high = std::min(box.high, parameter.range.high);
+  return box;
+}
+
+std::vector<FreeParameter> free_parameters(const FitConfig& config) {
+  Material law = config.law;
+  const std::vector<MaterialParameter> known = parameters(law);
+  std::vector<FreeParameter> free;
+  for (const FitParameter& p : config.parameters) {
+    FreeParameter one{p.key, p.start.value_or(0), p.lower.value_or(0), p.upper.value_or(0)};
+    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
+    if (found != known.end()) {
+      if (!p.start) one.start = *found->value;
+      Range box = default_bounds(*found, config.bounds, one.start);
+      // Ogden's mu_p alpha_p >= 0: the modulus follows the sign of its power
+      if (config.bounds == Bounds::admissible && p.key.find("ogden.mu") != std::string::npos) {
+        const std::string power = p.key.substr(0, p.key.size() - 3) + "alpha" + p.key.back();
+        for (const MaterialParameter& k : known)
+          if (k.key == power && *k.value < 0) box = {-10, 0, true, true};
+      }
+      if (config.bounds != Bounds::custom) one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
+    }
+    free.push_back(one);
+  }
+  return free;
+}
+
+std::vector<Complaint> FitConfig::complaints() const {
+  std::vector<Complaint> all;
+  if (data.empty()) all.push_back({"data", "an empty list", "one test at least", ""});
+  if (parameters.empty()) all.push_back({"parameters", "an empty list", "one number to find at least", ""});
+  if (dilatation == Dilatation::compressible)
+    for (std::size_t i = 0; i < data.size(); ++i)
+      if (data[i].kind != TestKind::uniaxial || data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0)
+        all.push_back({"data[" + std::to_string(i) + "].kind", "a test whose state is solved without change of volume",
+                       "uniaxial tests with held shear and no fibre_angle, or dilatation: incompressible", ""});
+  Material copy = law;
+  const std::vector<MaterialParameter> known = langer::parameters(copy);
+  std::vector<std::string> keys;
+  for (const MaterialParameter& k : known) keys.push_back(k.key);
+  const std::vector<FreeParameter> free = free_parameters(*this);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& p = parameters[i];
+    const std::string at = "parameters[" + std::to_string(i) + "].";
+    const auto found = std::find(keys.begin(), keys.end(), p.key);
+    if (found == keys.end()) {
+      std::string list;
+      for (const std::string& k : keys) list += (list.empty() ? "" : ", ") + k;
+      const std::string near = nearest(p.key, keys);
+      all.push_back({at + "key", "the law has no number \"" + p.key + "\"", "one of " + list,
+                     near.empty() ? "" : "did you mean \"" + near + "\"?"});
+      continue;
+    }
+    if (!seen.insert(p.key).second) all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
+    if (bounds == Bounds::custom && !(p.lower && p.upper)) {
+      all.push_back({at + (p.lower ? "upper" : "lower"), "missing", "a bound", "or bounds: paper, bounds: admissible"});
+      continue;
+    }
+    const double lower = free[i].lower, upper = free[i].upper;
+    const Range& range = known[static_cast<std::size_t>(found - keys.begin())].range;
+    if (!(lower < upper)) {
+      all.push_back(
+          {at + (p.upper ? "upper" : "key"), "found " + number_text(upper), "more than lower, " + number_text(lower), ""});
+      continue;
+    }
+    if (lower < range.low || (lower == range.low && !range.low_included))
+      all.push_back(
+          {at + "lower", "found " + number_text(lower),
+           std::string("a number ") + (range.low_included ? ">= " : "> ") + number_text(range.low) + ", as the law asks", ""});
+    if (upper > range.high)
+      all.push_back(
+          {at + "upper", "found " + number_text(upper), "a number <= " + number_text(range.high) + ", as the law asks", ""});
+    if (free[i].start < lower || free[i].start > upper)
+      all.push_back({at + (p.start ? "start" : "key"), "starts at " + number_text(free[i].start),
+                     "a value between " + number_text(lower) + " and " + number_text(upper),
+                     p.start ? "" : "the start is the law's own value unless `start` is given"});
+  }
+  return all;
+}
+
+std::vector<Test> measured_tests(const FitConfig& config) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::vector<Test> tests;
+  for (const FitData& data : config.data) {
+    TestFormat format;
+    Test& like = format.like;
+    like.name = data.name.empty() ? std::filesystem::path(data.file.path).stem().string() : data.name;
+    like.kind = data.kind, like.measure = data.stress.value_or(StressMeasure::cauchy);
+    like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
+    like.weight = data.standard_deviation ? 1 / *data.standard_deviation : data.weight.value_or(1);
+    std::vector<Test> found;
+    if (data.columns) {
+      format.strain = data.strain.value_or(StrainMeasure::engineering);
+      format.strain_unit = data.strain_unit.value_or(StrainUnit::fraction), format.stress_unit = data.stress_unit;
+      format.strain_x = data.columns->strain_x, format.strain_z = data.columns->strain_z;
+      format.stress_x = data.columns->stress_x, format.stress_z = data.columns->stress_z;
+      format.where = data.where, format.split = data.split;
+      format.strain_from = data.strain_from.value_or(-inf), format.strain_to = data.strain_to.value_or(inf);
+      if (!data.split.empty() && data.name.empty()) like.name.clear();
+      found = tests_of(read_table(data.file.path), format);
+    } else {
+      const Curve curve =
+          between_strains(read_curve(data.file.path), data.strain_from.value_or(-inf), data.strain_to.value_or(inf));
+      Test test = test_of(curve, like.name);
+      test.kind = like.kind, test.shear = like.shear, test.fibre_angle_deg = like.fibre_angle_deg, test.weight = like.weight;
+      found = {test};
+    }
+    for (Test& test : found) {
+      const std::string name = test.name;
+      const auto taken = [&] {
+        return std::any_of(tests.begin(), tests.end(), [&](const Test& t) { return t.name == test.name; });
+      };
+      for (int n = 2; taken(); ++n) test.name = name + "_" + std::to_string(n);
+      tests.push_back(std::move(test));
+    }
+  }
+  return tests;
+}
+
+}  // namespace langer

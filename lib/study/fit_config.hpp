@@ -1,0 +1,128 @@
+// What the fit stage's YAML may say.
+//   data:       [{file: ../../data/curve.csv, strain_to: 0.6}]       one test, or several of any kind, fitted together;
+//               what the file says of itself (study/specimen.hpp) need not stand here, what stands here wins
+//   law:        a material; its numbers are the start values, those not named under `parameters` stay as they are
+//   bounds:     admissible
+//   parameters: [{key: matrix.yeoh.a1}, {key: "fibres[0].alpha", lower: 0, upper: 90}, ...]
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/input_path.hpp"
+#include "config/tree.hpp"
+#include "fit/fit.hpp"
+#include "study/study_config.hpp"
+
+namespace langer {
+
+struct FitColumns {
+  std::string strain_x, strain_z, stress_x, stress_z;
+  static void fields(auto& v) {
+    v(&FitColumns::strain_x, "strain_x", unit::none, "deformation along x; in simple shear its amount", required);
+    v(&FitColumns::strain_z, "strain_z", unit::none, "deformation along z, of a biaxial test");
+    v(&FitColumns::stress_x, "stress_x", unit::none, "stress along x; in simple shear the shear stress", required);
+    v(&FitColumns::stress_z, "stress_z", unit::none, "stress along z, where it was measured");
+  }
+};
+
+struct FitData {
+  InputPath file;
+  std::string name;
+  TestKind kind = TestKind::uniaxial;
+  std::optional<FitColumns> columns;
+  std::optional<StressMeasure> stress;
+  std::optional<StrainMeasure> strain;
+  std::optional<StressUnit> stress_unit;
+  std::optional<StrainUnit> strain_unit;
+  OffAxisShear shear = OffAxisShear::held;
+  double fibre_angle = 0;
+  std::optional<double> weight, standard_deviation, strain_from, strain_to;
+  std::map<std::string, std::string> where;
+  std::string split;
+  static void fields(auto& v) {
+    v(&FitData::file, "file", unit::none,
+      "measured test, CSV; keys of this list may stand in its header between lines `# ---`, or in a YAML file of its name",
+      required);
+    v(&FitData::name, "name", unit::none, "of the test; by default that of the file");
+    v(&FitData::kind, "kind", unit::none, "what the test imposes");
+    v(&FitData::columns, "columns", unit::none,
+      "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
+      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), for uniaxial, equibiaxial and pure shear tests");
+    v(&FitData::stress, "stress", unit::none, "measure of the stress in `columns`; cauchy by default");
+    v(&FitData::strain, "strain", unit::none, "measure of the deformation in `columns`; engineering by default");
+    v(&FitData::stress_unit, "stress_unit", unit::none, "where the column's name does not end in _MPa, _kPa or _Pa");
+    v(&FitData::strain_unit, "strain_unit", unit::none, "of the deformation in `columns`; fraction by default");
+    v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
+    v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
+    v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);
+    v(&FitData::standard_deviation, "standard_deviation", unit::MPa, "of the measured stress: the weight is its inverse",
+      positive);
+    v(&FitData::strain_from, "strain_from", unit::none, "points below this engineering strain along x are left out");
+    v(&FitData::strain_to, "strain_to", unit::none, "points above this engineering strain along x are left out");
+    v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
+    v(&FitData::split, "split", unit::none, "a column: one test for each text in it, such as a protocol");
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+enum class Bounds { custom, paper, admissible };
+constexpr auto names(Bounds) { return std::array{"custom", "paper", "admissible"}; }
+
+struct FitParameter {
+  std::string key;
+  std::optional<double> lower, upper, start;
+  static void fields(auto& v) {
+    v(&FitParameter::key, "key", unit::none, "path of a number of the law, such as matrix.yeoh.a1", required);
+    v(&FitParameter::lower, "lower", unit::none,
+      "lower bound, in the unit of the number; may be left out unless bounds: custom");
+    v(&FitParameter::upper, "upper", unit::none, "upper bound; may be left out unless bounds: custom");
+    v(&FitParameter::start, "start", unit::none, "where the first search starts; by default the law's own value");
+  }
+};
+
+enum class SecondAnswer { none, nlopt };
+constexpr auto names(SecondAnswer) { return std::array{"none", "nlopt"}; }
+
+struct FitConfig {
+  std::vector<FitData> data;
+  Material law;
+  std::vector<FitParameter> parameters;
+  Bounds bounds = Bounds::custom;
+  Dilatation dilatation = Dilatation::incompressible;
+  int starts = 20;
+  int seed = 1;
+  SecondAnswer check = SecondAnswer::none;
+  std::optional<StudyConfig> study;
+  static void fields(auto& v) {
+    v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
+    v(&FitConfig::law, "law", unit::none, "energy terms, fibre angles and the numbers that are not fitted", required);
+    v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
+    v(&FitConfig::bounds, "bounds", unit::none,
+      "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable");
+    v(&FitConfig::dilatation, "dilatation", unit::none,
+      "state of the specimen: the volume term left out (incompressible) or counted (uniaxial tests only)");
+    v(&FitConfig::starts, "starts", unit::none, "searches: one from the start values, the others from random places in the box",
+      between(1, 100000));
+    v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
+    v(&FitConfig::check, "check", unit::none, "a second answer by another method; disagreement is a warning");
+    v(&FitConfig::study, "study", unit::none,
+      "what the data tell about the parameters, and where the law is stable; {} for all");
+  }
+  std::vector<Complaint> complaints() const;
+  static void complete(Tree& tree);  // what the measured files say of themselves
+};
+
+// the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it must be admissible;
+// exponents 0..10, angles -90..90, limits of extension up to 200
+Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start);
+
+// the parameters with their bounds and start values; a key that the law lacks stays without (complaints() names it)
+std::vector<FreeParameter> free_parameters(const FitConfig& config);
+
+// reads the files; throws Failure(input)
+std::vector<Test> measured_tests(const FitConfig& config);
+
+}  // namespace langer

@@ -1,0 +1,163 @@
+#include "study/fit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "material/ellipticity.hpp"
+#include "store/curves_file.hpp"
+
+namespace langer {
+
+FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
+  FitRecord record;
+  Material material = fit.material;
+  const std::vector<MaterialParameter> all = parameters(material);
+  for (std::size_t i = 0; i < problem.free.size(); ++i) {
+    const FreeParameter& p = problem.free[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const auto known = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    record.parameters.push_back({known->name, known->unit, fit.best.p[k], p.lower, p.upper, std::sqrt(fit.covariance(k, k))});
+  }
+  record.covariance = fit.covariance;
+  record.cost = fit.best.cost;
+  record.kkt_residual = fit.best.kkt;
+  record.mean_error_percent = fit.quality.mean_error_percent, record.max_error_percent = fit.quality.max_error_percent;
+  record.r2 = fit.quality.r2, record.aicc = fit.quality.aicc, record.bic = fit.quality.bic;
+  record.starts = fit.starts;
+  const double* model = fit.model.data();
+  for (std::size_t t = 0; t < problem.tests.size(); ++t) {
+    const Test& test = problem.tests[t];
+    const FitQuality& q = fit.of_test[t];
+    FittedTest one{test.name,
+                   names(test.kind)[static_cast<std::size_t>(test.kind)],
+                   names(test.measure)[static_cast<std::size_t>(test.measure)],
+                   test.fibre_angle_deg,
+                   test.weight,
+                   test.first,
+                   test.second,
+                   test.stress_x,
+                   test.stress_z,
+                   {},
+                   {},
+                   q.r2,
+                   q.mean_error_percent,
+                   q.max_error_percent};
+    one.model_x.assign(model, model + test.stress_x.size()), model += test.stress_x.size();
+    one.model_z.assign(model, model + test.stress_z.size()), model += test.stress_z.size();
+    record.tests.push_back(std::move(one));
+  }
+  // the range of engineering strain along x, over all tests that stretch
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Test& test : problem.tests)
+    for (double x : test.first) {
+      const double strain = test.kind == TestKind::simple_shear ? x : x - 1;
+      low = std::min(low, strain), high = std::max(high, strain);
+    }
+  record.strain_min = low, record.strain_max = high;
+  const FittedTest& first = record.tests.front();
+  for (double x : first.first) record.strain.push_back(first.kind == "simple_shear" ? x : x - 1);
+  record.stress = first.stress_x, record.model = first.model_x;
+  return record;
+}
+
+std::string fit_csv(const FitRecord& record) {
+  const auto error = [](double model, double stress, const FittedTest& t) {
+    double largest = 0;
+    for (const auto* list : {&t.stress_x, &t.stress_z})
+      for (double s : *list) largest = std::max(largest, std::abs(s));
+    return largest > 0 ? 100 * (model - stress) / largest : std::numeric_limits<double>::quiet_NaN();
+  };
+  const FittedTest& only = record.tests.front();
+  if (record.tests.size() == 1 && only.kind == "uniaxial") {
+    std::vector<double> e;
+    for (std::size_t i = 0; i < only.first.size(); ++i) e.push_back(error(only.model_x[i], only.stress_x[i], only));
+    return csv({{"strain", "-", record.strain},
+                {only.measure + "_stress", "MPa", only.stress_x},
+                {"model", "MPa", only.model_x},
+                {"error", "percent", e}});
+  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> c[9];
+  for (std::size_t t = 0; t < record.tests.size(); ++t) {
+    const FittedTest& test = record.tests[t];
+    for (std::size_t i = 0; i < test.first.size(); ++i) {
+      const bool z = !test.stress_z.empty();
+      const double row[] = {static_cast<double>(t + 1),
+                            test.first[i],
+                            test.second.empty() ? none : test.second[i],
+                            test.stress_x[i],
+                            z ? test.stress_z[i] : none,
+                            test.model_x[i],
+                            z ? test.model_z[i] : none,
+                            error(test.model_x[i], test.stress_x[i], test),
+                            z ? error(test.model_z[i], test.stress_z[i], test) : none};
+      for (int k = 0; k < 9; ++k) c[k].push_back(row[k]);
+    }
+  }
+  return csv({{"test", "-", c[0]},
+              {"first", "-", c[1]},
+              {"second", "-", c[2]},
+              {"stress_x", "MPa", c[3]},
+              {"stress_z", "MPa", c[4]},
+              {"model_x", "MPa", c[5]},
+              {"model_z", "MPa", c[6]},
+              {"error_x", "percent", c[7]},
+              {"error_z", "percent", c[8]}});
+}
+
+std::vector<std::string> fit_results(const FitRecord& record) {
+  std::vector<std::string> lines;
+  for (const FittedParameter& p : record.parameters) {
+    const bool on_bound = p.value == p.lower || p.value == p.upper;
+    const std::string known = on_bound                       ? "on its bound"
+                              : std::isnan(p.standard_error) ? "not determined by this curve"
+                                                             : fmt::format("standard error {:.2g}", p.standard_error);
+    lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
+  }
+  if (record.tests.size() > 1)
+    for (const FittedTest& t : record.tests)
+      lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2,
+                                  t.mean_error_percent, t.max_error_percent));
+  std::size_t points = 0;
+  for (const FittedTest& t : record.tests) points += t.first.size();
+  lines.push_back(fmt::format("R2 {:.6f}, AICc {:.6g}, BIC {:.6g}", record.r2, record.aicc, record.bic));
+  lines.push_back(
+      fmt::format("mean error {:.3g} %, largest {:.3g} % of the largest stress; KKT residual {:.1e}; {} points, {} starts",
+                  record.mean_error_percent, record.max_error_percent, record.kkt_residual, points, record.starts.rows()));
+  return lines;
+}
+
+std::vector<std::string> fit_warnings(const FitRecord& record, const Material& material) {
+  std::vector<std::string> lines;
+  for (const MatrixTerm& term : material.matrix)
+    if (const double mu = shear_modulus(term); mu < 0)
+      lines.push_back(fmt::format("{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
+                                  std::visit([](const auto& law) { return law.key; }, term), mu));
+  for (const Fibre& fibre : material.fibres)
+    if (fibre.hgo.c1 < 0)
+      lines.push_back(
+          fmt::format("c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
+                      fibre.hgo.c1));
+  const MatX correlations = correlation(record.covariance);
+  for (std::size_t i = 0; i < record.parameters.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double r = correlations(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (std::isgreater(std::abs(r), 0.99))  // never NaN, without a trap
+        lines.push_back(fmt::format("{} and {} are correlated by {:.4f}: this curve hardly tells them apart",
+                                    record.parameters[j].name, record.parameters[i].name, r));
+    }
+  const std::vector<Vec3> a = fibre_directions(material);
+  const double far = 1.5 * record.strain_max;
+  for (int i = 0; i <= 200 && far > 0; ++i) {
+    const Uniaxial u = uniaxial_incompressible(material, 1 + i * far / 200);
+    if (u.converged && std::isgreater(smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value, 0)) continue;
+    lines.push_back(
+        fmt::format("strong ellipticity is lost at strain {:.2g}; the curve ends at {:.2g}", i * far / 200, record.strain_max));
+    break;
+  }
+  return lines;
+}
+
+}  // namespace langer

@@ -1,0 +1,278 @@
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/advice.hpp"
+#include "fit/identifiability.hpp"
+#include "store/curves_file.hpp"
+#include "tensor/kinematics.hpp"
+
+namespace langer {
+
+namespace {
+
+template <class E>
+std::string word(E e) {
+  return names(e)[static_cast<std::size_t>(e)];
+}
+
+// the test that a candidate would be: to the largest strain measured so far, as many points as the largest test
+Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests) {
+  Test t;
+  t.kind = choice.kind, t.fibre_angle_deg = choice.fibre_angle;
+  double reach = 0;
+  std::size_t points = 0;
+  for (const Test& one : tests) {
+    for (double x : one.first) reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
+    points = std::max(points, one.points());
+  }
+  for (std::size_t i = 1; i <= points; ++i) {
+    const double x = reach * static_cast<double>(i) / static_cast<double>(points);
+    t.first.push_back(choice.kind == TestKind::simple_shear ? x : 1 + x);
+    if (choice.kind == TestKind::biaxial) t.second.push_back(1 + x);
+    t.stress_x.push_back(0);
+    if (choice.kind == TestKind::equibiaxial || choice.kind == TestKind::biaxial) t.stress_z.push_back(0);
+  }
+  return t;
+}
+
+std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
+                                    const MatX& known, const VecX& size, const std::vector<Eigen::Index>& free) {
+  std::vector<Candidate> candidates;
+  for (const CandidateChoice& choice : config.candidates) {
+    FitProblem more = problem;
+    more.tests = {test_like(choice, problem.tests)};
+    const LeastSquares q = least_squares_problem(more);
+    VecX stress;
+    MatX J;
+    // no test where the law has no state
+    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J)) continue;
+    MatX part(J.rows(), static_cast<Eigen::Index>(free.size()));
+    for (std::size_t j = 0; j < free.size(); ++j) part.col(static_cast<Eigen::Index>(j)) = J.col(free[j]);
+    const std::string name = fmt::format("{}, fibres at {:g} degrees", word(choice.kind), choice.fibre_angle);
+    candidates.push_back({name, part, config.noise * stress.cwiseAbs().maxCoeff()});
+  }
+  std::vector<AdviceRecord> records;
+  for (const Advice& a : advise(known, size, candidates)) {
+    AdviceRecord record{a.name, a.worst, a.gain,
+                        std::vector<double>(static_cast<std::size_t>(fit.best.p.size()), std::nan(""))};
+    for (std::size_t j = 0; j < free.size(); ++j) record.relative[static_cast<std::size_t>(free[j])] = a.relative[j];
+    records.push_back(record);
+  }
+  return records;
+}
+
+IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
+                               const ProgressOf& progress) {
+  const LeastSquares q = least_squares_problem(problem);
+  const auto say = [&](const char* what) { return progress ? progress(what) : std::function<void(double)>(); };
+  const VecX& p = fit.best.p;
+  const auto m = fit.best.r.size(), n = p.size();
+  double largest = 0;
+  for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
+  const double estimated = m > n ? std::sqrt(2 * fit.best.cost / static_cast<double>(m - n)) : 0;
+  const double noise = std::max(config.noise * largest, estimated);
+  const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.best.at_bound, noise);
+  IdentifiabilityRecord record;
+  record.names = parameter_names(problem);
+  record.value.assign(p.data(), p.data() + n);
+  record.size.assign(s.size.data(), s.size.data() + n);
+  record.noise = noise, record.error = s.error, record.singular = s.singular;
+  record.correlation = s.correlation, record.combination = s.combination;
+  if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
+  if (config.profiles) {
+    ProfileOptions options;
+    options.threads = config.threads, options.progress = say("profiles");
+    for (const Profile& one : profiles([&] { return least_squares_problem(problem); }, p, s.error, noise, options))
+      record.profiles.push_back({one.value, one.rise, one.low, one.high, one.low_open, one.high_open});
+  }
+  if (config.bootstrap > 0) {
+    BootstrapOptions options;
+    options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
+    // residuals smaller than the noise one believes in tell nothing about it
+    options.gaussian = noise > estimated, options.threads = config.threads, options.progress = say("bootstrap");
+    const Bootstrap b = bootstrap([&] { return least_squares_problem(problem); }, p, noise, options);
+    record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
+  }
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!fit.best.at_bound[static_cast<std::size_t>(i)]) free.push_back(i);
+  if (!free.empty()) {
+    const auto k = static_cast<Eigen::Index>(free.size());
+    MatX J(m, k);
+    VecX size(k);
+    for (Eigen::Index j = 0; j < k; ++j)
+      J.col(j) = fit.best.J.col(free[static_cast<std::size_t>(j)]), size[j] = s.size[free[static_cast<std::size_t>(j)]];
+    record.advice = advice_of(problem, fit, config, information(J, size, noise), size, free);
+  }
+  return record;
+}
+
+std::string up_to(const PathStability& p, double end) {
+  const double loss = std::min(p.slope_loss, p.ellipticity_loss);
+  const bool shear = p.path == Path::simple_shear;
+  const auto text = [&](double x) { return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x); };
+  if (std::isinf(loss)) return "stable up to " + text(end) + ", as far as looked";
+  // rounded down: stable as far as said
+  std::string s = "stable up to " + text(std::floor(1000 * std::max(0., loss)) / 1000);
+  if (loss <= 0) s = "unstable from rest on";
+  if (p.slope_loss < p.ellipticity_loss) {
+    s += ", where the nominal stress starts to fall";
+    if (std::isfinite(p.ellipticity_loss)) s += "; strong ellipticity is lost at " + text(p.ellipticity_loss);
+  } else
+    s += ", where strong ellipticity is lost";
+  return s;
+}
+
+StabilityRecord stability_of(const Material& material, const FitProblem& problem, const StudyConfig& config,
+                             const ProgressOf& progress) {
+  StabilityRecord record;
+  StabilityOptions options;
+  options.to = config.stability_to, options.points = 51, options.stretches = 41, options.threads = config.threads;
+  if (progress) options.progress = progress("stability map");
+  record.map = stability_map(material, options);
+  const Test& first = problem.tests.front();
+  const double own = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
+  const Path path = first.kind == TestKind::simple_shear ? Path::simple_shear
+                    : first.kind == TestKind::pure_shear ? Path::pure_shear
+                    : first.kind == TestKind::uniaxial   ? Path::uniaxial
+                                                         : Path::equibiaxial;
+  std::vector<double> fine;
+  for (int i = 0; i <= 200; ++i) fine.push_back(config.stability_to * i / 200);
+  const PathStability along = path_stability(turned(material, first.fibre_angle_deg), path, fine);
+  const double reach = *std::max_element(first.first.begin(), first.first.end());
+  const double angle = own + first.fibre_angle_deg;
+  const std::string where = material.fibres.empty() ? ""
+                            : angle == 0            ? " along the fibre"
+                                                    : fmt::format(" with the fibre at {:g} degrees", angle);
+  record.verdict = fmt::format("{}{}: {}; data reach {:.2f}", word(path), where, up_to(along, config.stability_to), reach);
+  return record;
+}
+
+}  // namespace
+
+std::vector<std::string> parameter_names(const FitProblem& problem) {
+  Material law = problem.law;
+  std::vector<std::string> result;
+  for (const FreeParameter& f : problem.free)
+    for (const MaterialParameter& p : parameters(law))
+      if (p.key == f.key) result.push_back(p.name);
+  return result;
+}
+
+FittedRange fitted_range(const Material& material, const std::vector<Test>& tests) {
+  FittedRange range{3, std::vector<double>(material.fibres.size(), 1)};
+  for (const Test& t : tests) {
+    const std::vector<Vec3> a = specimen_fibres(material, t.fibre_angle_deg);
+    for (std::size_t i = 0; i < t.points(); ++i) {
+      const PlaneState s = plane_state(material, a, t.kind, t.first[i], t.second.empty() ? 1 : t.second[i], t.shear);
+      if (!s.converged) continue;
+      range.I1_bar = std::max(range.I1_bar, s.F.squaredNorm());
+      for (std::size_t k = 0; k < a.size(); ++k) range.I4_bar[k] = std::max(range.I4_bar[k], (s.F * a[k]).squaredNorm());
+    }
+  }
+  return range;
+}
+
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress) {
+  StudyRecord record;
+  record.identifiability = identify(problem, fit, config, progress);
+  if (config.stability) record.stability = stability_of(fit.material, problem, config, progress);
+  record.range = fitted_range(fit.material, problem.tests);
+  return record;
+}
+
+std::vector<std::string> study_lines(const StudyRecord& study) {
+  std::vector<std::string> lines;
+  if (study.identifiability) {
+    const IdentifiabilityRecord& r = *study.identifiability;
+    lines.push_back(fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
+    for (std::size_t i = 0; i < r.names.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      std::string s = std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
+                                             : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %)", r.names[i], r.error[k],
+                                                           100 * r.error[k] / r.size[i]);
+      if (!r.profiles.empty()) {
+        const ProfileRecord& p = r.profiles[i];
+        s += fmt::format(", profile {}{:.4g} to {:.4g}{}", p.low_open ? "[bound] " : "", p.low, p.high,
+                         p.high_open ? " [bound]" : "");
+      }
+      if (r.bootstrap.rows() > 1) s += fmt::format(", bootstrap {:.4g} to {:.4g}", r.bootstrap_low[k], r.bootstrap_high[k]);
+      lines.push_back(s);
+    }
+    if (!r.words.empty()) lines.push_back("hardly felt: " + r.words);
+    for (std::size_t i = 0; i < r.advice.size(); ++i) {
+      const AdviceRecord& a = r.advice[i];
+      lines.push_back(fmt::format("{} {}: worst standard error {:.3g} %, information {:+.2f} nats per parameter",
+                                  i == 0 ? "advice: next" : "        else", a.test, 100 * a.worst, a.gain));
+    }
+  }
+  if (study.stability) {
+    const StabilityMap& map = study.stability->map;
+    lines.push_back("stability: " + study.stability->verdict);
+    for (const PathStability& p : map.paths)
+      if (std::isfinite(p.slope_loss) || std::isfinite(p.ellipticity_loss))
+        lines.push_back(
+            fmt::format("stability: {}, fibre at {:g} degrees: {}", word(p.path), p.angle, up_to(p, map.amount.back())));
+    lines.push_back(
+        std::isinf(map.safe_hencky)
+            ? std::string("stability: no loss of strong ellipticity found up to a Hencky norm of 1.2")
+            : fmt::format("stability: strongly elliptic in every state up to a Hencky norm of {:.3g}", map.safe_hencky));
+  }
+  return lines;
+}
+
+std::vector<TextFile> study_tables(const StudyRecord& study) {
+  std::vector<TextFile> files;
+  if (study.identifiability) {
+    const IdentifiabilityRecord& r = *study.identifiability;
+    std::string text =
+        "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
+    for (std::size_t i = 0; i < r.names.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      text += fmt::format("{},{},{},{},", r.names[i], r.value[i], r.error[k], 100 * r.error[k] / r.size[i]);
+      text += r.profiles.empty() ? "," : fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
+      text += r.bootstrap.rows() < 2 ? ",,\n" : fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
+    }
+    files.push_back({"identifiability.csv", text});
+    for (std::size_t i = 0; i < r.profiles.size(); ++i) {
+      std::vector<double> relative, rise;
+      for (std::size_t k = 0; k < r.profiles[i].value.size(); ++k) {
+        if (!std::isfinite(r.profiles[i].rise[k]) || r.profiles[i].rise[k] > 6) continue;
+        relative.push_back(100 * (r.profiles[i].value[k] - r.value[i]) / r.size[i]);
+        rise.push_back(r.profiles[i].rise[k]);
+      }
+      files.push_back({"profile_" + r.names[i] + ".csv", csv({{"change", "percent", relative}, {"rise", "-", rise}})});
+    }
+    std::string advice = "test,worst_percent,gain";
+    for (const std::string& name : r.names) advice += "," + name + "_percent";
+    advice += "\n";
+    for (const AdviceRecord& a : r.advice) {
+      advice += fmt::format("\"{}\",{},{}", a.test, 100 * a.worst, a.gain);
+      for (double x : a.relative) advice += fmt::format(",{}", 100 * x);
+      advice += "\n";
+    }
+    files.push_back({"advice.csv", advice});
+  }
+  if (study.stability) {
+    const StabilityMap& map = study.stability->map;
+    std::string text = "path,fibre_angle_deg,slope_loss,ellipticity_loss\n";
+    for (const PathStability& p : map.paths)
+      text += fmt::format("{},{},{},{}\n", word(p.path), p.angle, p.slope_loss, p.ellipticity_loss);
+    files.push_back({"stability.csv", text});
+    std::vector<double> l1, l2, value;
+    for (Eigen::Index row = 0; row < map.plane.rows(); ++row)
+      for (Eigen::Index column = 0; column < map.plane.cols(); ++column) {
+        l1.push_back(map.stretch[static_cast<std::size_t>(column)]), l2.push_back(map.stretch[static_cast<std::size_t>(row)]);
+        value.push_back(map.plane(row, column));
+      }
+    files.push_back({"stability_plane.csv",
+                     csv({{"stretch_x", "-", l1}, {"stretch_z", "-", l2}, {"smallest_shear_stiffness", "MPa", value}})});
+  }
+  return files;
+}
+
+}  // namespace langer

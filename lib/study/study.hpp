@@ -1,0 +1,31 @@
+// A fit looked at closely: what its data tell, which test would tell more, where the law is stable; as records, words and
+// tables.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fit/fit.hpp"
+#include "study/study_config.hpp"
+#include "store/study_record.hpp"
+
+namespace langer {
+
+using ProgressOf = std::function<std::function<void(double)>(const std::string& what)>;
+
+// names of the free parameters, as the tables call them
+std::vector<std::string> parameter_names(const FitProblem& problem);
+
+FittedRange fitted_range(const Material& material, const std::vector<Test>& tests);
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress = {});
+
+std::vector<std::string> study_lines(const StudyRecord& study);
+
+struct TextFile {
+  std::string name, text;
+};
+// identifiability.csv, advice.csv, profile_<name>.csv, stability.csv, stability_plane.csv
+std::vector<TextFile> study_tables(const StudyRecord& study);
+
+}  // namespace langer

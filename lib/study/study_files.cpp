@@ -1,0 +1,128 @@
+#include "study/study_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "plot/gnuplot.hpp"
+#include "plot/heat_map.hpp"
+#include "plot/pictures.hpp"
+#include "study/sensitivity_tables.hpp"
+#include "store/curves_file.hpp"
+#include "store/seal.hpp"
+
+namespace langer {
+
+namespace {
+
+std::vector<std::string> lines_of(const Pictures& pictures) {
+  std::vector<std::string> lines;
+  for (const auto& [reason, figures] : pictures.failed()) lines.push_back(fmt::format("not drawn: {} ({})", figures, reason));
+  return lines;
+}
+
+void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
+  HeatMap map;
+  map.title = "correlation of the parameters";
+  map.x_names = map.y_names = r.names;
+  map.values = r.correlation, map.numbers = map.first_row_on_top = true;
+  pictures.draw("correlation", heat_map(map));
+  if (r.profiles.empty()) return;
+  Plot plot;
+  plot.title = "profiles: others follow; 3.84 ends the 95 % interval";
+  plot.x_label = "change of the parameter (%)", plot.y_label = "rise of chi-square";
+  for (const std::string& name : r.names)
+    plot.lines.push_back({"profile_" + name + ".csv", csv_name("change", "percent"), "rise", literal(name)});
+  pictures.draw("profiles", gnuplot_script(plot, "profiles"));
+}
+
+void draw_stability(Pictures& pictures, const StabilityMap& m) {
+  HeatMap plane;
+  plane.title = "smallest shear stiffness over the stretches; red: strong ellipticity lost";
+  plane.x_label = "stretch along x", plane.y_label = "stretch along z", plane.value_label = "MPa";
+  plane.x_from = plane.y_from = m.stretch.front(), plane.x_to = plane.y_to = m.stretch.back();
+  plane.values = m.plane, plane.zero_line = plane.swap_colours = true;
+  // at rest, times two: what is far stiffer or softer has the ends' colours
+  Eigen::Index rest = 0;
+  for (std::size_t i = 0; i < m.stretch.size(); ++i)
+    if (std::abs(m.stretch[i] - 1) < std::abs(m.stretch[static_cast<std::size_t>(rest)] - 1))
+      rest = static_cast<Eigen::Index>(i);
+  plane.limit = std::max(2 * std::abs(m.plane(rest, rest)), 1e-12);
+  pictures.draw("stability_plane", heat_map(plane));
+
+  HeatMap losses;
+  losses.title = "first loss: strain or shear from which the law is unstable";
+  losses.x_label = "angle between fibres and x (degrees)", losses.losses = true;
+  const auto angles = static_cast<Eigen::Index>(m.angle.size());
+  losses.values.resize(2 * static_cast<Eigen::Index>(all_paths.size()), angles);
+  for (double a : m.angle) losses.x_names.push_back(fmt::format("{:g}", a));
+  for (std::size_t k = 0; k < all_paths.size(); ++k) {
+    std::string name = names(Path{})[static_cast<std::size_t>(all_paths[k])];
+    std::replace(name.begin(), name.end(), '_', ' ');
+    losses.y_names.push_back(name + ", slope"), losses.y_names.push_back(name + ", ellipt.");
+    for (Eigen::Index j = 0; j < angles; ++j) {
+      const PathStability& p = m.paths[k * m.angle.size() + static_cast<std::size_t>(j)];
+      losses.values(2 * static_cast<Eigen::Index>(k), j) = p.slope_loss;
+      losses.values(2 * static_cast<Eigen::Index>(k) + 1, j) = p.ellipticity_loss;
+    }
+  }
+  losses.limit = m.amount.back(), losses.numbers = losses.first_row_on_top = true;
+  pictures.draw("stability_directions", heat_map(losses));
+}
+
+}  // namespace
+
+std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const std::string& folder) {
+  for (const TextFile& file : study_tables(study))
+    write_text_file((std::filesystem::path(folder) / file.name).string(), file.text);
+  if (!config.figures) return {};
+  Pictures pictures(folder);
+  if (study.identifiability) draw_identifiability(pictures, *study.identifiability);
+  if (study.stability) draw_stability(pictures, study.stability->map);
+  return lines_of(pictures);
+}
+
+std::vector<std::string> draw_fit(const std::string& measured_column, const std::string& folder) {
+  Pictures pictures(folder);
+  Plot plot;
+  plot.x_label = "strain", plot.y_label = "stress (MPa)", plot.title = "measured and fitted";
+  plot.lines = {{"fit.csv", "strain", measured_column, "measured"}, {"fit.csv", "strain", "model_MPa", "model"}};
+  pictures.draw("figure_4", gnuplot_script(plot, "figure_4"));
+  plot.y_label = "error (% of the largest stress)", plot.title = "model less measured";
+  plot.lines = {{"fit.csv", "strain", "error_percent", "error"}};
+  pictures.draw("figure_5", gnuplot_script(plot, "figure_5"));
+  return lines_of(pictures);
+}
+
+std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const std::string& folder) {
+  Pictures pictures(folder);
+  Plot effects;
+  effects.title = "one parameter at a time: mean effect over its range";
+  effects.x_label = "strain", effects.y_label = "mu* (MPa)", effects.rows = static_cast<int>(r.strain.size());
+  for (const RankedNumber& p : r.parameters)
+    effects.lines.push_back({"sensitivity.csv", "strain", csv_name("mu_star_range_" + p.name, "MPa"), literal(p.name)});
+  pictures.draw("effects", gnuplot_script(effects, "effects"));
+
+  Bars b;
+  for (const Zone& z : r.zones) b.groups.push_back(fmt::format("strain {:g} to {:g}", z.from, z.to));
+  for (const RankedNumber& p : r.parameters) b.series.push_back(p.name);
+  b.title = "effect of each parameter over its range, one at a time", b.y_label = "μ* (MPa)";
+  b.values = over_range(r, zone_means(r.effects.mu_star, r.strain, r.zones));
+  pictures.draw("effects_by_zone", bars(b));
+  const auto draw = [&](const std::string& name, const std::string& title, const std::string& unit, const Estimate& e) {
+    b.title = title, b.y_label = unit, b.values = e.value, b.low = e.low, b.high = e.high;
+    pictures.draw(name, bars(b));
+  };
+  if (r.morris) {
+    draw("morris_by_zone", "Morris trajectories: μ* with 95 % intervals", "μ* (MPa)", r.morris->group_mu_star);
+    draw("morris_sigma_by_zone", "Morris trajectories: σ, curvature and interaction", "σ (MPa)", r.morris->group_sigma);
+  }
+  if (r.sobol) {
+    draw("sobol_by_zone", "Sobol: total share of the variance with 95 % intervals", "share", r.sobol->group_total);
+    draw("sobol_first_by_zone", "Sobol: share of the variance alone", "share", r.sobol->group_first);
+  }
+  return lines_of(pictures);
+}
+
+}  // namespace langer

@@ -1,0 +1,19 @@
+// Tables and figures of a study (study/study.hpp) and of a sensitivity study, beside the main output of their stage.
+//   correlation, profiles, stability_plane, stability_directions       effects, effects_by_zone, morris_by_zone, sobol_by_zone
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/sensitivity_file.hpp"
+#include "study/study.hpp"
+
+namespace langer {
+
+// Both return a line for every figure that could not be drawn.
+std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const std::string& folder);
+// of fit.csv of one uniaxial test: figs 4 and 5 of [A23]
+std::vector<std::string> draw_fit(const std::string& measured_column, const std::string& folder);
+std::vector<std::string> draw_sensitivity(const SensitivityRecord& record, const std::string& folder);
+
+}  // namespace langer

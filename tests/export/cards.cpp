@@ -1,0 +1,71 @@
+// Fitted laws as input of other programs.
+#include "export/cards.hpp"
+
+#include <doctest/doctest.h>
+
+#include "material/catalogue.hpp"
+
+using namespace langer;
+
+namespace {
+
+const Volume volume{QuadraticVolume{1e-3}};
+
+Card card(const Material& m, const std::string& program) {
+  for (const Card& c : cards(m))
+    if (c.program == program) return c;
+  FAIL("no card for " << program);
+  return {};
+}
+
+void holds(const Card& c, const std::string& part) {
+  CAPTURE(c.text);
+  CHECK(c.exists);
+  CHECK(c.text.find(part) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("isotropic laws stand in Abaqus and CalculiX with the same keywords") {
+  for (const char* program : {"Abaqus", "CalculiX"}) {
+    holds(card({{NeoHooke{0.3}}, {}, volume}, program), "*HYPERELASTIC, NEO HOOKE\n0.3, 0.001\n");
+    holds(card({{Yeoh{0.3, 0.2, 0.1}}, {}, volume}, program), "*HYPERELASTIC, YEOH\n0.3, 0.2, 0.1, 0.001, 0., 0.\n");
+    holds(card({{MooneyRivlin{0.3, 0.2}}, {}, volume}, program), "*HYPERELASTIC, MOONEY-RIVLIN\n0.3, 0.2, 0.001\n");
+    // the same law written as a sum
+    holds(card({{NeoHooke{0.3}, YeohI2{0.2, 0, 0}}, {}, volume}, program), "MOONEY-RIVLIN\n0.3, 0.2, 0.001\n");
+    holds(card({{Signorini{0.3, 0.2, 0.1}}, {}, volume}, program), "POLYNOMIAL, N=2\n0.3, 0.2, 0.1, 0., 0., 0.001, 0.\n");
+    // mu alpha/2 = 0.3 * 4/2
+    holds(card({{Ogden{0.3, 4}}, {}, volume}, program), "OGDEN, N=1\n0.6, 4, 0.001\n");
+    holds(card({{ArrudaBoyce{0.3, 4}}, {}, volume}, program), "ARRUDA-BOYCE\n0.3, 4, 0.001\n");
+    const Card gent = card({{Gent{0.3, 4}}, {}, volume}, program);
+    CHECK(!gent.exists);
+    CHECK(gent.text.find("gent is no built-in material of " + std::string(program)) != std::string::npos);
+  }
+}
+
+TEST_CASE("FEBio has a Yeoh of its own") {
+  holds(card({{NeoHooke{0.1}, Yeoh{0.3, 0.2, 0.1}}, {}, volume}, "FEBio"), "type=\"Yeoh\">\n  <c1>0.4</c1>\n  <c2>0.2</c2>\n  <c3>0.1</c3>\n  <k>2000</k>");
+}
+
+TEST_CASE("HGO and GOH stand in Abaqus and FEBio, HGO-Yeoh does not") {
+  const Material goh{{NeoHooke{0.3}}, {hgo_fibre(0.2, 0.5, 90, FibreSwitch::I4_bar, 0.1)}, volume};
+  holds(card(goh, "Abaqus"), "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=1\n0.3, 0.001, 0.2, 0.5, 0.1\n");
+  const Card febio = card(goh, "FEBio");
+  holds(febio, "type=\"Holzapfel-Gasser-Ogden\"");
+  holds(febio, "<c>0.6</c>");
+  holds(febio, "<k1>0.1</k1>");  // two coincident families there
+  holds(febio, "<k>2000</k>");
+  for (const char* program : {"Abaqus", "FEBio", "CalculiX"}) CHECK(!card(table1_hgo_yeoh(), program).exists);
+}
+
+TEST_CASE("the law (44) of two families stands in ANSYS with its ten constants") {
+  const Material m{{Yeoh{1, 2, 3}, YeohI2{4, 5, 6}}, {hgo_fibre(7, 8, 0), hgo_fibre(9, 10, 90)}, volume};
+  const Card c = card(m, "ANSYS");
+  holds(c, "TB,AHYPER,1,1,10,EXPO\nTBDATA,1,1,2,3\nTBDATA,4,4,5,6\nTBDATA,7,7,8\nTBDATA,9,9,10\n");
+  holds(c, "AVEC\nTBDATA,1,1,0,0\n");
+  holds(c, "TB,AHYPER,1,1,1,PVOL\nTBDATA,1,0.001\n");
+  holds(card({{Gent{0.3, 4}}, {}, volume}, "ANSYS"), "GENT\nTBDATA,1,0.3,4,0.001\n");
+  Material dispersed = m;
+  dispersed.fibres[0].kappa = 0.1;
+  CHECK(!card(dispersed, "ANSYS").exists);
+}

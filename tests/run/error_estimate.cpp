@@ -1,0 +1,156 @@
+// Estimated errors against true ones.
+#include "run/error_estimate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "config/reader.hpp"
+#include "config/tree.hpp"
+#include "post/recovery.hpp"
+#include "support/solved_scene.hpp"
+
+using namespace langer;
+
+namespace {
+
+const auto nowhere = [](const std::string&) { return Place{}; };
+
+SolveConfig rung(const std::string& scene, CellType cells, double edge, double step) {
+  const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
+  const std::string text = "include: trade_" + scene + ".yaml\nmesh: {include: ../mesh/trade.yaml}\n";
+  SolveConfig config = read_config<SolveConfig>(parse_yaml(text, folder + "/rung.yaml", folder)).config;
+  config.mesh->cells = cells;
+  std::get<IndentedBlock>(config.mesh->geometry).edge = edge;
+  config.path.first = config.path.largest = step;
+  return config;
+}
+
+std::vector<ErrorEstimate> estimates_of(const SolveConfig& config) {
+  return estimate_errors(config, config.material, nowhere, end_of_path(config, config.material, nowhere), 1e-9);
+}
+
+}  // namespace
+
+// right: make trade, the limit of meshes of either kind, 0.03 % and for the others 0.06 %
+TEST_CASE("the estimated error of the force is within a factor of three of the true one, and has its sign") {
+  struct Case {
+    const char* scene;
+    CellType cells;
+    double edge, right;
+  };
+  for (const Case& c : {Case{"isotropic", CellType::hex8, 0.35, 10.763}, {"isotropic", CellType::hex8, 0.2, 10.763},
+                        {"isotropic", CellType::hex27, 0.6, 10.763}, {"isotropic", CellType::hex27, 0.3536, 10.763},
+                        {"isotropic", CellType::hex27, 0.25, 10.763},
+                        {"table1", CellType::hex8, 0.175, 9.362}, {"positive", CellType::hex8, 0.2, 12.67}}) {
+    CAPTURE(c.scene);
+    CAPTURE(static_cast<int>(c.cells));
+    CAPTURE(c.edge);
+    const SolveConfig config = rung(c.scene, c.cells, c.edge, 0.25);
+    const std::vector<ErrorEstimate> estimates = estimates_of(config);
+    REQUIRE(estimates.size() == 3);  // greatest von Mises stress, displacement of S
+    const ErrorEstimate& force = estimates[0];
+    CHECK(force.of.name == "force");
+    const double error = force.of.value - c.right;
+    CHECK(force.total() < 3 * std::abs(error));
+    CHECK(force.total() > std::abs(error) / 3);
+    CHECK(force.cells * error > 0);
+    const bool longest_of_its_own = c.cells == CellType::hex8 && c.edge == 0.175;  // their limit is no nearer than this
+    CHECK(std::abs(force.limit() - c.right) < (longest_of_its_own ? 0.6 * std::abs(error) : 0.002 * c.right));
+    CHECK(force.solver < 1e-7);
+    if (!has_friction(config)) CHECK(force.increments == 0);
+  }
+}
+
+TEST_CASE("on a disc, too, what few nodes in contact get wrong is known") {
+  const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
+  for (CellType cells : {CellType::hex8, CellType::hex27}) {
+    SolveConfig config = read_config<SolveConfig>(load_yaml(folder + "/axisymmetric.yaml")).config;
+    config.mesh->cells = cells;
+    std::get<IndentedDisc>(config.mesh->geometry).edge = 0.25;
+    const ErrorEstimate force = estimates_of(config)[0];
+    const double error = force.of.value - 10.763;  // docs/sections.md, within 0.03 %
+    CHECK(std::abs(error) > 0.004 * 10.763);
+    CHECK(std::abs(force.limit() - 10.763) < 0.001 * 10.763);
+    CHECK(force.total() == doctest::Approx(std::abs(error)).epsilon(0.2));
+  }
+}
+
+TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
+  SolveConfig config = rung("isotropic", CellType::hex8, 0.175, 0.25);
+  config.formulation = Formulation::displacement;
+  const ErrorEstimate force = estimates_of(config)[0];
+  CHECK(force.of.value > 2 * 10.763);
+  CHECK(std::abs(force.limit() - 10.763) < 0.002 * 10.763);
+}
+
+TEST_CASE("two meshes that agree by chance do not pass for right") {
+  const ErrorEstimate force = estimates_of(rung("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
+  CHECK(force.total() > std::abs(force.of.value - 10.763));
+}
+
+TEST_CASE("with friction the increments have an error, which falls with them, without it none") {
+  double last = 1e300;
+  for (double step : {1.0, 0.5, 0.25}) {
+    const double increments = std::abs(estimates_of(rung("table1", CellType::hex8, 0.15, step))[0].increments);
+    CAPTURE(step);
+    CHECK(increments > 0);
+    CHECK(increments < last);
+    last = increments;
+    CHECK(estimates_of(rung("isotropic", CellType::hex8, 0.18, step))[0].increments == 0);
+  }
+}
+
+TEST_CASE("a mesh whose cells no number scales has no second rung") {
+  SolveConfig config = rung("isotropic", CellType::hex27, 0.8, 1);
+  config.mesh->geometry = Block{};
+  CHECK_THROWS_AS(estimate_errors(config, config.material, nowhere, {}, 0), Failure);
+}
+
+// a bar of 4 x 1 x 1 mm, held at its ends, which move past each other
+TEST_CASE("what a stress lacks to be smooth tells the error of the stored energy within a factor of three") {
+  struct Bar {
+    RecoveredError error;
+    double energy;
+  };
+  const auto bar = [](int per_mm, const char* cells) {
+    const SolveConfig config = test::config_of(fmt::format(
+        "mesh: {{cells: {}, geometry: {{block: {{size: [4, 1, 1], divisions: [{}, {}, {}]}}}}}}\n"
+        "material: {{matrix: {{yeoh: {{a1: 0.3, a2: 0.1, a3: 0}}}}, volume: {{quadratic: {{d: 1.0e-4}}}}}}\n"
+        "supports: [{{on: x_min, hold: [x, y, z]}}, {{on: x_max, hold: [x, z]}}]\n"
+        "loads: [{{on: x_max, displacement: {{y: 0.8}}}}]\npath: {{first: 0.5, largest: 0.5}}\n",
+        cells, 4 * per_mm, per_mm, per_mm));
+    const Mesh mesh = test::mesh_in(config);
+    const Scene scene = make_scene(config, mesh, config.material, nowhere);
+    const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();
+    return Bar{recovered_error(Body(mesh, scene.materials, scene.formulation), last.u), last.scalars.at("energy")};
+  };
+  const double right = bar(6, "hex27").energy;
+  double before = 1;
+  for (int per_mm : {2, 4, 8}) {
+    CAPTURE(per_mm);
+    const Bar here = bar(per_mm, "hex8");
+    const double true_error = here.energy / right - 1;
+    CHECK(here.error.energy_share() < 3 * true_error);
+    CHECK(here.error.energy_share() > true_error / 3);
+    CHECK(here.error.energy_share() < 0.5 * before);
+    before = here.error.energy_share();
+  }
+}
+
+TEST_CASE("a homogeneous state has no error to recover") {
+  const SolveConfig config = test::config_of(
+      "mesh: {geometry: {block: {size: [2, 1, 1], divisions: [3, 2, 2]}}}\n"
+      "material: {matrix: {yeoh: {a1: 0.3, a2: 0.1, a3: 0}}, volume: {quadratic: {d: 1.0e-4}}}\n"
+      "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
+      "loads: [{on: x_max, displacement: {x: 0.6}}]\npath: {first: 1, largest: 1}\n");
+  const Mesh mesh = test::mesh_in(config);
+  const Scene scene = make_scene(config, mesh, config.material, nowhere);
+  const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();
+  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.formulation), last.u);
+  CHECK(error.eta < 1e-6);
+  CHECK(error.von_mises_spread < 1e-6 * error.von_mises_max);
+}

@@ -1,0 +1,168 @@
+// A body that deforms alike everywhere is solved on one hexahedron, and what it then says of the mesh is what the mesh says.
+#include "run/homogeneous.hpp"
+
+#include <doctest/doctest.h>
+
+#include "support/block.hpp"
+#include "support/laws.hpp"
+#include "support/solved_scene.hpp"
+
+using namespace langer;
+
+namespace {
+
+struct Case {
+  CellType cells = CellType::hex8;
+  std::vector<double> angles{0};                 // of the fibres [deg]
+  Formulation formulation = Formulation::mean_dilatation;
+  bool distorted = true;
+};
+
+Mesh mesh_of(const Case& c) {
+  Mesh mesh = test::block(test::even(1, 5, 3), test::even(0, 1, 2), test::even(-1, 2, 2));
+  if (c.distorted) test::distort(mesh, 0.1);
+  return c.cells == CellType::hex8 ? mesh : test::raised_block(mesh, c.cells);
+}
+
+// three faces slide, the fourth is pulled by 20 %, the others are free
+Scene scene_of(const Case& c, const Mesh& mesh) {
+  Scene scene;
+  scene.formulation = c.cells == CellType::hex8 ? c.formulation : usual_formulation(c.cells);
+  Material material = test::stable(0, 1e-3);
+  const auto fibre = material.fibres.at(0);
+  material.fibres.clear();
+  for (double angle : c.angles) material.fibres.push_back(fibre), material.fibres.back().alpha_deg = angle;
+  scene.materials = {material};
+  std::vector<Prescribed> held;
+  for (const auto& [face, k, value] : {std::tuple{"x_min", 0, 0.}, {"y_min", 1, 0.}, {"z_min", 2, 0.}, {"x_max", 0, 0.8}})
+    for (int i : mesh.node_sets.at(face)) held.push_back({3 * i + k, value});
+  scene.dofs = number_dofs(mesh.n_nodes(), held).dofs;
+  return scene;
+}
+
+SolveConfig in_four_steps() {
+  SolveConfig config;
+  config.path.first = config.path.largest = 0.25;
+  config.solver = NewtonOptions{25, 1e-11};
+  return config;
+}
+
+std::vector<StepRecord> at_a_point(HomogeneousScene& point, const SolveConfig& config) {
+  Equilibrium body = point.equilibrium();
+  Statics statics(body, {}, {});
+  std::vector<StepRecord> steps;
+  const PathReport report = load_path(
+      config.path, 0, std::nullopt, {},
+      [&](double t) {
+        statics.begin(t);
+        return equilibrium_by(point.solver(), statics.problem(), statics.trial());
+      },
+      [&](double, double taken, double next, const SolveReport& step) {
+        statics.accept();
+        const auto whole = point.whole(step_record(statics, body, taken, next, step));
+        REQUIRE(whole.has_value());
+        // what a run that goes on starts from
+        CHECK((point.reduced(*whole).u - statics.accepted().u).lpNorm<Eigen::Infinity>() < 1e-12);
+        steps.push_back(*whole);
+        return true;
+      });
+  CHECK(report.complete);
+  return steps;
+}
+
+bool is_homogeneous(const Mesh& mesh, const Scene& scene) { return HomogeneousScene::find(mesh, scene, in_four_steps()) != nullptr; }
+
+}  // namespace
+
+TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy of the whole mesh to 1e-8") {
+  for (const Case& c : {Case{}, {CellType::hex8, {}}, {CellType::hex8, {90}}, {CellType::hex8, {40, -40}}, {CellType::hex27, {0}, {}, false},
+                        {CellType::tet15, {0}, {}, false}, {CellType::hex8, {0}, Formulation::displacement}}) {
+    CAPTURE(static_cast<int>(c.cells));
+    CAPTURE(c.angles.size());
+    const Mesh mesh = mesh_of(c);
+    const Scene scene = scene_of(c, mesh);
+    const SolveConfig config = in_four_steps();
+    const auto point = HomogeneousScene::find(mesh, scene, config);
+    REQUIRE(point);
+    const std::vector<StepRecord> ours = at_a_point(*point, config);
+    test::HowToSolve how;
+    how.path = config.path, how.solver = config.solver;
+    const test::Solved theirs = test::solved(mesh, scene, std::nullopt, how);
+    REQUIRE(ours.size() == theirs.steps.size());
+    for (std::size_t s = 0; s < ours.size(); ++s) {
+      const StepRecord &a = ours[s], &b = theirs.steps[s];
+      CHECK(a.t == b.t);
+      double u = 0, force = 0, most = 0;
+      for (std::size_t i = 0; i < a.u.size(); ++i) {
+        u = std::max(u, (a.u[i] - b.u[i]).norm());
+        force = std::max(force, (a.reaction[i] - b.reaction[i]).norm()), most = std::max(most, b.reaction[i].norm());
+      }
+      CHECK(most > 0);
+      CHECK(u < 1e-8);
+      CHECK(force < 1e-8 * most);
+      REQUIRE(a.cell_fields.size() == b.cell_fields.size());
+      for (const auto& [name, values] : b.cell_fields) {
+        CAPTURE(name);
+        REQUIRE(a.cell_fields.at(name).size() == values.size());
+        double scale = 0, worst = 0;
+        for (std::size_t e = 0; e < values.size(); ++e) {
+          scale = std::max(scale, std::abs(values[e]));
+          worst = std::max(worst, std::abs(values[e] - a.cell_fields.at(name)[e]));
+        }
+        CHECK(worst < 1e-8 * scale);
+      }
+      for (const char* scalar : {"energy", "J_min"}) CHECK(std::abs(a.scalars.at(scalar) / b.scalars.at(scalar) - 1) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("what does not deform alike everywhere is solved as it is") {
+  const Case usual;
+  const Mesh mesh = mesh_of(usual);
+  const Scene scene = scene_of(usual, mesh);
+  REQUIRE(is_homogeneous(mesh, scene));
+  SUBCASE("fibres that turn the body, between faces that do not") {
+    CHECK_FALSE(is_homogeneous(mesh, scene_of({CellType::hex8, {45}}, mesh)));
+  }
+  SUBCASE("ends that may not become thinner: one hexahedron stays linear, the mesh does not balance; clamped ends leave it nothing") {
+    for (const int components : {1, 2}) {
+      std::vector<Prescribed> held = scene.dofs.prescribed;
+      for (const char* face : {"x_min", "x_max"})
+        for (int i : mesh.node_sets.at(face))
+          for (int k = 1; k <= components; ++k) held.push_back({3 * i + k, 0});
+      Scene clamped = scene;
+      clamped.dofs = number_dofs(mesh.n_nodes(), held).dofs;
+      CHECK_FALSE(is_homogeneous(mesh, clamped));
+    }
+  }
+  SUBCASE("a support that is less than a face") {
+    std::vector<Prescribed> held = scene.dofs.prescribed;
+    held.push_back({3 * mesh.node_sets.at("z_max").back() + 2, 0});
+    Scene pinned = scene;
+    pinned.dofs = number_dofs(mesh.n_nodes(), held).dofs;
+    CHECK_FALSE(is_homogeneous(mesh, pinned));
+  }
+  SUBCASE("two materials") {
+    Mesh layers = mesh;
+    layers.bodies = {"a", "b"};
+    for (int e = 0; e < layers.n_cells(); e += 2) layers.body[e] = 1;
+    Scene two = scene;
+    two.materials.push_back(test::stable(0, 1e-2));
+    CHECK_FALSE(is_homogeneous(layers, two));
+  }
+  SUBCASE("fibres that turn from cell to cell") {
+    Scene turning = scene;
+    for (int e = 0; e < mesh.n_cells(); ++e) turning.fibres.push_back({Vec3(std::cos(0.01 * e), 0, std::sin(0.01 * e))});
+    CHECK_FALSE(is_homogeneous(mesh, turning));
+  }
+  SUBCASE("contact") {
+    Scene touched = scene;
+    touched.contacts = {RigidContact{"ball", Sphere{1, {3, 3, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.1, 0)}}}};
+    CHECK_FALSE(is_homogeneous(mesh, touched));
+  }
+  SUBCASE("a body that is no box") {
+    Mesh bent = mesh;
+    bent.X[static_cast<std::size_t>(bent.node_sets.at("y_max").front())][1] += 0.01;
+    CHECK_FALSE(is_homogeneous(bent, scene));
+  }
+}
