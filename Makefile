@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb schemas clean help
+.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -147,6 +147,12 @@ deb: $(package)/CMakeCache.txt
 	@cd $(package) && cpack -G DEB > cpack.log || { cat cpack.log; exit 1; }
 	@ls $(package)/*.deb
 
+# the folders of lib and the includes between them: docs/map.svg
+map:
+	@$(MAKE) --no-print-directory deps packages=graphviz
+	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z]*/' lib stages > runs/map_includes
+	@awk -f docs/map.awk runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
+
 # configs/schema, and the line in each config that names its schema
 schemas: build
 	@mkdir -p configs/schema
@@ -202,5 +208,6 @@ help:
 	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package"
+	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
 	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"
