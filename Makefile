@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test format tidy coverage soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -76,62 +76,24 @@ fuzz:
 	@cmake --build build-fuzz --parallel $(JOBS)
 	@tests/fuzz/run build-fuzz $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-# both, and their tables into the page
-reliability: soak fuzz
-	@tests/soak/page docs/reliability.md kills $(build)/soak.md
-	@tests/soak/page docs/reliability.md inputs build-fuzz/fuzz.md
+# the style of .clang-format; what clang-tidy finds (.clang-tidy); lines that the tests reach
+sources = $(shell git ls-files '*.cpp' '*.hpp')
+format:
+	@$(MAKE) --no-print-directory deps packages=clang-format
+	@clang-format -i $(sources)
+tidy: configure
+	@$(MAKE) --no-print-directory deps packages="clang-tidy libomp-dev"
+	@printf '%s\n' $(filter lib/%.cpp stages/%.cpp,$(sources)) | xargs -P $(JOBS) -n 4 clang-tidy -p $(build) --quiet
+coverage:
+	@$(MAKE) --no-print-directory deps packages="$(packages) gcovr"
+	@cmake --preset coverage > /dev/null && cmake --build build-coverage --parallel $(JOBS)
+	@ctest --test-dir build-coverage -j$(JOBS) --output-on-failure; gcovr --root . --filter lib/ --filter stages/ --html-details build-coverage/coverage.html --print-summary build-coverage
 
 bench: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@$(build)/bin/langer-bench
 	@if command -v valgrind > /dev/null; then $(MAKE) --no-print-directory bench-features; \
 	else echo "not counted: what each feature costs; make bench-features installs valgrind for that"; fi
-
-# what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/trade.md from it. A build of
-# its own: valgrind knows no AVX-512, and lines (-g1) tell whose code it is. Two minutes beside that
-counted := build-features
-bench-features:
-	@$(MAKE) --no-print-directory deps packages="$(packages) valgrind"
-	@[ -f $(counted)/CMakeCache.txt ] || cmake -S . -B $(counted) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DCMAKE_CXX_FLAGS=-g1
-	@cmake --build $(counted) --parallel $(JOBS) --target langer-solve
-	@tests/bench/features/count $(counted)/bin/langer-solve runs/features
-	@tests/soak/page docs/trade.md features runs/features/scenes.md
-	@tests/soak/page docs/trade.md unused runs/features/unused.md
-
-# CPU seconds that --dry-run foretells beside those that it takes, and the table of docs/scenes.md from it; alone on the machine, two minutes
-bench-forecasts: build
-	@mkdir -p runs/forecasts
-	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
-	@tests/soak/page docs/scenes.md forecasts runs/forecasts/table.md
-
-# the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
-# An hour or two. KEEP=1 goes on with what runs/peers/peers.csv has; PEERS_LIMIT: CPU seconds for a run
-peer_packages := calculix-ccx python3-getfem python3-dolfinx-real python3-numpy
-bench-peers: build
-	@$(MAKE) --no-print-directory deps packages="$(peer_packages)"
-	@[ -n "$(KEEP)" ] || rm -rf runs/peers
-	@/usr/bin/python3 tests/peers/run.py $(build)/bin runs/peers
-	@for scene in isotropic positive; do for what in levels runs; do \
-	  /usr/bin/python3 tests/peers/table.py $$what runs/peers/peers.csv $$scene > runs/peers/table.md && \
-	  tests/soak/page docs/peers.md $${scene}_$$what runs/peers/table.md || exit 1; done; done
-	@/usr/bin/python3 tests/peers/table.py picture runs/peers/peers.csv isotropic | gnuplot > docs/peers.svg
-	@cat runs/peers/peers.csv
-
-# every figure and table of the paper, and docs/paper.md, which shows them beside the published ones
-paper:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/paper.yaml
-	@mkdir -p docs/paper && awk -F'|' '$$1 == "F" { print $$3, "docs/paper/figure_" $$2 ".png" }' docs/paper.csv | \
-	  while read -r from to; do cp runs/paper/$$from $$to || exit 1; done
-	@! command -v mogrify > /dev/null || mogrify -strip -define png:exclude-chunks=date,time -resize '1200x>' -define png:compression-level=9 -colors 250 docs/paper/*.png  # imagemagick
-	@awk -v run=runs/paper -f docs/paper.awk docs/paper.csv > runs/paper/paper.md && cp runs/paper/paper.md docs/paper.md
-
-# the section "Ladder" of docs/reliability.md from a run of pipelines/extremes.yaml
-ladder:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
-	@awk -v run=runs/extremes -f docs/ladder.awk docs/ladder.csv > runs/extremes/ladder.md; passed=$$?; \
-	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- ladder:/ { print; printf "\n%s\n", table; skip = 1 } \
-	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
-	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
 
 # programs, man pages, completion, configs; PREFIX and DESTDIR as usual. LANGER_NATIVE is off: the programs may go to another machine
 PREFIX ?= /usr/local
@@ -147,12 +109,6 @@ deb: $(package)/CMakeCache.txt
 	@cd $(package) && cpack -G DEB > cpack.log || { cat cpack.log; exit 1; }
 	@ls $(package)/*.deb
 
-# the folders of lib and the includes between them: docs/map.svg
-map:
-	@$(MAKE) --no-print-directory deps packages=graphviz
-	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z]*/' lib stages > runs/map_includes
-	@awk -f docs/map.awk runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
-
 # configs/schema, and the line in each config that names its schema
 schemas: build
 	@mkdir -p configs/schema
@@ -165,20 +121,8 @@ schemas: build
 	  done; \
 	done
 
-# error against cost on three indentations, alone on the machine, and docs/trade.md from it; about 20 minutes
-trade:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/trade.yaml JOBS=1
-	@for scene in isotropic table1 positive; do \
-	  awk -v what=front -f docs/trade.awk runs/trade/$$scene/trade.csv > runs/trade/front.md && \
-	  tests/soak/page docs/trade.md $$scene runs/trade/front.md && cp runs/trade/$$scene/error_force.svg docs/trade_$$scene.svg || exit 1; done
-	@awk -v what=rungs -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/rungs.md
-	@tests/soak/page docs/trade.md rungs runs/trade/rungs.md
-
-# does `accuracy: 1%` keep its word on 24 random scenes; are errors as large as their estimates say, on the ladder of `make trade`
-accuracy estimates:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/$@.yaml
-	@awk -v what=$@ -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
-	@tests/soak/page docs/trade.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
+# measurements that write tables and pictures of docs/
+include docs/measure.mk
 
 clean:
 	rm -rf $(build)
@@ -195,6 +139,8 @@ help:
 	@echo "make test                     set up, build, run every test"
 	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"
 	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
+	@echo "make format                   the style of .clang-format in every source; make tidy: what clang-tidy finds"
+	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
 	@echo "make soak                     kill -9 at random times, KILLS=200"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
