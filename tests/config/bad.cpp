@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -59,15 +60,20 @@ std::vector<std::string> messages(const std::string& stage, const std::string& p
   return found;
 }
 
-}  // namespace
-
-TEST_CASE("every bad config is refused with the right words at the right line and column") {
+// LANGER_BAD_CONFIG names one of them (tests/CMakeLists.txt makes a test of each); without it they follow one another
+std::vector<fs::path> bad_configs() {
+  if (const char* one = std::getenv("LANGER_BAD_CONFIG")) return {one};
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(SOURCE_DIR "/tests/config/bad"))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  CHECK(files.size() >= 40);
-  for (const fs::path& path : files) {
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a bad config is refused with the right words at the right line and column") {
+  for (const fs::path& path : bad_configs()) {
     INFO("file: " << path.filename().string());
     const Bad bad = header(path);
     REQUIRE(!bad.expected.empty());
