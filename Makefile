@@ -65,7 +65,7 @@ KILLS ?= 200
 SEED  ?= 1
 soak: configure
 	@cmake --build $(build) --parallel $(JOBS) --target $(programs) langer-soak
-	@$(build)/bin/langer-soak . $(build)/bin $(build)/soak --kills $(KILLS) --seed $(SEED) --table $(build)/soak.md
+	@$(build)/bin/langer-soak . $(build)/bin $(build)/soak --kills $(KILLS) --seed $(SEED) --pages all --table $(build)/soak.md
 
 # every reader under libFuzzer, ASan and UBSan, for FUZZ_SECONDS each; needs clang and libclang-rt-dev
 FUZZ_SECONDS ?= 60
@@ -141,7 +141,7 @@ help:
 	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
 	@echo "make format                   the style of .clang-format in every source; make tidy: what clang-tidy finds"
 	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
-	@echo "make soak                     kill -9 at random times, KILLS=200"
+	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/trade.md from it; part of make bench"

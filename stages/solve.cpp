@@ -9,6 +9,7 @@
 #include "base/stopwatch.hpp"
 #include "mesh/quality.hpp"
 #include "run/accuracy.hpp"
+#include "run/continued.hpp"
 #include "run/dry_run.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/error_estimate.hpp"
@@ -125,7 +126,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     return dry_run(config, scene, body, statics, config.estimate == EstimateBy::second_rung ? estimate_seconds(config, material, job.where) : 0,
                    job.quiet);
   need_memory(statics, config.threads);
-  SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, job.identity));
+  SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, with_steps_hash(job.identity, job.config)),
+                      within_tolerance(config));
   Progress progress(job.quiet, job.verbose, body, scene);
   const std::string held_by_contact = free_motions(mesh, mesh.section ? scene.dofs : whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())
@@ -148,6 +150,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     if (const auto found = saved->scalars.find("shear_stiffness_min"); found != saved->scalars.end() && found->second < 0)
       last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), saved->t);
+    if (std::any_of(file.earlier().begin(), file.earlier().end(), [&](const EarlierRun& run) { return run.config != job.identity.config; }))
+      job.say("these steps were made with other settings: /provenance/earlier of the result holds them");
     last = *saved;
   }
   const Interruptible at_the_end_of_a_step;
@@ -218,9 +222,10 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
                             (held_by_contact.empty() ? "" : "; " + held_by_contact)),
             "",
             fmt::format(
-                "kept: {} steps in {}.part (the next run continues from there); {}", file.n_steps(), job.output,
-                held_by_contact.empty() ? "try path.smallest or solver.newton.iterations"
-                                        : "hold also a node on the indenter's axis and, against turning, one beside it, where contact does not")});
+                "kept: {} steps in {}.part ({}", file.n_steps(), job.output,
+                held_by_contact.empty() ? "the next run continues from there); try path.smallest or solver.newton.iterations"
+                                        : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
+                                          "turning, one beside it, where contact does not: that begins anew")});
   std::vector<Summary> errors;
   if (config.estimate.value_or(EstimateBy::none) != EstimateBy::none) errors = say_errors(job, config, material, whole, mesh, last);
   // the processor's time before this function is that of loading the program

@@ -167,10 +167,10 @@ std::string library() {
   return fmt::format("HDF5 {}.{}.{}", major, minor, release);
 }
 
-File File::create(const std::string& path, Unfinished unfinished, const std::string& part) {
+File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
   auto file = std::make_shared<OpenFile>();
-  file->path = path, file->current = part.empty() ? path + ".part" : part, file->unfinished = unfinished;
+  file->path = path, file->current = path + ".part", file->unfinished = unfinished;
   const Handle list = creation(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -203,11 +203,6 @@ File File::open(const std::string& path) {
 }
 
 void File::flush() const { written(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0, root(), ""); }
-
-void File::rename_part(const std::string& part) const {
-  rename_durably(file_->current, part);
-  file_->current = part;
-}
 
 void File::commit() {
   const herr_t closed = H5Fclose(file_->id);

@@ -89,12 +89,10 @@ std::string library();  // "HDF5 1.10.8"
 
 class File {
  public:
-  // `part`: the name until commit(), <path>.part where empty
-  static File create(const std::string& path, Unfinished unfinished = Unfinished::discard, const std::string& part = "");
+  static File create(const std::string& path, Unfinished unfinished = Unfinished::discard);
   static File open(const std::string& path);  // for reading
   Group root() const { return {file_, "/"}; }
   void flush() const;
-  void rename_part(const std::string& part) const;  // gives the unfinished file another name
   void commit();
 
  private:

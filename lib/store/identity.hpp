@@ -21,6 +21,7 @@ struct Identity {
   std::map<std::string, std::string> inputs;  // port -> content id of the input file
   std::string command;                        // command line as typed
   std::optional<Cost> solution_cost;          // of the solution it is made of, where that took one run from start to end
+  std::string steps_hash;                     // of what in `config` decides whether kept steps are of this task; empty: all of it
 };
 
 // 16 hex digits of FNV-1a 64

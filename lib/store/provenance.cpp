@@ -53,6 +53,8 @@ std::optional<Cost> read_cost(const h5::Group& provenance, const char* name) {
 
 }  // namespace
 
+std::string code_version() { return fmt::format("{} ({})", version, revision); }
+
 std::string utc_now() {
   std::time_t now = std::time(nullptr);
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
@@ -80,7 +82,7 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   root.attribute("inputs", joined(identity.inputs));
   const h5::Group provenance = root.make_group("provenance");
   provenance.write_text("config", identity.config);
-  provenance.write_text("code_version", fmt::format("{} ({})", version, revision));
+  provenance.write_text("code_version", code_version());
   provenance.write_text("libraries", fmt::format("{}; Eigen {}.{}.{}; compiler {}", h5::library(), EIGEN_WORLD_VERSION,
                                                  EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
   provenance.write_text("created_utc", utc_now());

@@ -17,6 +17,7 @@ struct Schema {
 inline constexpr Schema mesh_schema{"mesh", 1, 2}, material_schema{"material", 1}, solution_schema{"solution", 1, 2},
     curves_schema{"curves", 1}, sweep_schema{"sweep", 1}, sensitivity_schema{"sensitivity", 1}, snapshot_schema{"snapshot", 1};
 
+std::string code_version();
 std::string utc_now();  // SOURCE_DATE_EPOCH where that is set
 std::string host_name();
 

@@ -78,7 +78,11 @@ bool seal_broken(const std::string& path) {
 void rename_durably(const std::string& from, const std::string& to) {
   sync_path(from, O_RDONLY);
   if (std::rename(from.c_str(), to.c_str()) != 0) cannot_write(to);
-  const std::string folder = std::filesystem::path(to).parent_path().string();
+  sync_folder_of(to);
+}
+
+void sync_folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
   sync_path(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 

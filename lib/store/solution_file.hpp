@@ -48,16 +48,25 @@ struct SolutionHeader {
   Identity identity;
 };
 
-// Writes <path>.part and renames it to <path> in finish(); a killed run leaves a readable .part.
+// a run that added steps to what a later one goes on with
+struct EarlierRun {
+  std::string config, command, code_version, created_utc;
+  int steps = 0;
+};
+
+// Writes <path>.part and renames it to <path> in finish(); beside it <path>.steps, from which the next run continues (step_journal.hpp).
 class SolutionWriter {
  public:
-  // Starts a new file; or continues <path>.part if that has the same config_hash and inputs.
-  SolutionWriter(const std::string& path, const SolutionHeader& header);
+  // false: this step and those behind it are not good enough to go on from
+  using StillGood = std::function<bool(const StepRecord& step, const EarlierRun& run)>;
+  // Starts a new file; or continues what a run of the same task left.
+  SolutionWriter(const std::string& path, const SolutionHeader& header, const StillGood& still_good = {});
   ~SolutionWriter();
   // last record of a continued file, with everything a step needs to start from
   std::optional<StepRecord> resumed() const;
   std::optional<StepRecord> before_resumed() const;  // the record before that, from which extrapolation starts
   int n_steps() const;
+  const std::vector<EarlierRun>& earlier() const;  // which runs the steps are of that it was continued from
   void append(const StepRecord& record);
   // cost: none where the work was done in several runs; summary: what is said of the result as a whole
   void finish(const std::optional<Cost>& cost = {}, const std::vector<Summary>& summary = {});

@@ -1,20 +1,15 @@
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 
 #include <fmt/format.h>
 
-#include "base/say.hpp"
 #include "store/grid.hpp"
 #include "store/listing.hpp"
 #include "store/provenance.hpp"
+#include "store/seal.hpp"
 #include "store/solution_file.hpp"
 #include "store/solution_layout.hpp"
+#include "store/step_journal.hpp"
 
 namespace langer {
 
@@ -24,6 +19,7 @@ struct SolutionWriter::State {
   SolutionHeader header;
   int n_steps = 0;
   std::optional<StepRecord> before, last;
+  std::unique_ptr<StepJournal> journal;
 
   void begin();
   void check(const StepRecord& record) const;
@@ -75,57 +71,23 @@ std::string names_of(const auto& map) {
   return names;
 }
 
-// another process holds the lock that HDF5 takes on a file it writes
-bool being_written(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY);
-  if (fd < 0) return false;
-  const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) != 0;
-  ::close(fd);
-  return locked;
-}
-
-// what an earlier run left, where it is of the same config and inputs; says why not on stderr
-std::unique_ptr<SolutionReader> unfinished(const std::string& part, const SolutionHeader& header) {
-  if (!std::filesystem::exists(part)) return nullptr;
-  if (being_written(part))
-    throw Failure(Exit::input, Error{{part}, "", "is being written by another run", "", "wait for it, or end it"});
-  try {
-    auto old = std::make_unique<SolutionReader>(part);
-    const Identity &was = old->header().identity, &is = header.identity;
-    const bool same_task = was.config_hash == is.config_hash && was.inputs == is.inputs && was.stage == is.stage;
-    // ids know configs, not code: another version of the mesher may have made another mesh of the same config
-    const Mesh &old_mesh = old->header().mesh, &mesh = header.mesh;
-    const bool same_arrays = old_mesh.X == mesh.X && old_mesh.section == mesh.section && old_mesh.connectivity == mesh.connectivity &&
-                             old->header().contact_nodes == header.contact_nodes;
-    if (same_task && same_arrays) return old;
-    say_line("{}: left by a run with another {}; starting anew", part, same_task ? "mesh" : "config or other inputs");
-  } catch (const Failure& failure) {
-    say_line("{}\n  an earlier run ended here; starting anew", failure.what());
-  }
-  return nullptr;
-}
-
 }  // namespace
 
-SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header) {
-  const std::string part = path + ".part";
-  const auto old = unfinished(part, header);
-  if (!old) {
+SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header, const StillGood& still_good) {
+  const auto begin = [&] {  // the journal looks first at what is there
+    if (state_) return;
     state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header);
     state_->begin();
-    return;
-  }
-  // A killed process may leave HDF5's own records half updated: nothing is appended to such a file. What can be read
-  // from it is written anew, and the old file is replaced when that is done.
-  state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep, part + ".new"), header);
-  state_->begin();
-  try {
-    for (int i = 0; i < old->n_steps(); ++i) state_->append(old->step(i));
-  } catch (const Failure& failure) {
-    if (failure.code() != Exit::input) throw;
-    say_line("{}\n  continuing after the {} steps before it", failure.what(), state_->n_steps);
-  }
-  state_->file.rename_part(part);
+    sync_folder_of(path);
+  };
+  auto journal = std::make_unique<StepJournal>(path, header, [&](const StepRecord& step, const EarlierRun& run) {
+    if (still_good && !still_good(step, run)) return false;
+    begin();
+    state_->append(step);
+    return true;
+  });
+  begin();
+  state_->journal = std::move(journal);
 }
 
 SolutionWriter::~SolutionWriter() = default;
@@ -133,6 +95,7 @@ SolutionWriter::~SolutionWriter() = default;
 std::optional<StepRecord> SolutionWriter::resumed() const { return state_->last; }
 std::optional<StepRecord> SolutionWriter::before_resumed() const { return state_->before; }
 int SolutionWriter::n_steps() const { return state_->n_steps; }
+const std::vector<EarlierRun>& SolutionWriter::earlier() const { return state_->journal->earlier(); }
 
 void SolutionWriter::State::begin() {
   const h5::Group root = file.root();
@@ -202,6 +165,7 @@ void SolutionWriter::State::check(const StepRecord& record) const {
 
 void SolutionWriter::State::append(const StepRecord& record) {
   check(record);
+  if (journal) journal->append(record);  // from here on the step has been made, whatever becomes of the HDF5 file
   const h5::Group root = file.root(), grid = root.group("VTKHDF"), history = root.group("history");
   const std::size_t n = header.mesh.X.size(), e = static_cast<std::size_t>(header.mesh.n_cells());
   const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"), steps = grid.group("Steps");
@@ -232,7 +196,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   }
   if (!header.contact_nodes.empty()) contact(record);
 
-  // The commit mark, after everything it covers is in the file: a process killed before this line has n_steps steps.
+  // after everything it covers is in the file: who reads along sees whole steps
   file.flush();
   steps.attribute("NSteps", std::int64_t{++n_steps});
   file.flush();
@@ -260,10 +224,28 @@ void SolutionWriter::State::contact(const StepRecord& record) {
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
+namespace {
+// steps that were made by other settings than those of the config in the file
+void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs, const std::string& config) {
+  if (std::all_of(runs.begin(), runs.end(), [&](const EarlierRun& r) { return r.config == config; })) return;
+  const h5::Group earlier = provenance.make_group("earlier");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const h5::Group one = earlier.make_group(std::to_string(i));
+    one.attribute("steps", std::int64_t{runs[i].steps});
+    one.write_text("config", runs[i].config);
+    one.write_text("command", runs[i].command);
+    one.write_text("code_version", runs[i].code_version);
+    one.write_text("created_utc", runs[i].created_utc);
+  }
+}
+}  // namespace
+
 void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary) {
   write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
   if (!summary.empty()) write_summary(state_->file.root(), summary);
+  write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);
   state_->file.commit();
+  state_->journal->remove();
 }
 
 }  // namespace langer

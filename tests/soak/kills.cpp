@@ -1,6 +1,7 @@
 // kill -9 at random times in every program and in a whole pipeline; the next run must complete, and what it leaves must be
 // what a run left alone leaves: HDF5 to 1e-12 outside /provenance, every other file byte by byte.
-//   langer-soak <project> <programs> <folder of its own> --kills 200 [--seed 1] [--table kills.md]
+// --pages all: also every page of an unfinished solution zero, and random, as a power cut may leave it.
+//   langer-soak <project> <programs> <folder of its own> --kills 200 [--seed 1] [--pages all] [--table kills.md]
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
@@ -90,7 +91,7 @@ std::string bytes(const fs::path& path) {
 
 bool is_hdf5(const fs::path& path) { return path.extension() == ".h5" || path.extension() == ".hdf"; }
 bool is_left_over(const fs::path& path) {
-  return path.extension() == ".part" || path.extension() == ".lock" || path.extension() == ".log" || path.extension() == ".new";
+  return path.extension() == ".part" || path.extension() == ".lock" || path.extension() == ".log" || path.extension() == ".steps";
 }
 
 Words differences(const fs::path& expected, const fs::path& found) {
@@ -120,6 +121,40 @@ Words differences(const fs::path& expected, const fs::path& found) {
   return all;
 }
 
+// What a power cut may leave of an unfinished solution: each of its pages zero or random. The next run has to end with the expected file.
+struct Pages {
+  int scanned = 0, wrong = 0, failed = 0;
+};
+Pages scan_pages(const fs::path& project, const Job& solve, double duration, const fs::path& expected, const fs::path& log, unsigned seed) {
+  constexpr std::size_t page = 4096;
+  const fs::path out = project / "out", part = out / "solution.h5.part", steps = out / "solution.h5.steps";
+  for (double share = 0.6; share > 0.05 && !fs::exists(steps); share *= 0.8) {
+    fs::remove_all(out), fs::create_directories(out);
+    run(project, solve.command, "out", share * duration, log);
+    if (fs::exists(out / solve.needed)) fs::remove_all(out);
+  }
+  const std::string whole_part = bytes(part), whole_steps = bytes(steps);
+  std::mt19937 random(seed);
+  Pages pages;
+  for (const bool of_part : {true, false})
+    for (std::size_t at = 0; at < (of_part ? whole_part : whole_steps).size(); at += page)
+      for (const bool zero : {true, false}) {
+        fs::remove_all(out), fs::create_directories(out);
+        std::string spoilt = of_part ? whole_part : whole_steps;
+        for (std::size_t i = at; i < std::min(at + page, spoilt.size()); ++i) spoilt[i] = zero ? '\0' : static_cast<char>(random());
+        std::ofstream(part, std::ios::binary) << (of_part ? spoilt : whole_part);
+        std::ofstream(steps, std::ios::binary) << (of_part ? whole_steps : spoilt);
+        const Ended end = run(project, solve.command, "out", 0, log);
+        const bool failed = !end.exited();
+        const Words wrong = failed ? Words{bytes(log)} : differences(expected, out);
+        ++pages.scanned, pages.failed += failed, pages.wrong += !failed && !wrong.empty();
+        if (!wrong.empty())
+          std::printf("FAILED page %zu of %s, %s:\n%s\n", at / page, of_part ? ".part" : ".steps", zero ? "zero" : "random",
+                      fmt::format("{}", fmt::join(wrong, "\n")).c_str());
+      }
+  return pages;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -127,6 +162,7 @@ int main(int argc, char** argv) {
   if (argc < 4) return std::printf("langer-soak <project> <programs> <folder> --kills 200 [--seed 1] [--table kills.md]\n"), 2;
   const fs::path root = fs::canonical(argv[1]), bin = fs::absolute(argv[2]), work = fs::absolute(argv[3]);
   int kills = 200;
+  bool pages = false;
   unsigned seed = 1;
   std::string table;
   for (int i = 4; i + 1 < argc; i += 2) {
@@ -134,6 +170,7 @@ int main(int argc, char** argv) {
     if (option == "--kills") kills = std::atoi(argv[i + 1]);
     if (option == "--seed") seed = static_cast<unsigned>(std::atoi(argv[i + 1]));
     if (option == "--table") table = argv[i + 1];
+    if (option == "--pages") pages = std::string(argv[i + 1]) == "all";
   }
   fs::remove_all(work);
   fs::create_directories(work / "project");
@@ -236,6 +273,12 @@ int main(int argc, char** argv) {
       text += fmt::format("| {} | {:.2f} | {} | {} | {} | {} |\n", job.name, c->second.seconds, c->second.kills, c->second.ended_before,
                           c->second.with_part, c->second.runs);
   text += fmt::format("\n{} kills, {} failures, seed {}\n", done, failures, seed);
+  if (pages) {
+    const Pages scan = scan_pages(project, jobs[3], duration["solve"], work / "expected_solve", work / "pages.log", seed);
+    text += fmt::format("\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did not end well\n",
+                        scan.scanned, scan.wrong, scan.failed);
+    failures += scan.wrong + scan.failed + (scan.scanned == 0);
+  }
   std::printf("%s", text.c_str());
   if (!table.empty()) std::ofstream(table) << text;
   return failures == 0 ? 0 : 1;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 
 #include "solution_example.hpp"
 #include "store/h5.hpp"
@@ -100,27 +101,85 @@ TEST_CASE("an abandoned run continues after its last step, to the same bytes as 
     CHECK(example::same(*writer.resumed(), step(2, true)));
     REQUIRE(writer.before_resumed());
     CHECK(example::same(*writer.before_resumed(), step(1, true)));
-    CHECK_FALSE(std::filesystem::exists(path + ".part.new"));
   }
   write_solution(path, 5, true);
   unsetenv("SOURCE_DATE_EPOCH");
   CHECK(bytes(path) == bytes(whole));
+  CHECK_FALSE(std::filesystem::exists(path + ".steps"));
 }
 
 TEST_CASE("a run with another config, other inputs or another mesh starts anew") {
   const std::string path = example::folder("anew") + "/solution.h5";
+  const auto kept_by = [&](const std::function<void(SolutionHeader&)>& change) {
+    { SolutionWriter(path, header(true)).append(step(0, true)); }
+    SolutionHeader other = header(true);
+    change(other);
+    const int kept = SolutionWriter(path, other).n_steps();
+    std::filesystem::remove(path + ".part");
+    return kept;
+  };
+  CHECK(kept_by([](SolutionHeader&) {}) == 1);
+  CHECK(kept_by([](SolutionHeader& h) { h.identity.command = "langer-solve typed otherwise"; }) == 1);
+  CHECK(kept_by([](SolutionHeader& h) { h.identity.config_hash = fnv1a("another"); }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.identity.inputs["mesh"] = fnv1a("another"); }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.formulation = "displacement"; }) == 0);
+  // the same ids, made by other code
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.X[3][0] += 0.125; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { std::swap(h.mesh.connectivity[1], h.mesh.connectivity[3]); }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.body[0] = 1 - h.mesh.body[0]; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.frames[0].col(0) *= -1, h.mesh.frames[0].col(1) *= -1; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.node_sets["x_min"].pop_back(); }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.contact_nodes["indenter"] = {3, 4, 6}; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.section = Section{SectionOf::plane_strain, 1}; }) == 0);
+}
+
+TEST_CASE("a run with other settings of the solver continues, and the file says which steps were made by which") {
+  const std::string path = example::folder("settings") + "/solution.h5";
+  SolutionHeader first = header(false), then = header(false);
+  first.identity.steps_hash = then.identity.steps_hash = fnv1a("what steps depend on");
+  first.identity.config = "threads: 1", first.identity.config_hash = fnv1a("threads: 1");
+  then.identity.config = "threads: 2", then.identity.config_hash = fnv1a("threads: 2");
+  {
+    SolutionWriter writer(path, first);
+    for (int i = 0; i < 3; ++i) writer.append(step(i, false));
+  }
+  { CHECK(SolutionWriter(path, then).n_steps() == 3); }  // a run that adds nothing
+  SolutionWriter writer(path, then);
+  REQUIRE(writer.n_steps() == 3);
+  writer.append(step(3, false));
+  writer.finish();
+  const h5::Group provenance = h5::File::open(path).root().group("provenance");
+  CHECK(provenance.read_text("config") == "threads: 2");
+  REQUIRE(provenance.group("earlier").groups() == std::vector<std::string>{"0"});
+  CHECK(provenance.group("earlier").group("0").read_text("config") == "threads: 1");
+  CHECK(provenance.group("earlier").group("0").integer_attribute("steps") == 3);
+}
+
+TEST_CASE("steps that are not good enough any more are made anew, with all behind them") {
+  const std::string path = example::folder("not_good_enough") + "/solution.h5";
+  {
+    SolutionWriter writer(path, header(true));
+    for (int i = 0; i < 5; ++i) writer.append(step(i, true));
+  }
+  {
+    SolutionWriter writer(path, header(true), [](const StepRecord& s, const EarlierRun&) { return s.residual < 2.5e-9; });
+    CHECK(writer.n_steps() == 2);
+    writer.append(step(7, true));
+  }
+  SolutionWriter writer(path, header(true));
+  REQUIRE(writer.n_steps() == 3);
+  CHECK(example::same(*writer.resumed(), step(7, true)));
+  CHECK(example::same(*writer.before_resumed(), step(1, true)));
+}
+
+TEST_CASE("whoever removes the .part begins anew; one of a version that kept no checksums too") {
+  const std::string path = example::folder("removed") + "/solution.h5";
   { SolutionWriter(path, header(false)).append(step(0, false)); }
-  SolutionHeader other = header(false);
-  other.identity.config_hash = fnv1a("another");
-  CHECK(SolutionWriter(path, other).n_steps() == 0);
+  std::filesystem::remove(path + ".part");
+  { CHECK(SolutionWriter(path, header(false)).n_steps() == 0); }
   { SolutionWriter(path, header(false)).append(step(0, false)); }
-  other = header(false), other.identity.inputs["mesh"] = fnv1a("another");
-  CHECK(SolutionWriter(path, other).n_steps() == 0);
-  { SolutionWriter(path, header(false)).append(step(0, false)); }
-  other = header(false), other.mesh.X[3][0] += 0.125;  // the same ids, made by other code
-  CHECK(SolutionWriter(path, other).n_steps() == 0);
-  { SolutionWriter(path, header(false)).append(step(0, false)); }
-  CHECK(SolutionWriter(path, header(false)).n_steps() == 1);
+  std::filesystem::remove(path + ".steps");
+  CHECK(SolutionWriter(path, header(false)).n_steps() == 0);
 }
 
 TEST_CASE("a .part that cannot be read is replaced, one that is being written is not") {
