@@ -229,8 +229,10 @@ int export_scene(int argc, char** argv) {
     const Deck deck = deck_of(SolutionReader(solution), solution);
     for (const std::string& file : files) {
       const bool calculix = std::filesystem::path(file).extension() == ".inp";
-      write_text_file(file, calculix ? calculix_deck(deck) : febio_deck(deck));
+      const DeckText text = calculix ? calculix_deck(deck) : febio_deck(deck);
+      write_text_file(file, text.text);
       if (!quiet) say_line("post: {} for {}", file, calculix ? "CalculiX" : "FEBio 4");
+      for (const std::string& line : text.warnings) say_line("post: warning: {}", line);
     }
     return static_cast<int>(Exit::ok);
   });

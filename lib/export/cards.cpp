@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+
+#include "export/acting.hpp"
+#include "export/calculix_material.hpp"
+#include "export/febio_material.hpp"
+#include "export/fibre_frame.hpp"
+#include "export/polynomial.hpp"
 
 namespace langer {
 
@@ -14,29 +20,6 @@ namespace {
 template <class Term>
 const Term* only(const Material& m) {
   return m.matrix.size() == 1 ? std::get_if<Term>(&m.matrix.front()) : nullptr;
-}
-
-// coefficients of the powers of (I1_bar - 3) and (I2_bar - 3), where the matrix is such a polynomial
-struct Polynomial {
-  double I1[3] = {}, I2[3] = {};
-};
-std::optional<Polynomial> polynomial(const Material& m) {
-  Polynomial p;
-  for (const MatrixTerm& term : m.matrix) {
-    if (const auto* t = std::get_if<NeoHooke>(&term))
-      p.I1[0] += t->a1;
-    else if (const auto* t = std::get_if<Yeoh>(&term))
-      p.I1[0] += t->a1, p.I1[1] += t->a2, p.I1[2] += t->a3;
-    else if (const auto* t = std::get_if<YeohI2>(&term))
-      p.I2[0] += t->b1, p.I2[1] += t->b2, p.I2[2] += t->b3;
-    else if (const auto* t = std::get_if<MooneyRivlin>(&term))
-      p.I1[0] += t->c10, p.I2[0] += t->c01;
-    else if (const auto* t = std::get_if<Signorini>(&term))
-      p.I1[0] += t->c10, p.I1[1] += t->c20, p.I2[0] += t->c01;
-    else
-      return std::nullopt;
-  }
-  return p;
 }
 
 std::string number(double x) { return fmt::format("{:.10g}", x); }
@@ -59,43 +42,25 @@ Direction direction(const Fibre& f) {
 
 int ogden_parts(const Ogden& law) {
   int n = 0;
-  for (const auto& part : law.parts()) n += part.mu != 0;
+  for (const auto& [mu, alpha] : law.parts()) n += mu != 0 && alpha != 0;
   return n;
 }
 
 constexpr const char* other_volume = "volume term here (1/D)((J^2-1)/2 - ln J) instead of (J-1)^2/d; same bulk modulus 2/d";
+constexpr const char* units = "mm, N, MPa";
 
-// the isotropic keywords that Abaqus and CalculiX share; empty where the law does not exist
-std::string hyperelastic(const Material& m, const std::string& comment) {
-  const double d = m.volume.quadratic.d;
-  if (const auto* t = only<ArrudaBoyce>(m))
-    return fmt::format("{} {}\n*HYPERELASTIC, ARRUDA-BOYCE\n{}, {}, {}\n", comment, other_volume, number(t->mu),
-                       number(t->locking_stretch), number(d));
-  if (const auto* t = only<Ogden>(m)) {
-    std::string line, zeros;
-    for (const auto& [mu, alpha] : t->parts())
-      if (mu != 0) line += number(mu * alpha / 2) + ", " + number(alpha) + ", ";
-    const int n = ogden_parts(*t);
-    if (n == 0) return "";
-    for (int i = 1; i < n; ++i) zeros += ", 0.";
-    std::string end = number(d) + zeros;
-    // eight numbers in a line
-    if (n == 3) end = number(d) + ", 0.,\n0.";
-    return fmt::format("{} Ogden: mu here is mu alpha/2 of Langer\n*HYPERELASTIC, OGDEN, N={}\n{}{}\n", comment, n, line, end);
-  }
-  const auto p = polynomial(m);
-  if (!p || p->I2[1] != 0 || p->I2[2] != 0) return "";
-  if (p->I2[0] == 0 && p->I1[1] == 0 && p->I1[2] == 0)
-    return fmt::format("*HYPERELASTIC, NEO HOOKE\n{}, {}\n", number(p->I1[0]), number(d));
-  if (p->I2[0] == 0)
-    return fmt::format("*HYPERELASTIC, YEOH\n{}, {}, {}, {}, 0., 0.\n", number(p->I1[0]), number(p->I1[1]), number(p->I1[2]),
-                       number(d));
-  if (p->I1[1] == 0 && p->I1[2] == 0)
-    return fmt::format("*HYPERELASTIC, MOONEY-RIVLIN\n{}, {}, {}\n", number(p->I1[0]), number(p->I2[0]), number(d));
-  if (p->I1[2] == 0)
-    return fmt::format("*HYPERELASTIC, POLYNOMIAL, N=2\n{}, {}, {}, 0., 0., {}, 0.\n", number(p->I1[0]), number(p->I2[0]),
-                       number(p->I1[1]), number(d));
-  return "";
+// what a program lacks, and the nearest that it has
+std::string note(const std::string& program, const std::string& lacks, const std::string& nearest) {
+  return fmt::format("{} lacks {}; nearest: {}", program, lacks, nearest);
+}
+
+// isotropic keywords as Abaqus and CalculiX share them, with what is to be known
+std::string isotropic(const Material& m) {
+  std::string law = hyperelastic(m);
+  if (law.empty()) return "";
+  if (only<ArrudaBoyce>(m)) law = fmt::format("** {}\n", other_volume) + law;
+  if (only<Ogden>(m)) law = "** Ogden: mu here is mu alpha/2 of Langer\n" + law;
+  return law;
 }
 
 // one c1, c2, kappa for all families, as HGO and GOH implementations ask
@@ -105,132 +70,158 @@ bool alike(const std::vector<Fibre>& fibres) {
   return true;
 }
 
+// Holzapfel, Gasser and Ogden's law: what of a material it cannot hold, and the nearest; empty where it can
+std::pair<std::string, std::string> beyond_holzapfel(const Material& m) {
+  const auto p = polynomial(m);
+  const std::string user = ", or UANISOHYPER_INV";
+  if (!p || !p->neo_hookean()) return {"fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix" + user};
+  if (m.fibres.size() > 3) return {fmt::format("{} families of fibres", m.fibres.size()), "three at most" + user};
+  if (!alike(m.fibres)) return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
+  if (m.fibres[0].hgo.c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+  for (const Fibre& f : m.fibres)
+    if (f.tension_switch != FibreSwitch::I4_bar)
+      return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
+  return {};
+}
+
+std::string holzapfel(const Material& m) {
+  const Fibre& f = m.fibres[0];
+  std::string s = fmt::format(
+      "** {}\n** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
+      "**  *ORIENTATION, NAME=FIBRES, LOCAL DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n**  3, 0.\n",
+      other_volume, m.fibres.size());
+  for (const Fibre& one : m.fibres) s += fmt::format("**  {}, 0., {}\n", number(direction(one).x), number(direction(one).z));
+  return s + fmt::format("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n", m.fibres.size(),
+                         number(polynomial(m)->I1[0]), number(m.volume.quadratic.d), number(f.hgo.c1), number(f.hgo.c2),
+                         number(f.kappa));
+}
+
 Card abaqus(const Material& m) {
   Card card{"Abaqus", "abaqus.inp", "", true};
+  std::pair<std::string, std::string> beyond;
   std::string law;
-  const auto p = polynomial(m);
   if (m.fibres.empty()) {
-    law = hyperelastic(m, "**");
-  } else if (p && p->I1[1] == 0 && p->I1[2] == 0 && p->I2[0] == 0 && p->I2[1] == 0 && p->I2[2] == 0 && alike(m.fibres)) {
-    const Fibre& f = m.fibres[0];
-    law = fmt::format(
-        "** {}\n** the fibre directions stand in the *ORIENTATION of the section, e.g.\n**  *ORIENTATION, NAME=FIBRES, LOCAL "
-        "DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n",
-        other_volume, m.fibres.size());
-    for (const Fibre& one : m.fibres)
-      law += fmt::format("**  {}, 0., {}\n", number(direction(one).x), number(direction(one).z));
-    law += fmt::format("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n", m.fibres.size(),
-                       number(p->I1[0]), number(m.volume.quadratic.d), number(f.hgo.c1), number(f.hgo.c2), number(f.kappa));
+    law = isotropic(m);
+    if (law.empty()) beyond = {matrix_words(m), "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
+  } else if (beyond = beyond_holzapfel(m); beyond.first.empty()) {
+    law = holzapfel(m);
   }
   card.exists = !law.empty();
-  card.text = card.exists ? "** mm, N, MPa\n*MATERIAL, NAME=LANGER\n" + law
-                          : "** " + matrix_words(m) +
-                                " is no built-in material of Abaqus; it needs UHYPER (isotropic) or UANISOHYPER_INV (fibres)\n";
+  card.text = card.exists ? fmt::format("** {}\n*MATERIAL, NAME=LANGER\n{}", units, law)
+                          : "** " + note("Abaqus", beyond.first, beyond.second) + "\n";
   return card;
 }
 
 Card calculix(const Material& m) {
-  Card card{"CalculiX", "calculix.inp", "", true};
-  const std::string law = m.fibres.empty() ? hyperelastic(m, "**") : "";
-  card.exists = !law.empty();
-  card.text = card.exists ? "** mm, N, MPa\n*MATERIAL, NAME=LANGER\n" + law
-                          : "** " + matrix_words(m) + " is no built-in material of CalculiX; it needs a user material\n";
+  std::vector<Vec3> in_frame;
+  std::string section;
+  if (!m.fibres.empty()) {
+    const FibreFrame frame = fibre_frame(fibre_directions(m));
+    in_frame = frame.in_frame;
+    section = fmt::format(
+        "** the section names the frame of the fibres: *SOLID SECTION, ..., MATERIAL={}, ORIENTATION=FIBRES\n"
+        "*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+        calculix_name(m, "LANGER"), frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+  }
+  const ForeignLaw law = calculix_material(m, in_frame, "LANGER");
+  Card card{"CalculiX", "calculix.inp", "", !law.text.empty()};
+  if (!card.exists) {
+    card.text = "** " + note("CalculiX", m.fibres.empty() ? matrix_words(m) : law.lacks, law.nearest) + "\n";
+    return card;
+  }
+  card.text =
+      fmt::format("** {}\n{}{}{}", units, only<ArrudaBoyce>(m) ? fmt::format("** {}\n", other_volume) : "", law.text, section);
   return card;
 }
 
-Card ansys(const Material& m) {
-  Card card{"ANSYS", "ansys.txt", "! mm, N, MPa\n", true};
+// isotropic laws of TB,HYPER; empty where it has none
+std::string ansys_isotropic(const Material& m) {
   const double d = m.volume.quadratic.d;
-  const auto p = polynomial(m);
   const char* other = "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n";
-  bool dispersed = false;
-  for (const Fibre& f : m.fibres) dispersed = dispersed || f.kappa != 0;
-  if (p && m.fibres.size() <= 2 && !dispersed) {
-    // the law (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2 (I4-1)^2)-1) + E1/(2 E2)(...) + (J-1)^2/d
-    card.text += fmt::format("TB,AHYPER,1,1,10,EXPO\nTBDATA,1,{},{},{}\nTBDATA,4,{},{},{}\n", number(p->I1[0]),
-                             number(p->I1[1]), number(p->I1[2]), number(p->I2[0]), number(p->I2[1]), number(p->I2[2]));
-    for (std::size_t k = 0; k < m.fibres.size(); ++k)
-      card.text += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, number(m.fibres[k].hgo.c1), number(m.fibres[k].hgo.c2));
-    for (std::size_t k = 0; k < m.fibres.size(); ++k)
-      card.text += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC",
-                               number(direction(m.fibres[k]).x), number(direction(m.fibres[k]).z));
-    card.text += fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(d));
-  } else if (const auto* t = only<Ogden>(m); t && m.fibres.empty() && ogden_parts(*t) > 0) {
-    const int n = ogden_parts(*t);
-    card.text += fmt::format("TB,HYPER,1,1,{},OGDEN\n", n);
-    int at = 1;
-    for (const auto& [mu, alpha] : t->parts())
-      if (mu != 0) card.text += fmt::format("TBDATA,{},{},{}\n", at, number(mu), number(alpha)), at += 2;
-    card.text += fmt::format("TBDATA,{},{}\n", at, number(d));
-  } else if (const auto* t = only<ArrudaBoyce>(m); t && m.fibres.empty()) {
-    card.text +=
-        fmt::format("{}TB,HYPER,1,1,3,BOYCE\nTBDATA,1,{},{},{}\n", other, number(t->mu), number(t->locking_stretch), number(d));
-  } else if (const auto* t = only<Gent>(m); t && m.fibres.empty()) {
-    card.text += fmt::format("{}TB,HYPER,1,1,3,GENT\nTBDATA,1,{},{},{}\n", other, number(t->mu), number(t->Jm), number(d));
-  } else {
-    card.exists = false;
-    card.text = "! " + matrix_words(m) + (dispersed ? ", dispersed," : "") +
-                " is no built-in material of ANSYS; it needs UserHyper or UserMat\n";
+  const auto table = [](const char* option, int n, const std::vector<double>& constants) {
+    std::string s = fmt::format("TB,HYPER,1,1,{},{}\n", n, option);
+    for (std::size_t i = 0; i < constants.size(); i += 6) {
+      s += fmt::format("TBDATA,{}", i + 1);
+      for (std::size_t k = i; k < std::min(i + 6, constants.size()); ++k) s += "," + number(constants[k]);
+      s += "\n";
+    }
+    return s;
+  };
+  if (const auto p = polynomial(m)) {
+    const auto& [a, b] = std::pair(p->I1, p->I2);
+    if (p->neo_hookean()) return table("NEO", 1, {2 * a[0], d});  // mu/2 (I1 - 3)
+    if (p->of_I1()) return table("YEOH", 3, {a[0], a[1], a[2], d, 0, 0});
+    if (p->linear()) return table("MOONEY", 2, {a[0], b[0], d});
+    if (a[2] == 0 && b[2] == 0) return table("MOONEY", 5, {a[0], b[0], a[1], 0, b[1], d});
+    return table("MOONEY", 9, {a[0], b[0], a[1], 0, b[1], a[2], 0, 0, b[2], d});
   }
+  if (const auto* t = only<Ogden>(m); t && ogden_parts(*t) > 0) {
+    std::vector<double> constants;
+    for (const auto& [mu, alpha] : t->parts())
+      if (mu != 0 && alpha != 0) constants.push_back(mu), constants.push_back(alpha);
+    constants.push_back(d);
+    return table("OGDEN", ogden_parts(*t), constants);
+  }
+  if (const auto* t = only<ArrudaBoyce>(m)) return other + table("BOYCE", 3, {t->mu, t->locking_stretch, d});
+  if (const auto* t = only<Gent>(m)) return other + table("GENT", 3, {t->mu, t->Jm, d});
+  return "";
+}
+
+// the law (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2 (I4-1)^2)-1) + E1/(2 E2)(...) + (J-1)^2/d
+std::string ansys_fibres(const Material& m, const Polynomial& p) {
+  std::string s = fmt::format(
+      "! no switch is documented for its fibres: where they are shortened they may push, which Langer's do not\n"
+      "TB,AHYPER,1,1,10,EXPO\nTBDATA,1,{},{},{}\nTBDATA,4,{},{},{}\n",
+      number(p.I1[0]), number(p.I1[1]), number(p.I1[2]), number(p.I2[0]), number(p.I2[1]), number(p.I2[2]));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool here = k < m.fibres.size();  // C1 = 0 with an exponent by which it may divide
+    s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(m.fibres[k].hgo.c1) : "0",
+                     here ? number(m.fibres[k].hgo.c2) : "1");
+  }
+  for (std::size_t k = 0; k < m.fibres.size(); ++k)
+    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC", number(direction(m.fibres[k]).x),
+                     number(direction(m.fibres[k]).z));
+  return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(m.volume.quadratic.d));
+}
+
+// what TB,AHYPER cannot hold
+std::pair<std::string, std::string> beyond_ansys(const Material& m) {
+  if (!polynomial(m)) return {"fibres in " + matrix_words({m.matrix, {}, m.volume}), "a polynomial matrix (yeoh), or UserMat"};
+  if (m.fibres.size() > 2) return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
+  for (const Fibre& f : m.fibres) {
+    if (f.kappa != 0) return {"dispersed fibres", "kappa: 0, or UserMat"};
+    if (f.hgo.c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+  }
+  return {};
+}
+
+Card ansys(const Material& m) {
+  Card card{"ANSYS", "ansys.txt", "", true};
+  std::string law;
+  std::pair<std::string, std::string> beyond;
+  if (m.fibres.empty()) {
+    law = ansys_isotropic(m);
+    if (law.empty()) beyond = {matrix_words(m), "one of its terms alone, or UserHyper"};
+  } else if (beyond = beyond_ansys(m); beyond.first.empty()) {
+    law = ansys_fibres(m, *polynomial(m));
+  }
+  card.exists = !law.empty();
+  card.text = card.exists ? fmt::format("! {}\n{}", units, law) : "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
   return card;
 }
 
 Card febio(const Material& m) {
-  Card card{"FEBio", "febio.xml", "", true};
-  const double k = m.volume.quadratic.bulk_modulus();
-  const auto p = polynomial(m);
-  const bool linear = p && p->I1[1] == 0 && p->I1[2] == 0 && p->I2[1] == 0 && p->I2[2] == 0;
-  std::string type, body;
-  const auto line = [&](const std::string& tag, double value) {
-    body += fmt::format("  <{0}>{1}</{0}>\n", tag, number(value));
-  };
-  if (m.fibres.empty() && linear) {
-    type = "Mooney-Rivlin";
-    line("c1", p->I1[0]), line("c2", p->I2[0]);
-  } else if (m.fibres.empty() && p && p->I2[0] == 0 && p->I2[1] == 0 && p->I2[2] == 0) {
-    type = "Yeoh";
-    line("c1", p->I1[0]), line("c2", p->I1[1]), line("c3", p->I1[2]);
-  } else if (const auto* t = only<Ogden>(m); t && m.fibres.empty() && ogden_parts(*t) > 0) {
-    type = "Ogden";
-    int i = 1;
-    // FEBio: c/m^2 (l_1^m + l_2^m + l_3^m - 3)
-    for (const auto& [mu, alpha] : t->parts())
-      if (mu != 0) line(fmt::format("c{}", i), mu * alpha), line(fmt::format("m{}", i), alpha), ++i;
-  } else if (const auto* t = only<ArrudaBoyce>(m); t && m.fibres.empty()) {
-    type = "Arruda-Boyce";
-    line("mu", t->mu), line("N", t->locking_stretch * t->locking_stretch);
-  } else if (const auto* t = only<Gent>(m); t && m.fibres.empty()) {
-    type = "Gent";
-    line("G", t->mu), line("Jm", t->Jm);
-  } else if (linear && p->I2[0] == 0 && alike(m.fibres) &&
-             (m.fibres.size() == 1 || (m.fibres.size() == 2 && m.fibres[0].alpha_deg == -m.fibres[1].alpha_deg))) {
-    // matrix c/2 (I1 - 3); two families at +gamma and -gamma from the material's first axis: one family counts half
-    type = "Holzapfel-Gasser-Ogden";
-    const Fibre& f = m.fibres[0];
-    const bool one = m.fibres.size() == 1;
-    line("c", 2 * p->I1[0]), line("k1", one ? f.hgo.c1 / 2 : f.hgo.c1), line("k2", f.hgo.c2);
-    line("gamma", one ? 0 : std::abs(f.alpha_deg)), line("kappa", f.kappa);
-    const Direction a = one ? direction(f) : Direction{1, 0};
-    body += fmt::format("  <mat_axis type=\"vector\">\n    <a>{},0,{}</a>\n    <d>{},0,{}</d>\n  </mat_axis>\n", number(a.x),
-                        number(a.z), number(-a.z), number(a.x));
-  }
-  card.exists = !type.empty();
-  if (!card.exists) {
-    card.text = "<!-- " + matrix_words(m) + " is no built-in material of FEBio; it needs a plugin -->\n";
-    return card;
-  }
-  line("k", k);
-  card.text = fmt::format(
-      "<!-- mm, N, MPa. Uncoupled material: volume term here k (ln J)^2/2 instead of (J-1)^2/d; same bulk modulus k = 2/d -->\n"
-      "<material id=\"1\" name=\"langer\" type=\"{}\">\n{}</material>\n",
-      type, body);
-  return card;
+  const ForeignLaw law = febio_material(m, fibre_directions(m), 1, "langer");
+  if (law.text.empty())
+    return {"FEBio", "febio.xml", fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
+  return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
 }
 
 }  // namespace
 
 std::vector<Card> cards(const Material& material) {
-  return {abaqus(material), ansys(material), febio(material), calculix(material)};
+  const Material m = acting(material);
+  return {abaqus(m), ansys(m), febio(m), calculix(m)};
 }
 
 }  // namespace langer

@@ -1,14 +1,15 @@
-// CalculiX: hyperelastic cards for isotropic laws; fibres as its user material ELASTIC_FIBER, which knows a neo-Hookean matrix
-// only. hex27 become C3D20R: it has no 27-node cells. Numbers are cut after 20 letters there, so none is longer. The sphere is
-// a layer of hexahedra all of whose nodes are led along the path.
+// CalculiX; laws: calculix_material. Cells are C3D20R, those of hex8 with a node in the middle of each edge: its own eight-node
+// cells lock near incompressibility (C3D8) or soften by a third and more (C3D8R, C3D8I). hex27 lose the middles of facets and
+// cells. The sphere is a layer of hexahedra all of whose nodes are led along the path.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "mesh/facets.hpp"
-#include "export/cards.hpp"
+#include "export/calculix_material.hpp"
 #include "export/export_scene.hpp"
+#include "export/fibre_frame.hpp"
+#include "mesh/raise.hpp"
 
 namespace langer {
 
@@ -16,10 +17,6 @@ namespace {
 
 constexpr int side_of_facet[6] = {6, 4, 3, 5, 1, 2};  // S1 ... S6 by our local facet
 constexpr double usual_stiffness = 1000;              // of contact, in units of the softest law's 2 a1 per mm
-
-[[noreturn]] void refuse(const std::string& found, const std::string& expected) {
-  throw Failure(Exit::config, Error{{"CalculiX"}, "material", found, expected, ""});
-}
 
 std::string name_of(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
@@ -38,72 +35,50 @@ std::string list(const std::vector<int>& numbers) {
   return s;
 }
 
-// a1 where the matrix is neo-Hookean
-double neo_hookean(const Material& m) {
-  double a1 = 0;
-  for (const MatrixTerm& term : m.matrix) {
-    const auto* neo = std::get_if<NeoHooke>(&term);
-    const auto* yeoh = std::get_if<Yeoh>(&term);
-    if (!neo && !(yeoh && yeoh->a2 == 0 && yeoh->a3 == 0))
-      refuse("fibres in a matrix other than neo-Hookean",
-             "a neo-Hookean matrix, or no fibres: CalculiX' ELASTIC_FIBER knows no other");
-    a1 += neo ? neo->a1 : yeoh->a1;
+// hex8 with the middles of edges (and others, which C3D20R do not use); a set that has both ends of an edge has its middle
+Mesh with_middles(const Mesh& mesh) {
+  if (mesh.type != CellType::hex8) return mesh;
+  constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  Mesh out = raised(mesh, CellType::hex27);
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    std::vector<char> in(out.X.size(), 0);
+    for (int n : nodes) in[n] = 1;
+    for (int e = 0; e < out.n_cells(); ++e)
+      for (int k = 0; k < 12; ++k)
+        if (const auto cell = out.cell(e); in[cell[ends[k][0]]] && in[cell[ends[k][1]]]) in[cell[8 + k]] = 2;
+    for (int n = 0; n < out.n_nodes(); ++n)
+      if (in[n]) out.node_sets[name].push_back(n);
   }
-  return a1;
+  return out;
 }
 
-std::string fibre_card(const Material& m, const FibreFrame& frame, const std::string& name) {
-  std::vector<double> constants{neo_hookean(m), m.volume.quadratic.d};
-  for (std::size_t k = 0; k < m.fibres.size(); ++k) {
-    const Fibre& f = m.fibres[k];
-    if (f.kappa != 0) refuse("dispersed fibres", "kappa: 0");
-    if (f.tension_switch != FibreSwitch::I4_bar) refuse("fibres with another switch", "switch: I4_bar, which is CalculiX' own");
-    if (f.hgo.c2 == 0) refuse("c2 = 0", "c2 above 0: it divides by it");
-    Vec3 a = frame.in_frame[k];
-    if (a[2] < 0) a = -a;  // it takes the third component as positive, and refuses what rounding makes longer than 1
-    a *= 1 - 2e-12;
-    for (double c : {a[0], a[1], f.hgo.c1, f.hgo.c2}) constants.push_back(c);
-  }
-  std::string s = fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}\n", name, constants.size());
-  for (std::size_t i = 0; i < constants.size(); ++i)
-    s += fmt::format("{:.12g},{}", constants[i], i % 8 == 7 || i + 1 == constants.size() ? "\n" : " ");
-  return s;
-}
-
-std::string isotropic_card(const Material& m, const std::string& name) {
-  for (const Card& card : cards(m))
-    if (card.program == "CalculiX") {
-      if (!card.exists)
-        refuse(card.text.substr(3, card.text.find('\n') - 3),
-               "a law of CalculiX: neo-Hooke, Mooney-Rivlin, Yeoh, Signorini, Ogden, Arruda-Boyce");
-      std::string text = card.text;
-      const std::string own = "NAME=LANGER";
-      return text.replace(text.find(own), own.size(), "NAME=" + name);
-    }
-  return "";
-}
-
-double shear_modulus_of(const Material& m) {
-  double mu = 0;
-  for (const MatrixTerm& term : m.matrix) mu += shear_modulus(term);
-  return mu;
+std::vector<std::string> warnings_of(const Deck& deck) {
+  std::vector<std::string> list;
+  if (const auto stiff = too_stiff_for_contact(deck))
+    list.push_back(
+        fmt::format("2/d is {:.3g} times the shear modulus: CalculiX's contact was found to stall beyond 1000 times; solve "
+                    "with d: {:.2g} and export that",
+                    stiff->ratio, stiff->d));
+  return list;
 }
 
 class Writer {
  public:
-  explicit Writer(const Deck& deck) : deck_(deck), mesh_(deck.mesh) {}
+  explicit Writer(const Deck& deck) : deck_(deck), mesh_(with_middles(deck.mesh)) {}
 
-  std::string text() {
-    const bool quadratic = mesh_.type == CellType::hex27;
+  std::string text(const std::vector<std::string>& warnings) {
     for (const std::string& line : deck_.words) s_ += "** " + line + "\n";
-    if (quadratic) s_ += "** hex27 are C3D20R here: the middles of facets and cells are left out\n";
+    s_ += fmt::format("** {} are C3D20R here, with nodes in the middles of edges only\n",
+                      names(deck_.mesh.type)[static_cast<std::size_t>(deck_.mesh.type)]);
+    for (const std::string& line : warnings) s_ += "** warning: " + line + "\n";
     if (!deck_.contacts.empty())
       s_ += fmt::format(
           "** spheres are rigid facets with penalty contact: stiffness {:g} times the shear modulus per mm "
           "(PRESSURE-OVERCLOSURE); a higher\n"
-          "** one lets less of the sphere into the body. Langer has the exact sphere and lets nothing in.\n",
+          "** one lets less of the sphere into the body. Langer has the exact sphere and lets nothing in.\n"
+          "** RF of the set RIGID_... moves the sphere: it is minus the force on the indenter\n",
           usual_stiffness);
-    body(quadratic);
+    body();
     for (std::size_t c = 0; c < deck_.contacts.size(); ++c) contact(deck_.contacts[c], static_cast<int>(c));
     steps();
     return s_;
@@ -111,14 +86,15 @@ class Writer {
 
  private:
   const Deck& deck_;
-  const Mesh& mesh_;
-  std::string s_, rigid_;
+  const Mesh mesh_;
+  std::string s_;
   int next_node_ = 0, next_cell_ = 0;
 
   void node(int number, const Vec3& X) { s_ += fmt::format("{}, {:.12g}, {:.12g}, {:.12g}\n", number, X[0], X[1], X[2]); }
 
-  void body(bool quadratic) {
-    const int per_cell = quadratic ? 20 : 8;
+  static constexpr int per_cell = 20;
+
+  void body() {
     std::vector<char> used(mesh_.X.size(), 0);
     for (int e = 0; e < mesh_.n_cells(); ++e)
       for (int a = 0; a < per_cell; ++a) used[mesh_.cell(e)[a]] = 1;
@@ -126,40 +102,7 @@ class Writer {
     for (int n = 0; n < mesh_.n_nodes(); ++n)
       if (used[n]) node(n + 1, mesh_.X[n]);
     next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
-
-    std::vector<std::string> law_of_body(deck_.materials.size());
-    std::vector<std::vector<Vec3>> components(deck_.materials.size());
-    std::string sections;
-    for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
-      const FibreGroup& group = deck_.groups[g];
-      const Material& m = deck_.materials[group.body];
-      const std::string set = fmt::format("CELLS{}", g + 1);
-      s_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", quadratic ? "C3D20R" : "C3D8", set);
-      for (int e : group.cells) {
-        s_ += std::to_string(e + 1);
-        for (int a = 0; a < per_cell; ++a) s_ += fmt::format(",{}{}", a == 14 ? "\n" : " ", mesh_.cell(e)[a] + 1);
-        s_ += "\n";
-      }
-      if (group.fibres.empty()) {
-        const std::string law = fmt::format("LAW{}", group.body + 1);
-        if (law_of_body[group.body].empty()) law_of_body[group.body] = isotropic_card(m, law);
-        sections += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", set, law);
-        continue;
-      }
-      const FibreFrame frame = fibre_frame(group.fibres);
-      const std::string law = fmt::format("ELASTIC_FIBER_{}", group.body + 1);
-      if (law_of_body[group.body].empty())
-        law_of_body[group.body] = fibre_card(m, frame, law), components[group.body] = frame.in_frame;
-      for (std::size_t k = 0; k < frame.in_frame.size(); ++k)
-        if ((frame.in_frame[k] - components[group.body][k]).norm() > 1e-6)
-          refuse("fibre families whose angle to each other varies", "the same angle everywhere");
-      sections +=
-          fmt::format("*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
-                      g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
-      sections += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}, ORIENTATION=FIBRES{}\n", set, law, g + 1);
-    }
-    for (const std::string& law : law_of_body) s_ += law;
-    s_ += sections;
+    laws();
     for (const auto& [name, nodes] : mesh_.node_sets) {
       std::vector<int> numbers;
       for (int n : nodes)
@@ -170,6 +113,42 @@ class Writer {
     for (const HeldSet& h : deck_.held)
       if (h.value == 0) held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
     if (!held.empty()) s_ += "*BOUNDARY\n" + held;
+  }
+
+  // cells of the same law and fibres, their laws and sections
+  void laws() {
+    std::vector<std::string> law_of_body(deck_.materials.size());
+    std::vector<std::vector<Vec3>> components(deck_.materials.size());
+    std::string sections;
+    for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
+      const FibreGroup& group = deck_.groups[g];
+      const Material& m = deck_.materials[group.body];
+      const std::string set = fmt::format("CELLS{}", g + 1), name = fmt::format("LAW{}", group.body + 1);
+      s_ += fmt::format("*ELEMENT, TYPE=C3D20R, ELSET={}\n", set);
+      for (int e : group.cells) {
+        s_ += std::to_string(e + 1);
+        for (int a = 0; a < per_cell; ++a) s_ += fmt::format(",{}{}", a == 14 ? "\n" : " ", mesh_.cell(e)[a] + 1);
+        s_ += "\n";
+      }
+      std::vector<Vec3> in_frame;
+      std::string section = fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}", set, calculix_name(m, name));
+      if (!group.fibres.empty()) {
+        const FibreFrame frame = fibre_frame(group.fibres);
+        in_frame = frame.in_frame;
+        sections += fmt::format(
+            "*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n", g + 1,
+            frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+        section += fmt::format(", ORIENTATION=FIBRES{}", g + 1);
+      }
+      sections += section + "\n";
+      if (law_of_body[group.body].empty())
+        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name)), components[group.body] = in_frame;
+      for (std::size_t k = 0; k < in_frame.size(); ++k)
+        if ((in_frame[k] - components[group.body][k]).norm() > 1e-6)
+          held_by("CalculiX", {"", "fibre families whose angle to each other varies", "the same angle everywhere"});
+    }
+    for (const std::string& law : law_of_body) s_ += law;
+    s_ += sections;
   }
 
   void contact(const DeckContact& c, int number) {
@@ -192,7 +171,7 @@ class Writer {
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", master);
     for (int e = first_cell; e < next_cell_; ++e) s_ += fmt::format("{}, S2\n", e);
     double mu = 1e300;
-    for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus_of(m));
+    for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
     s_ += fmt::format("*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
                       name, mu);
     s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
@@ -229,6 +208,9 @@ class Writer {
 
 }  // namespace
 
-std::string calculix_deck(const Deck& deck) { return Writer(deck).text(); }
+DeckText calculix_deck(const Deck& deck) {
+  const std::vector<std::string> warnings = warnings_of(deck);
+  return {Writer(deck).text(warnings), warnings};
+}
 
 }  // namespace langer

@@ -11,6 +11,7 @@
 
 #include "base/version.hpp"
 #include "config/reader.hpp"
+#include "export/acting.hpp"
 #include "mesh/facets.hpp"
 #include "scene/scene.hpp"
 #include "scene/symmetry.hpp"
@@ -46,7 +47,7 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   for (const auto& [name, contact] : config.contacts)
     if (!std::holds_alternative<Sphere>(contact.rigid))
       refuse(path, "contacts." + name + ".rigid", "an indenter of another shape",
-             "a sphere, or no indenter: other shapes are not exported");
+             "a sphere, or no indenter: the nearest to an ellipsoid is the sphere of its curvature, to a plane a large one");
   return config;
 }
 
@@ -65,7 +66,8 @@ std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const int body = mesh.body.empty() ? 0 : mesh.body[e];
-    const std::vector<Vec3> fibres = scene.materials[body].fibres.empty() ? std::vector<Vec3>{} : scene.fibres_of(mesh, e);
+    const Material& law = scene.materials[body];
+    const std::vector<Vec3> fibres = law.fibres.empty() ? std::vector<Vec3>{} : acting(law, scene.fibres_of(mesh, e));
     std::pair<int, std::vector<long long>> key{body, {}};
     for (const Vec3& a : fibres)
       for (int k = 0; k < 3; ++k) key.second.push_back(std::llround(1e9 * a[k]));
@@ -118,30 +120,52 @@ DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::str
 
 }  // namespace
 
-FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
-  FibreFrame frame;
-  frame.e1 = fibres[0];
-  Vec3 other = Vec3::Zero();
-  for (const Vec3& a : fibres)
-    if (const Vec3 rest = a - a.dot(frame.e1) * frame.e1; rest.norm() > 1e-6 && other.isZero()) other = rest;
-  if (other.isZero()) {
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(frame.e1[k]) < std::abs(frame.e1[axis])) axis = k;
-    other = Vec3::Unit(axis) - frame.e1[axis] * frame.e1;
+namespace {
+
+// forces at the last step, of the whole body
+std::vector<std::string> answers(const SolutionReader& solution, const SolveConfig& config) {
+  std::vector<std::string> lines;
+  if (solution.n_steps() == 0) return lines;
+  const StepRecord last = solution.step(solution.n_steps() - 1);
+  const auto answer = [&](const std::string& on, Vec3 force) {
+    force = plain(force);
+    lines.push_back(fmt::format("Langer's answer at t = {:g}: force on {} of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
+                                on, force[0], force[1], force[2]));
+  };
+  for (const auto& [name, contact] : last.contacts) {
+    Vec3 force = Vec3::Zero();
+    for (const Vec3& r : contact.r) force -= r;
+    answer("the indenter \"" + name + "\"", force);
   }
-  frame.e2 = other.normalized();
-  const Vec3 e3 = frame.e1.cross(frame.e2);
-  for (const Vec3& a : fibres) frame.in_frame.push_back(Vec3(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3)));
-  return frame;
+  for (const LoadConfig& load : config.loads) {
+    Vec3 force = Vec3::Zero();
+    for (int n : solution.header().mesh.node_sets.at(load.on)) force += last.reaction[n];
+    answer("\"" + load.on + "\"", force);
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
+  constexpr double borne = 1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
+  TooStiff worst;
+  for (const Material& m : deck.materials) {
+    const double mu = shear_modulus(m), ratio = m.volume.quadratic.bulk_modulus() / mu;
+    if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (borne * mu)};
+  }
+  if (deck.contacts.empty() || worst.ratio <= borne * (1 + 1e-9)) return std::nullopt;
+  return worst;
 }
 
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
-  if (header.mesh.section) refuse(path, "", "a section", "a body in three dimensions: sections are not exported");
+  if (header.mesh.section)
+    refuse(path, "", "a section",
+           "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
   const SolveConfig config = config_of(header, path);
   if (header.mesh.type == CellType::tet15)
-    refuse(path, "", "cells tet15", "hex8 or hex27: CalculiX has no such cell, and FEBio's order of their nodes is not known here");
+    refuse(path, "", "cells tet15", "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
   Scene whole = make_scene(config, header.mesh, {}, nowhere);
   whole.fibres = header.fibres;
   const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);
@@ -151,7 +175,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
   Deck deck;
   deck.mesh = part ? part->mesh() : header.mesh;
   deck.mesh.node_sets.clear(), deck.mesh.facet_sets.clear();
-  deck.materials = scene.materials;
+  for (const Material& m : scene.materials) deck.materials.push_back(acting(m));
   deck.groups = groups_of(deck.mesh, scene);
   deck.share = static_cast<double>(header.mesh.n_cells()) / deck.mesh.n_cells();
 
@@ -210,24 +234,13 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
 
   deck.words.push_back(fmt::format("{} cells {}, {} nodes", deck.mesh.n_cells(),
                                    names(deck.mesh.type)[static_cast<int>(deck.mesh.type)], deck.mesh.n_nodes()));
+  if (header.formulation == "displacement")
+    deck.words.push_back("solved with formulation: displacement, which locks near incompressibility: cells here do not");
   if (part) deck.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part->words(), deck.share));
   if (found && !part)
     deck.words.push_back("solved by symmetry (" + found->words() +
                          "), which mirror planes between cells cannot express: the whole body");
-  if (solution.n_steps() > 0) {
-    const StepRecord last = solution.step(solution.n_steps() - 1);
-    if (!scene.contacts.empty())
-      deck.words.push_back(
-          fmt::format("Langer's answer at t = {:g}: force on the indenter of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
-                      plain(last.force_ind)[0], plain(last.force_ind)[1], plain(last.force_ind)[2]));
-    for (const LoadConfig& load : config.loads) {
-      Vec3 force = Vec3::Zero();
-      for (int n : header.mesh.node_sets.at(load.on)) force += last.reaction[n];
-      deck.words.push_back(
-          fmt::format("Langer's answer at t = {:g}: force on \"{}\" of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
-                      load.on, force[0], force[1], force[2]));
-    }
-  }
+  for (const std::string& line : answers(solution, config)) deck.words.push_back(line);
   return deck;
 }
 

@@ -2,17 +2,19 @@
 //   what is written  the body that was solved (its symmetric part, where mirror planes cut it between cells), cells with the
 //                    directions of their fibres, law, supports, imposed displacements, the increments, spheres as rigid facets
 //                    with penalty contact
-//   what is not      half turns (the whole body is written), indenters other than spheres, laws that the program lacks: the last
+//   what is not      half turns (the whole body is written), indenters other than spheres, laws that the program lacks: the
+//   last
 //                    two are refused, as Failure(config). What differs there is said at the head of the file.
 // Positions in mm, forces in N, stress in MPa.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "mesh/mesh.hpp"
 #include "export/rigid_cap.hpp"
+#include "mesh/mesh.hpp"
 #include "scene/solve_config.hpp"
 #include "store/solution_file.hpp"
 
@@ -53,15 +55,19 @@ struct Deck {
 // Throws Failure(config) for what no deck holds.
 Deck deck_of(const SolutionReader& solution, const std::string& path);
 
-std::string calculix_deck(const Deck& deck);
-std::string febio_deck(const Deck& deck);
-
-// components of a family's direction in the frame of its group: the first family is the first axis, the second lies in the
-// plane of the first two
-struct FibreFrame {
-  Vec3 e1, e2;
-  std::vector<Vec3> in_frame;
+// warnings: where the other program's answer will differ, or may not be reached; they stand at the head of the text too
+struct DeckText {
+  std::string text;
+  std::vector<std::string> warnings;
 };
-FibreFrame fibre_frame(const std::vector<Vec3>& fibres);
+DeckText calculix_deck(const Deck& deck);
+DeckText febio_deck(const Deck& deck);
+
+// Contact in programs that take penalties converges up to some bulk modulus beside the shear modulus; nothing where that is
+// met. Else the largest ratio 2/d over the shear modulus, and the d that would be borne [1/MPa].
+struct TooStiff {
+  double ratio = 0, d = 0;
+};
+std::optional<TooStiff> too_stiff_for_contact(const Deck& deck);
 
 }  // namespace langer

@@ -1,0 +1,25 @@
+// Families that do nothing are left out of what other programs get: some divide by their modulus, some refuse it.
+#pragma once
+
+#include <vector>
+
+#include "material/material.hpp"
+
+namespace langer {
+
+inline bool acts(const Fibre& family) { return family.hgo.c1 != 0; }
+
+inline Material acting(Material material) {
+  std::erase_if(material.fibres, [](const Fibre& family) { return !acts(family); });
+  return material;
+}
+
+// one for each family, in the order of the material -> those of the families that act
+inline std::vector<Vec3> acting(const Material& material, const std::vector<Vec3>& fibres) {
+  std::vector<Vec3> kept;
+  for (std::size_t k = 0; k < material.fibres.size(); ++k)
+    if (acts(material.fibres[k])) kept.push_back(fibres[k]);
+  return kept;
+}
+
+}  // namespace langer

@@ -1,0 +1,19 @@
+// A law as a material of FEBio 4 (.feb, format 4.0): uncoupled, with the volume term of ours (pressure model "Abaqus":
+// k (J-1)^2/2, k = 2/d). Fibres are solids of an "uncoupled solid mixture". Two laws of its 4.11 are not what their names say:
+//   Yeoh          sigma = dev(2/J sum c_i (I1_bar - 3)^(i-1) b_bar), without the factor i: c_i is written as i a_i
+//   Arruda-Boyce  the factor i of the series' derivative is there twice: not written
+// as its source FEBioMech/FEYeoh.cpp and FEArrudaBoyce.cpp have it (github.com/febiosoftware/FEBio).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "export/foreign_law.hpp"
+#include "material/material.hpp"
+
+namespace langer {
+
+// fibres: unit direction of each family [-]
+ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& fibres, int id, const std::string& name);
+
+}  // namespace langer

@@ -1,0 +1,17 @@
+// Directions of fibre families in a frame of their own: the first family is the first axis, the second lies in the plane of the
+// first two.
+#pragma once
+
+#include <vector>
+
+#include "tensor/types.hpp"
+
+namespace langer {
+
+struct FibreFrame {
+  Vec3 e1, e2;                 // orthonormal; the third is e1 x e2
+  std::vector<Vec3> in_frame;  // components of each family's direction
+};
+FibreFrame fibre_frame(const std::vector<Vec3>& fibres);
+
+}  // namespace langer
