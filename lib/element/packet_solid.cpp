@@ -52,8 +52,8 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
   P dW{}, ddW{};
   for (const MatrixTerm& term : material.matrix)
     std::visit(
-        [&](const auto& t) {
-          if constexpr (t.of == Invariant::I1_bar) {
+        [&]<class Law>(const Law& t) {
+          if constexpr (Law::of == Invariant::I1_bar) {
             const Energy<P> e = t(where_it_exists(t, I1_bar));
             out.W += e.W, dW += e.dW, ddW += e.ddW;
           }
@@ -255,7 +255,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
 bool packet_form(const Material& material) {
   if (material.fibres.size() > most_families) return false;
   for (const MatrixTerm& term : material.matrix)
-    if (!std::visit([](const auto& t) { return t.of == Invariant::I1_bar; }, term)) return false;
+    if (!std::visit([]<class Law>(const Law&) { return Law::of == Invariant::I1_bar; }, term)) return false;
   return true;
 }
 

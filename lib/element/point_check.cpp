@@ -66,8 +66,8 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
   P dW{}, ddW{};
   for (const MatrixTerm& term : material.matrix)
     std::visit(
-        [&](const auto& t) {
-          if constexpr (t.of == Invariant::I1_bar) {
+        [&]<class Law>(const Law& t) {
+          if constexpr (Law::of == Invariant::I1_bar) {
             const Energy<P> e = t(where_it_exists(t, I1_bar));
             dW += e.dW, ddW += e.ddW;
           }

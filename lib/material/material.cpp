@@ -21,10 +21,10 @@ std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame) 
 
 double shear_modulus(const MatrixTerm& term) {
   return std::visit(
-      [](const auto& law) {
-        if constexpr (law.of == Invariant::I1_bar_and_I2_bar)
+      []<class Law>(const Law& law) {
+        if constexpr (Law::of == Invariant::I1_bar_and_I2_bar)
           return 2 * (law.of_I1(3.).dW + law.of_I2(3.).dW);
-        else if constexpr (law.of == Invariant::squared_stretches)
+        else if constexpr (Law::of == Invariant::squared_stretches)
           return 2 * (law(1.).ddW + law(1.).dW);
         else
           return 2 * law(3.).dW;
@@ -104,18 +104,18 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
 
   for (const MatrixTerm& term : material.matrix)
     std::visit(
-        [&](const auto& law) {
-          if constexpr (law.of == Invariant::I1_bar) {
+        [&]<class Law>(const Law& law) {
+          if constexpr (Law::of == Invariant::I1_bar) {
             const Energy<double> e = law(where_it_exists(law, v.m * v.I1));
             r.W += e.W;
             M.head<3>().array() += e.dW;
             square(e.ddW, dlinear_bar_dC(v, identity6()));
-          } else if constexpr (law.of == Invariant::I2_bar) {
+          } else if constexpr (Law::of == Invariant::I2_bar) {
             const Energy<double> e = law(I2_bar(v));
             r.W += e.W;
             dW_I2 += e.dW;
             square(e.ddW, dI2_bar_dC(v));
-          } else if constexpr (law.of == Invariant::I1_bar_and_I2_bar) {
+          } else if constexpr (Law::of == Invariant::I1_bar_and_I2_bar) {
             const Energy<double> e1 = law.of_I1(v.m * v.I1), e2 = law.of_I2(I2_bar(v));
             r.W += e1.W + e2.W;
             M.head<3>().array() += e1.dW;

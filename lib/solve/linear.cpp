@@ -1,5 +1,3 @@
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -8,27 +6,10 @@
 
 namespace langer {
 
-namespace {
-
-// OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and again, for ever:
-// whether there is memory for them is asked beforehand.
-void need_blas_buffers() {
-  static const bool once = [] {
-    const std::size_t bytes = (std::size_t{136} << 20) * static_cast<std::size_t>(std::max(1, openblas_get_num_threads()));
-    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    munmap(memory, bytes);
-    return true;
-  }();
-  (void)once;
-}
-
-}  // namespace
-
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  need_blas_buffers();
-  openblas_set_num_threads(std::max(1, threads));
+  blas::need_buffers();
+  blas::set_threads(std::max(1, threads));
   cholmod_start(&s.common);
   s.common.print = 0;
   s.common.supernodal = CHOLMOD_SUPERNODAL;

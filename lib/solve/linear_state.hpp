@@ -8,13 +8,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "solve/blas/blas.hpp"
 #include "solve/linear.hpp"
-
-extern "C" {
-void openblas_set_num_threads(int);
-int openblas_get_num_threads();
-int openblas_get_parallel();
-}
 
 namespace langer {
 
@@ -24,8 +19,7 @@ namespace langer {
 class NoNestedThreads {
  public:
   NoNestedThreads() : levels_(omp_get_max_active_levels()) {
-    constexpr int by_openmp = 2;
-    if (openblas_get_parallel() != by_openmp || openblas_get_num_threads() == 1) omp_set_max_active_levels(0);
+    if (!blas::waits_for_openmp()) omp_set_max_active_levels(0);
   }
   ~NoNestedThreads() { omp_set_max_active_levels(levels_); }
 

@@ -85,22 +85,22 @@ std::string read_text_attribute(hid_t object, const Group& group, const std::str
 bool Group::has(const std::string& name) const { return H5Lexists(file_->id, full(name).c_str(), H5P_DEFAULT) > 0; }
 
 namespace {
-std::vector<std::string> links(hid_t file, const Group& group, H5O_type_t kind) {
+// what kind of object is told by its id: H5O_info_t is another type in each HDF5
+std::vector<std::string> links(hid_t file, const Group& group, H5I_type_t kind) {
   const Handle here(H5Gopen2(file, group.path().c_str(), H5P_DEFAULT), H5Gclose);
   std::vector<std::string> all, chosen;
   if (!here.good() || H5Literate(here, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_link, &all) < 0)
     group.refuse("", "group cannot be read");
   for (const std::string& name : all) {
-    H5O_info_t info;
-    if (H5Oget_info_by_name2(here, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 && info.type == kind)
-      chosen.push_back(name);
+    const Handle object(H5Oopen(here, name.c_str(), H5P_DEFAULT), H5Oclose);
+    if (object.good() && H5Iget_type(object) == kind) chosen.push_back(name);
   }
   return chosen;
 }
 }  // namespace
 
-std::vector<std::string> Group::groups() const { return links(file_->id, *this, H5O_TYPE_GROUP); }
-std::vector<std::string> Group::datasets() const { return links(file_->id, *this, H5O_TYPE_DATASET); }
+std::vector<std::string> Group::groups() const { return links(file_->id, *this, H5I_GROUP); }
+std::vector<std::string> Group::datasets() const { return links(file_->id, *this, H5I_DATASET); }
 
 Group Group::group(const std::string& name) const {
   const Handle handle(has(name) ? H5Gopen2(file_->id, full(name).c_str(), H5P_DEFAULT) : -1, H5Gclose);

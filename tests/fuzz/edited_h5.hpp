@@ -41,12 +41,12 @@ inline std::string bytes_of(const std::string& path) {
 }
 
 inline std::vector<std::string> objects(hid_t file) {
-  std::vector<std::string> all;
-  const auto add = [](hid_t, const char* name, const H5O_info_t*, void* to) -> herr_t {
+  std::vector<std::string> all{"."};
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
     static_cast<std::vector<std::string>*>(to)->emplace_back(name);
     return 0;
   };
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add, &all, H5O_INFO_BASIC);
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, add, &all);
   return all;
 }
 
@@ -88,11 +88,12 @@ inline void replace(hid_t file, const std::string& path, Bytes& bytes) {
 inline void spoil_attribute(hid_t file, const std::string& path, Bytes& bytes) {
   const hid_t object = path.empty() || path == "." ? H5Oopen(file, "/", H5P_DEFAULT) : H5Oopen(file, path.c_str(), H5P_DEFAULT);
   if (object < 0) return;
-  H5O_info_t info;
-  H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS);
-  if (info.num_attrs > 0) {
+  std::size_t attributes = 0;
+  const auto count = [](hid_t, const char*, const H5A_info_t*, void* n) -> herr_t { return ++*static_cast<std::size_t*>(n), 0; };
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, count, &attributes);
+  if (attributes > 0) {
     const hid_t attribute =
-        H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, bytes.below(info.num_attrs), H5P_DEFAULT, H5P_DEFAULT);
+        H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, bytes.below(attributes), H5P_DEFAULT, H5P_DEFAULT);
     char name[128] = "";
     H5Aget_name(attribute, sizeof name, name);
     const hid_t type = H5Aget_type(attribute);

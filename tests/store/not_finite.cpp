@@ -24,14 +24,15 @@ std::vector<std::string> reals(const std::string& path) {
   struct To {
     std::vector<std::string>& names;
   } to{all};
-  const auto add = [](hid_t object, const char* name, const H5O_info_t* info, void* data) -> herr_t {
-    if (info->type != H5O_TYPE_DATASET) return 0;
-    const hid_t dataset = H5Dopen2(object, name, H5P_DEFAULT), type = H5Dget_type(dataset);
+  const auto add = [](hid_t group, const char* name, const H5L_info_t*, void* data) -> herr_t {
+    const hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+    if (dataset < 0) return 0;  // a group
+    const hid_t type = H5Dget_type(dataset);
     if (H5Tget_class(type) == H5T_FLOAT) static_cast<To*>(data)->names.emplace_back(name);
     H5Tclose(type), H5Dclose(dataset);
     return 0;
   };
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add, &to, H5O_INFO_BASIC);
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, add, &to);
   H5Fclose(file);
   return all;
 }

@@ -63,9 +63,10 @@ class H5Comparison {
     for (const std::string& name : in_a) {
       const std::string below = (path == "/" ? "" : path) + "/" + name;
       if (below == "/provenance") continue;
-      H5O_info_t info;
-      H5Oget_info_by_name2(a_, below.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT);
-      info.type == H5O_TYPE_GROUP ? group(below) : dataset(below);
+      const hid_t object = H5Oopen(a_, below.c_str(), H5P_DEFAULT);
+      const bool is_group = H5Iget_type(object) == H5I_GROUP;
+      H5Oclose(object);
+      is_group ? group(below) : dataset(below);
     }
   }
 
