@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test format tidy coverage soak fuzz reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -75,6 +75,11 @@ fuzz:
 	@[ -f build-fuzz/CMakeCache.txt ] || cmake -S tests/fuzz -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
 	@cmake --build build-fuzz --parallel $(JOBS)
 	@tests/fuzz/run build-fuzz $(FUZZ_SECONDS) $(FUZZ_TARGETS)
+
+# changes of lib/ that a test must notice, one at a time in a copy of the tree; an hour or two, the table in build-mutants/mutants.md.
+# ONLY='contact.*': some of them; KEEP=1 goes on with what an earlier run left; CHECK=1 asks only whether they fit the sources
+mutants: deps
+	@tests/mutants/run.py --jobs $(JOBS) $(if $(ONLY),--only '$(ONLY)') $(if $(KEEP),--keep) $(if $(CHECK),--check)
 
 # the style of .clang-format; what clang-tidy finds (.clang-tidy); lines that the tests reach
 sources = $(shell git ls-files '*.cpp' '*.hpp')
@@ -143,6 +148,7 @@ help:
 	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
 	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
+	@echo "make mutants                  errors put into lib/ one at a time, which a test must notice; ONLY='contact.*' KEEP=1 CHECK=1"
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/trade.md from it; part of make bench"
 	@echo "make bench-forecasts          what --dry-run foretells beside what it takes, docs/scenes.md from it"
