@@ -1,4 +1,5 @@
-// A BLAS that is not OpenBLAS: MKL and BLIS are told how many threads, the reference BLAS has one; others go by their own variables.
+// A BLAS of any make, as it is found when the program runs: MKL, BLIS and OpenBLAS are told how many threads, the reference BLAS has one;
+// others go by their own variables.
 #include <dlfcn.h>
 
 #include <atomic>
@@ -24,6 +25,7 @@ void need_buffers() {}
 void set_threads(int n) {
   asked = n;
   if (auto* mkl = loaded<void(int)>("MKL_Set_Num_Threads")) mkl(n);
+  if (auto* openblas = loaded<void(int)>("openblas_set_num_threads")) openblas(n);
   if (auto* blis = loaded<void(long)>("bli_thread_set_num_threads")) blis(n);
 }
 
