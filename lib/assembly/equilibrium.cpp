@@ -44,7 +44,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
   make_blocks();
   find_beginnings();
   p_.assign(static_cast<std::size_t>(n) * n_p_, 0);
-  for (int e = 0; e < n; ++e) local_.push_back(local_modulus(formulation, material(e)));
+  local_.assign(n, 0);
   J_minus_1_ = p_;
   dJ_du_.resize(p_.size() * n_dofs_);
   f_ = K_du_ = VecX::Zero(dofs_.n);
@@ -122,20 +122,23 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   const Material& law = material(block.cells[0]);
   if (kernel_ == Kernel::packets) {
     const std::size_t b = &block - blocks_.data();
-    Packet q[Hex27::n_dofs], p[Hex27::n_gauss];
+    Packet q[Hex27::n_dofs], p[Hex27::n_gauss], local;
     load(block, u, q);
-    for (int l = 0; l < Packet::lanes; ++l)
-      for (int k = 0; k < n_p_; ++k) p[k].set(l, p_[static_cast<std::size_t>(block.cells[l]) * n_p_ + k]);
-    Packet local;
-    for (int l = 0; l < Packet::lanes; ++l) local.set(l, local_[block.cells[l]]);
+    for (int l = 0; l < Packet::lanes; ++l) {
+      const int e = block.cells[l];
+      local.set(l, local_[e]);
+      for (int k = 0; k < n_p_; ++k) p[k].set(l, modal_share(e) * p_[static_cast<std::size_t>(e) * n_p_ + k]);
+    }
     packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out);
     return;
   }
   SolidElement one;
+  std::vector<double> p(n_p_);
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
-    const bool whole = solid(formulation_, law, local_[e], geometry_[e], fibres_[e], element_displacements(u, e),
-                             &p_[static_cast<std::size_t>(e) * n_p_], with_tangent, one);
+    for (int k = 0; k < n_p_; ++k) p[k] = modal_share(e) * p_[static_cast<std::size_t>(e) * n_p_ + k];
+    const bool whole =
+        solid(formulation_, law, local_[e], geometry_[e], fibres_[e], element_displacements(u, e), p.data(), with_tangent, one);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
     if (!whole) continue;
     for (int k = 0; k < n_p_; ++k) {
@@ -289,13 +292,13 @@ double Equilibrium::smallest_J(const VecX& u) const {
 VecX Equilibrium::turned_dilatations() const {
   VecX out = VecX::Zero(dofs_.n);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = dilatation_modulus(e);
+    const double kappa = bulk_modulus(e), share = modal_share(e);
     const auto nodes = mesh_.cell(e);
     const bool tied = !tied_.empty() && tied_[e];
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
-      const double w = geometry_[e].V * (kappa * J_minus_1_[at] - p_[at]);
+      const double w = geometry_[e].V * share * (kappa * J_minus_1_[at] - p_[at]);
       for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
     }
   }
@@ -305,7 +308,7 @@ VecX Equilibrium::turned_dilatations() const {
 void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
   const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = dilatation_modulus(e);
+    const double kappa = bulk_modulus(e);
     const ElementNodes q = element_displacements(du, e);
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
@@ -314,30 +317,26 @@ void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
       p_[i] += step * (kappa * (J_minus_1_[i] + change) - p_[i]);
     }
   }
+  follow_pressures();
 }
 
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
-  for (std::size_t i = 0; i < p_.size(); ++i)
-    p_[i] = material(static_cast<int>(i) / n_p_).volume.quadratic.bulk_modulus() * J_minus_1_[i];
+  for (std::size_t i = 0; i < p_.size(); ++i) p_[i] = bulk_modulus(static_cast<int>(i) / n_p_) * J_minus_1_[i];
+  follow_pressures();
 }
 
-void Equilibrium::prop_cells() {
-  for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const ElementGeometry& geometry = geometry_[e];
-    const double kappa = material(e).volume.quadratic.bulk_modulus();
-    double* p = &p_[static_cast<std::size_t>(e) * n_p_];
-    if (formulation_ == Formulation::linear_dilatation) {
-      double most = 0;
-      for (int g = 0; g < geometry.n_gauss(); ++g) {
-        double here = 0;
-        for (int k = 0; k < n_p_; ++k) here += geometry.mode[g][k] * p[k];
-        most = std::max(most, -here);
-      }
-      local_[e] = std::min(most, kappa);
-    }
-    for (int k = 0; k < n_p_; ++k) p[k] *= dilatation_modulus(e) / kappa;
-  }
+void Equilibrium::extrapolate_pressures(const VecX& u_before, double s) {
+  const std::vector<double> p = p_;
+  pressures_from(u_before);
+  for (std::size_t i = 0; i < p_.size(); ++i) p_[i] = p[i] + s * (p[i] - p_[i]);
+  follow_pressures();
+}
+
+void Equilibrium::follow_pressures() {
+  if (formulation_ != Formulation::linear_dilatation) return;
+  for (int e = 0; e < mesh_.n_cells(); ++e)
+    local_[e] = std::min(local_modulus(geometry_[e], &p_[static_cast<std::size_t>(e) * n_p_]), bulk_modulus(e));
 }
 
 }  // namespace langer

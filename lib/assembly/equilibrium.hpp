@@ -45,11 +45,8 @@ class Equilibrium {
   // old is of no use near incompressibility: kappa (b - b0) is large. For modes, not for pressures of Gauss points.
   VecX turned_dilatations() const;
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
-  // Takes the pressures that there are now for the whole ones: from now on cells resist what their modes leave of J - 1 as these
-  // demand (solid.hpp; until the first call, as they do at rest), and the modes keep the rest of them. Once an increment, after
-  // pressures_from(): what it does follows from the accepted states alone, as a run that continues from a file needs it.
-  void prop_cells();
-  std::vector<double>& pressures() { return p_; }
+  // p + s (p - p_before), p_before those at u_before; J - 1 at an extrapolated u would mean nothing
+  void extrapolate_pressures(const VecX& u_before, double s);
 
   const Dofs& dofs() const { return dofs_; }
   const Pattern& pattern() const { return pattern_; }
@@ -61,8 +58,9 @@ class Equilibrium {
   ElementNodes element_displacements(const VecX& u, int e) const;
 
  private:
-  // of the dilatations t_k or J - 1, without what is left to `local` [MPa]
-  double dilatation_modulus(int e) const { return material(e).volume.quadratic.bulk_modulus() - local_[e]; }
+  double bulk_modulus(int e) const { return material(e).volume.quadratic.bulk_modulus(); }
+  double modal_share(int e) const { return 1 - local_[e] / bulk_modulus(e); }  // of kappa: what is not left to `local`
+  void follow_pressures();  // local_ from p_
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];
@@ -94,7 +92,7 @@ class Equilibrium {
   std::vector<ElementGeometry> geometry_;
   std::vector<std::vector<Vec3>> fibres_;
   std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
-  std::vector<double> p_;          // n_p_ for each element: of its modes or Gauss points
+  std::vector<double> p_;          // n_p_ for each element: kappa times the dilatations of its modes or Gauss points
   std::vector<double> J_minus_1_;  // same shape
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
   std::vector<double> dJ_du_kept_;

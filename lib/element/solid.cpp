@@ -132,11 +132,14 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
 
 }  // namespace
 
-double local_modulus(Formulation f, const Material& material) {
-  if (f != Formulation::linear_dilatation) return 0;
-  // under a sphere pressed in by 1 mm in one increment 3 suffice (pipelines/trade.yaml)
-  constexpr double shear_moduli = 4;
-  return std::min(material.volume.quadratic.bulk_modulus(), shear_moduli * std::abs(shear_modulus(material)));
+double local_modulus(const ElementGeometry& geometry, const double* p) {
+  double most = 0;
+  for (int g = 0; g < geometry.n_gauss(); ++g) {
+    double here = 0;
+    for (int k = 0; k < n_modes; ++k) here += geometry.mode[g][k] * p[k];
+    most = std::max(most, -here);
+  }
+  return most;
 }
 
 int n_pressures(Formulation f, int n_nodes) {

@@ -30,8 +30,8 @@ enum class Formulation { mean_dilatation, displacement, linear_dilatation };
 constexpr auto names(Formulation) { return std::array{"mean_dilatation", "displacement", "linear_dilatation"}; }
 // dilatations, each with its pressure, of a cell: t_k, or J - 1 at each Gauss point
 int n_pressures(Formulation f, int n_nodes);
-// that modulus [MPa] where no pressure is known yet: 4 shear moduli; 0 for the other formulations
-double local_modulus(Formulation f, const Material& material);
+// that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest compressive one at its Gauss points
+double local_modulus(const ElementGeometry& geometry, const double* p);
 // what suits a cell: as many dilatations as its nodes can follow without locking
 Formulation usual_formulation(CellType type);
 

@@ -57,13 +57,8 @@ void Statics::begin(double t) {
 
 void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
-  if (!options_.extrapolate || !admissible(now_.u + step)) return equilibrium_.prop_cells();
-  // the pressures follow by extrapolation too: kappa (J - 1) at an extrapolated u is meaningless
-  const std::vector<double> p_now = equilibrium_.pressures();
-  equilibrium_.pressures_from(before_.u);
-  std::vector<double>& p = equilibrium_.pressures();
-  for (std::size_t i = 0; i < p.size(); ++i) p[i] = p_now[i] + s * (p_now[i] - p[i]);
-  equilibrium_.prop_cells();
+  if (!options_.extrapolate || !admissible(now_.u + step)) return;
+  equilibrium_.extrapolate_pressures(before_.u, s);
   u_ += step;
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
         for (int l = 0; l < 8; ++l)
           for (int k = 0; k < n_p; ++k) pressure(k, l) = near(random), p[k].set(l, pressure(k, l));
         PacketElement out(n, n_p);
-        const double local = local_modulus(formulation, material);
+        const double local = test::local_modulus(formulation, material);
         packet_solid(formulation, material, local, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
         for (int l = 0; l < 8; ++l) {
           SolidElement one;

@@ -224,7 +224,6 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
       VecX u = VecX::Zero(dofs.n);
       for (int dof : dofs.free) u[dof] = small(random);
       body.pressures_from(u);
-      body.prop_cells();
       REQUIRE(body.assemble(u, true));
       const Pattern& pattern = body.pattern();
       const std::vector<double> K = body.K();

@@ -1,6 +1,10 @@
 // Materials that many tests use.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "element/solid.hpp"
 #include "material/material.hpp"
 
 namespace langer::test {
@@ -28,6 +32,12 @@ inline Material stable(double alpha_deg, double d) {
   m.volume.quadratic.d = d;
   m.fibres = {Fibre{HgoFibre{0.10, 0.30}, alpha_deg, FibreSwitch::I4_bar}};
   return m;
+}
+
+// a modulus of what the modes leave of J - 1, of the order that pressures have
+inline double local_modulus(Formulation formulation, const Material& material) {
+  if (formulation != Formulation::linear_dilatation) return 0;
+  return std::min(material.volume.quadratic.bulk_modulus(), 4 * std::abs(shear_modulus(material)));
 }
 
 }  // namespace langer::test
