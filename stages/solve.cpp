@@ -16,6 +16,7 @@
 #include "run/homogeneous.hpp"
 #include "scene/make_mesh.hpp"
 #include "run/progress.hpp"
+#include "run/result_watch.hpp"
 #include "scene/scene.hpp"
 #include "run/stability_watch.hpp"
 #include "run/step_record.hpp"
@@ -134,6 +135,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
   StabilityWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
+  ResultWatch result(body);
   std::string unstable;  // what ended the path, where it was that
   std::string last_said;  // of the last state's stability
 
@@ -179,12 +181,19 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
             return false;
           }
         }
+        SolveReport found = report;
         if (part) record = part->whole(record);
         if (point) {
           const std::optional<StepRecord> balanced = point->whole(record);
           homogeneous = balanced.has_value();
           if (!homogeneous) return false;
           record = *balanced;
+          found.residual = std::max(found.residual, record.residual * report.reference);
+        }
+        result.look(t, statics.accepted().u, found);
+        if (auto refused = result.refusal()) {
+          refused->hint += fmt::format("; kept: the {} steps before in {}.part", file.n_steps(), job.output);
+          throw Failure(Exit::not_converged, *refused);
         }
         if (end) last = record;
         {
@@ -196,7 +205,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
       });
   if (!homogeneous) return std::nullopt;
   if (!job.quiet)
-    for (const std::string& line : watch.warnings()) job.say("warning: {}", line);
+    for (const auto& lines : {watch.warnings(), result.warnings()})
+      for (const std::string& line : lines) job.say("warning: {}", line);
   if (!unstable.empty())
     throw Failure(Exit::not_converged,
                   Error{{}, "", unstable, "a stable state (on_unstable: stop)",

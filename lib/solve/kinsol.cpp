@@ -177,8 +177,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
   for (int round = 0;; ++round) {
     const Assessment now = problem.assess(x, true);
     ++report.evaluations;
-    report.residual = now.residual, report.reference = now.reference;
-    report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
+    compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
     const bool balanced = now.residual <= report.tolerance;

@@ -7,6 +7,12 @@
 
 namespace langer {
 
+void compare(const Assessment& now, double absolute, double relative, SolveReport& report) {
+  report.residual = now.residual, report.reference = now.reference;
+  report.asked = std::max(absolute, relative * now.reference);
+  report.tolerance = std::max(report.asked, now.floor);
+}
+
 bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report) {
   if (!dx || !dx->allFinite()) {
     report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body gives way in many directions at once";
@@ -67,8 +73,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
   for (;;) {
     const Assessment now = problem.assess(x, report.iterations == 0 || !reuses);
     ++report.evaluations;
-    report.residual = now.residual, report.reference = now.reference;
-    report.tolerance = std::max({options.absolute, options.relative * now.reference, now.floor});
+    compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
     const double wanted =

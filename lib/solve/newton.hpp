@@ -71,9 +71,13 @@ struct SolveReport {
   int again = 0;       // corrections with the tangent of an iteration
   int evaluations = 0;  // of the residual
   double residual = 0, tolerance = 0, reference = 0;
+  double asked = 0;  // tolerance before it was raised to what rounding leaves [N]
   std::string why;  // in words, when not converged
   bool converged() const { return outcome == Outcome::converged; }
 };
+
+// residual, reference and both tolerances of a state
+void compare(const Assessment& now, double absolute, double relative, SolveReport& report);
 
 // A correction, shortened where it is too long or would turn elements inside out; false: `report` says why.
 bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report);

@@ -1,0 +1,42 @@
+// What a converged state may get wrong all the same; looked at after every accepted increment.
+//   formulation  cells that lock or are too soft (locking.hpp)
+//   rounding     a tolerance raised to what rounding leaves of the residual, and a residual that is not small beside the reactions
+//   chains       those of arruda_boyce beyond their locking stretch, where the series of five terms goes on
+// Nothing is computed for a body whose formulation, stiffness and law give no reason for it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "run/locking.hpp"
+#include "solve/newton.hpp"
+
+namespace langer {
+
+class ResultWatch {
+ public:
+  explicit ResultWatch(const Equilibrium& body);
+  void look(double t, const VecX& u, const SolveReport& report);
+  // of the state looked at last: not to be kept
+  std::optional<Error> refusal() const;
+  // of the whole path
+  std::vector<std::string> warnings() const;
+
+ private:
+  void look_at_chains(const VecX& u);
+  double large_enough_d() const;
+
+  const Equilibrium& body_;
+  bool may_lock_, has_chains_;
+  double d_;         // the smallest of all materials [1/MPa]
+  Locking locking_;  // where the stored energy was largest
+  double t_ = 0, residual_ = 0;
+  double reactions_ = 0, asked_ = 0;  // largest on the path [N]
+  double raised_ = 0, raised_at_ = 0;  // largest tolerance that was, and where
+  double chains_ = 0, locking_stretch_ = 0;
+  Vec3 chains_place_ = Vec3::Zero();
+};
+
+}  // namespace langer
