@@ -73,8 +73,9 @@ struct ContactConfig {
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter", required);
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
-    v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", at_least(0),
-      Hint{"Coulomb coefficient without unit; [A23] uses 0.34; leave the key out for frictionless contact"});
+    v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
+      Hint{"Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
+           "tan 34 = 0.67; at 10 everything sticks; leave the key out for frictionless contact"});
     v(&ContactConfig::motion, "motion", unit::none, "where the indenter goes, straight from point to point", required);
   }
   std::vector<Complaint> complaints() const {
@@ -109,7 +110,7 @@ struct BodyConfig {
   std::optional<FibreField> fibre_field;
   static void fields(auto& v) {
     v(&BodyConfig::material, "material", unit::none, "its material; none: that of the bodies not named");
-    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named");
+    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named", between(-360, 360));
     v(&BodyConfig::fibre_field, "fibre_field", unit::none, "directions that vary from cell to cell");
   }
 };
@@ -154,7 +155,7 @@ struct SolveConfig {
       "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
-    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own");
+    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own", between(-360, 360));
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,

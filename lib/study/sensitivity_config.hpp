@@ -80,7 +80,8 @@ struct SensitivityConfig {
       "state of the specimen: the volume term left out (incompressible) or counted");
     v(&SensitivityConfig::stress, "stress", unit::none, "stress that is looked at");
     v(&SensitivityConfig::test, "test", unit::none, "how the sheet is loaded; along x, and z in equibiaxial tension");
-    v(&SensitivityConfig::turn, "turn", unit::deg, "added to the fibre angles: the sheet is cut in another direction");
+    v(&SensitivityConfig::turn, "turn", unit::deg, "added to the fibre angles: the sheet is cut in another direction",
+      between(-360, 360));
     v(&SensitivityConfig::morris, "morris", unit::none, "Morris' trajectories as well: what curvature and interactions do");
     v(&SensitivityConfig::sobol, "sobol", unit::none, "Sobol's shares of variance as well: first and total");
     v(&SensitivityConfig::seed, "seed", unit::none, "of the random samples", at_least(0));
