@@ -199,6 +199,7 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     report.iterations += inner.iterations;
     report.evaluations += inner.evaluations;
     if (inner.best.size() > 0) x = inner.best;
+    if (inner.best.size() > 0 && problem.settled) problem.settled(x);
   }
 }
 

@@ -43,6 +43,7 @@ struct Problem {
   std::function<bool(const VecX& x)> tangent;            // assembles and factorizes at x
   std::function<VecX(const VecX& rhs)> solve;            // with that tangent
   std::function<void(const VecX& free_step)> predicted;  // told each solution of the tangent
+  std::function<void(const VecX& x)> settled;            // told where iterations with a tangent of before ended; may be empty
 };
 
 struct NewtonOptions {

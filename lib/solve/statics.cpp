@@ -320,6 +320,9 @@ Problem Statics::problem() {
     for (Eigen::Index i = 0; i < step.size(); ++i) du[equilibrium_.dofs().free[i]] = step[i];
     equilibrium_.predict_pressures(du, 1);
   };
+  // cells that oppose the remainder of J - 1 as their pressures demand
+  if (equilibrium_.formulation() == Formulation::linear_dilatation)
+    p.settled = [this](const VecX& u) { equilibrium_.pressures_from(u); };
   return p;
 }
 

@@ -71,3 +71,21 @@ TEST_CASE("no memory: spheres, depths, fibres and moduli drawn at random") {
     CHECK(fine.deepest == doctest::Approx(coarse.deepest).epsilon(1e-8));
   }
 }
+
+TEST_CASE("no memory: KINSOL finds the state that newton finds in quadratic cells, with tangents of before too") {
+  for (CellType cells : {CellType::hex27, CellType::tet15}) {
+    test::Indentation scene = quarter(cells);
+    scene.nx = scene.nz = 6, scene.depth = 0.5, scene.step = 0.25;
+    const Material material = test::stable(0, 1e-5);
+    const auto newton = scene.run(material);
+    for (KinsolStrategy strategy : {KinsolStrategy::newton, KinsolStrategy::picard}) {
+      CAPTURE(static_cast<int>(cells));
+      CAPTURE(static_cast<int>(strategy));
+      scene.kinsol = KinsolOptions{};
+      scene.kinsol->strategy = strategy, scene.kinsol->relative = 1e-10;
+      const auto found = scene.run(material);
+      REQUIRE_MESSAGE(found.path.complete, found.path.why);
+      CHECK((found.u - newton.u).lpNorm<Eigen::Infinity>() < 1e-9);
+    }
+  }
+}
