@@ -120,7 +120,7 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
       for (int i = 0; i < 9; ++i) F[i].set(l, out.F[g](i / 3, i % 3));
     }
     Term law[5];
-    P B[6], least = std::numeric_limits<double>::infinity();
+    P B[6], least = std::numeric_limits<double>::infinity(), largest{};
     const int n = terms(material, F, J, a, law, B);
     for (const Normal& normal : normals) {
       P aa{}, ab{}, bb{};
@@ -129,11 +129,12 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
         aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;
       }
       const P half = 0.5 * (aa - bb);
-      const P value = contract(normal.nn, B) + 0.5 * (aa + bb) - root(half * half + ab * ab);
+      const P same = contract(normal.nn, B);
+      const P value = same + 0.5 * (aa + bb) - root(half * half + ab * ab), size = root(same * same) + root((aa + bb) * (aa + bb));
+      largest = P(size.v > largest.v ? size.v : largest.v);
       least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
     }
-    least = least / J;
-    for (int l = 0; l < P::lanes && first + l < n_gauss; ++l) out.stiffness[first + l] = least[l];
+    for (int l = 0; l < P::lanes && first + l < n_gauss; ++l) out.stiffness[first + l] = without_rounding(least[l], largest[l]) / J[l];
   }
 }
 

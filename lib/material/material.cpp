@@ -1,10 +1,10 @@
 #include "material/material.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <limits>
 #include <numbers>
 
 #include "material/existence.hpp"
+#include "material/fibre_switch.hpp"
 #include "tensor/invariants.hpp"
 #include "tensor/kinematics.hpp"
 
@@ -39,22 +39,6 @@ double shear_modulus(const Material& material) {
 }
 
 namespace {
-
-// At rest I4_bar is 1 up to the rounding of a a^T: such a fibre counts as stretched, so that the tangent at rest does
-// not depend on the digits of cos(alpha).
-constexpr double stretched_from = 1 - 16 * std::numeric_limits<double>::epsilon();
-
-bool slack(FibreSwitch tension_switch, double I4, double I4_bar) {
-  switch (tension_switch) {
-    case FibreSwitch::I4_bar:
-      return I4_bar < stretched_from;
-    case FibreSwitch::I4:
-      return I4 < stretched_from;
-    case FibreSwitch::off:
-      return false;
-  }
-  return false;
-}
 
 // What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H = d2W/dC_bar2
 //   dW/dC = I3^(-1/3) (G - (G:C)/3 C^-1), as of a term with M = G;  d2W/dC2 = that term's + Q^T H Q,  Q = dC_bar/dC

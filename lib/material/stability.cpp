@@ -15,10 +15,14 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
 
+// zero where it is negative by no more than the difference quotient rounds
 double slope_at(const Material& material, Path path, double x) {
-  constexpr double h = 1e-5;
+  constexpr double h = 1e-5, rounding = 1e-10;
   const PathState after = on_path(material, path, x + h), before = on_path(material, path, x > 0 ? x - h : x);
-  return after.exists && before.exists ? (after.work - before.work) / (x > 0 ? 2 * h : h) : nan;
+  if (!after.exists || !before.exists) return nan;
+  const double width = x > 0 ? 2 * h : h, slope = (after.work - before.work) / width;
+  const double noise = rounding * (std::abs(after.work) + std::abs(before.work)) / width;
+  return std::isless(slope, 0) && std::isgreater(slope, -noise) ? 0 : slope;
 }
 
 double ellipticity_at(const Material& material, Path path, double x) {
@@ -26,21 +30,23 @@ double ellipticity_at(const Material& material, Path path, double x) {
   return s.exists ? smallest_shear_stiffness(material, s.F, fibre_directions(material)).value : nan;
 }
 
-// first x at which f turns negative or ends (NaN, compared without a trap): the first interval with such an end, halved
-template <class F>
-double first_loss(const std::vector<double>& x, const std::vector<double>& values, F f) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (std::isgreaterequal(values[i], 0)) continue;
-    if (i == 0) return x[0];
-    double good = x[i - 1], lost = x[i];
-    while (lost - good > 1e-4) {
-      const double middle = 0.5 * (good + lost);
-      (std::isgreaterequal(f(middle), 0) ? good : lost) = middle;
-    }
-    return lost;
+// first x at which `is` holds for f: the first interval with such an end, halved (NaN is compared without a trap)
+template <class F, class Is>
+double first_place(const std::vector<double>& x, const std::vector<double>& values, F f, Is is) {
+  const auto found = std::find_if(values.begin(), values.end(), is);
+  if (found == values.end()) return inf;
+  const auto i = static_cast<std::size_t>(found - values.begin());
+  if (i == 0) return x[0];
+  double without = x[i - 1], with = x[i];
+  while (with - without > 1e-4) {
+    const double middle = 0.5 * (without + with);
+    (is(f(middle)) ? with : without) = middle;
   }
-  return inf;
+  return with;
 }
+
+bool is_lost(double value) { return std::isless(value, 0); }
+bool is_no_number(double value) { return !std::isfinite(value); }
 
 // the state ln U = r h
 Mat3 state_at(const Eigen::SelfAdjointEigenSolver<Mat3>& h, double r) {
@@ -60,19 +66,20 @@ PathStability path_stability(const Material& material, Path path, const std::vec
     s.slope.push_back(slope_at(material, path, x));
     s.ellipticity.push_back(ellipticity_at(material, path, x));
   }
-  s.slope_loss = first_loss(amount, s.slope, [&](double x) { return slope_at(material, path, x); });
-  s.ellipticity_loss = first_loss(amount, s.ellipticity, [&](double x) { return ellipticity_at(material, path, x); });
+  const auto slope = [&](double x) { return slope_at(material, path, x); };
+  const auto ellipticity = [&](double x) { return ellipticity_at(material, path, x); };
+  s.slope_loss = first_place(amount, s.slope, slope, is_lost);
+  s.ellipticity_loss = first_place(amount, s.ellipticity, ellipticity, is_lost);
+  s.end = first_place(amount, s.ellipticity, ellipticity, is_no_number);
   return s;
 }
 
-double safe_hencky(const Material& material, double most) {
+HenckyReach hencky_reach(const Material& material, double most) {
   constexpr int directions = 300;
   constexpr double step = 0.1;
   const std::vector<Vec3> a = fibre_directions(material);
-  const auto stable = [&](const auto& h, double r) {
-    return std::isgreaterequal(smallest_shear_stiffness(material, state_at(h, r), a).value, 0);
-  };
-  double safe = inf;
+  const auto stiffness = [&](const auto& h, double r) { return smallest_shear_stiffness(material, state_at(h, r), a).value; };
+  HenckyReach reach{inf, inf};
   for (int i = 0; i < directions; ++i) {
     Random random(1, static_cast<std::uint64_t>(i));
     Mat3 h = Mat3::Zero();
@@ -84,20 +91,23 @@ double safe_hencky(const Material& material, double most) {
         for (int q = 0; q <= p; ++q) h(p, q) = h(q, p) = random.normal() * (p == q ? 1 : std::sqrt(0.5));
     h.diagonal().array() -= h.trace() / 3;
     const Eigen::SelfAdjointEigenSolver<Mat3> direction(Mat3(h / h.norm()));
-    for (double r = step; r - step < std::min(safe, most); r += step) {
-      const double reach = std::min({r, safe, most});
-      if (stable(direction, reach)) continue;
-      double good = r - step, lost = reach;
-      while (lost - good > 1e-3) {
-        const double middle = 0.5 * (good + lost);
-        (stable(direction, middle) ? good : lost) = middle;
+    for (double r = step; r - step < std::min(reach.safe, most); r += step) {
+      const double here = std::min({r, reach.safe, most}), value = stiffness(direction, here);
+      if (std::isgreaterequal(value, 0)) continue;
+      const bool lost = is_lost(value);
+      double good = r - step, bad = here;
+      while (bad - good > 1e-3) {
+        const double middle = 0.5 * (good + bad), at = stiffness(direction, middle);
+        (std::isgreaterequal(at, 0) || (lost && is_no_number(at)) ? good : bad) = middle;
       }
-      safe = good;
+      (lost ? reach.safe : reach.end) = lost ? good : std::min(reach.end, good);
       break;
     }
   }
-  return safe;
+  return reach;
 }
+
+double safe_hencky(const Material& material, double most) { return hencky_reach(material, most).safe; }
 
 StabilityMap stability_map(const Material& material, const StabilityOptions& options) {
   StabilityMap map;
@@ -123,7 +133,8 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
         map.plane(row, column) = smallest_shear_stiffness(material, Vec3(l1, 1 / (l1 * l2), l2).asDiagonal(), a).value;
       }
     } else {
-      map.safe_hencky = safe_hencky(material, 1.2);
+      const HenckyReach reach = hencky_reach(material, 1.2);
+      map.safe_hencky = reach.safe, map.hencky_end = reach.end;
     }
   };
   const int jobs = n_paths + options.stretches + 1;

@@ -2,7 +2,8 @@
 //   slope         d work/d amount [MPa]: the nominal stress falls where it is negative (the test is then unstable under load)
 //   ellipticity   smallest shear stiffness [MPa] (material/ellipticity.hpp): solutions depend on the mesh where it is negative
 //   first losses  the amount at which each first turns negative, found to 1e-4; infinity where not up to the end
-// The end of existence of a state counts as a loss of both.
+//   end           the amount from which there is no number: no state is found, or no double holds it; no loss, but nothing is known
+//                 beyond. Negative by no more than rounding is not lost (material/ellipticity.hpp).
 #pragma once
 
 #include <functional>
@@ -16,7 +17,7 @@ struct PathStability {
   Path path = Path::uniaxial;
   double angle = 0;                                 // degrees between the first fibre family and x
   std::vector<double> nominal, slope, ellipticity;  // at each amount
-  double slope_loss = 0, ellipticity_loss = 0;
+  double slope_loss = 0, ellipticity_loss = 0, end = 0;
 };
 
 struct StabilityMap {
@@ -27,6 +28,7 @@ struct StabilityMap {
   MatX plane;
   // every incompressible state up to this Hencky norm |ln U| is strongly elliptic, as far as sampled; infinity: none found
   double safe_hencky = 0;
+  double hencky_end = 0;  // least Hencky norm of the samples at which the law has no number; infinity: none found
 };
 
 struct StabilityOptions {
@@ -44,7 +46,12 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
 // one path, one direction of the material as it is
 PathStability path_stability(const Material& material, Path path, const std::vector<double>& amount);
 
-// Largest Hencky norm below which no sampled state has lost strong ellipticity, looked for up to `most`
+// Largest Hencky norm below which no sampled state has lost strong ellipticity, looked for up to `most`; a direction is followed as
+// far as the law has numbers.
+struct HenckyReach {
+  double safe = 0, end = 0;  // of StabilityMap
+};
+HenckyReach hencky_reach(const Material& material, double most);
 double safe_hencky(const Material& material, double most);
 
 }  // namespace langer

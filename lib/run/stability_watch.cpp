@@ -50,7 +50,9 @@ std::string in_words(const StabilityReport& r) {
     words = fmt::format("the constrained tangent has {} negative eigenvalue{}", r.signature.negative,
                         r.signature.negative > 1 ? "s" : "");
   if (r.signature.negative < 0) words = "the constrained tangent is singular";
-  if (r.material_unstable())
+  if (std::isnan(r.stiffness))
+    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, text(r.place));
+  else if (r.material_unstable())
     words += fmt::format("{}strong ellipticity is lost in {} of the volume (smallest shear stiffness {:.3g} MPa in cell {} at {})",
                          words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, text(r.place));
   return words;
@@ -175,7 +177,9 @@ std::vector<std::string> StabilityWatch::warnings() const {
         fmt::format("unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
                     "leave these states",
                     equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : ""));
-  if (!material_.of.empty())
+  if (!material_.of.empty() && std::isnan(last_.stiffness))
+    lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), text(last_.place)));
+  else if (!material_.of.empty())
     lines.push_back(fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (smallest shear "
                                 "stiffness {:.3g} MPa near {}): the solution depends on the mesh there",
                                 material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));

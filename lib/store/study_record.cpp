@@ -78,16 +78,18 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   write_vector(group, "stretch", map.stretch);
   write_matrix(group, "plane", map.plane, "MPa");
   group.write_scalar("safe_hencky", map.safe_hencky, "-");
+  group.write_scalar("hencky_end", map.hencky_end, "-");
   const std::size_t paths = all_paths.size(), angles = map.angle.size(), amounts = map.amount.size();
-  std::vector<double> slope_loss, ellipticity_loss, nominal, slope, ellipticity;
+  std::vector<double> slope_loss, ellipticity_loss, end, nominal, slope, ellipticity;
   for (const PathStability& p : map.paths) {
-    slope_loss.push_back(p.slope_loss), ellipticity_loss.push_back(p.ellipticity_loss);
+    slope_loss.push_back(p.slope_loss), ellipticity_loss.push_back(p.ellipticity_loss), end.push_back(p.end);
     nominal.insert(nominal.end(), p.nominal.begin(), p.nominal.end());
     slope.insert(slope.end(), p.slope.begin(), p.slope.end());
     ellipticity.insert(ellipticity.end(), p.ellipticity.begin(), p.ellipticity.end());
   }
   group.write<double>("slope_loss", {paths, angles}, slope_loss, "-");
   group.write<double>("ellipticity_loss", {paths, angles}, ellipticity_loss, "-");
+  group.write<double>("end", {paths, angles}, end, "-");
   group.write<double>("nominal", {paths, angles, amounts}, nominal, "MPa");
   group.write<double>("slope", {paths, angles, amounts}, slope, "MPa");
   group.write<double>("ellipticity", {paths, angles, amounts}, ellipticity, "MPa");

@@ -3,7 +3,8 @@
 //   /identifiability/profiles/<name>/{value, rise, interval}   attributes low_open, high_open
 //   /identifiability/bootstrap/{samples, interval}
 //   /identifiability/advice/{worst, gain, relative}            attribute `tests`
-//   /stability/{amount, angle, stretch, plane, safe_hencky, slope_loss, ellipticity_loss, ellipticity}   attribute `verdict`
+//   /stability/{amount, angle, stretch, plane, safe_hencky, hencky_end, slope_loss, ellipticity_loss, end,
+//              nominal, slope, ellipticity}                attribute `verdict`
 //   /fitted_range/{I1_bar, I4_bar}                             largest values that the tests reach
 #pragma once
 

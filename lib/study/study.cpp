@@ -115,6 +115,8 @@ std::string up_to(const PathStability& p, double end) {
   const double loss = std::min(p.slope_loss, p.ellipticity_loss);
   const bool shear = p.path == Path::simple_shear;
   const auto text = [&](double x) { return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x); };
+  if (std::isinf(loss) && std::isfinite(p.end))
+    return "stable up to " + text(std::floor(1000 * p.end) / 1000) + ", beyond which the law has no number";
   if (std::isinf(loss)) return "stable up to " + text(end) + ", as far as looked";
   // rounded down: stable as far as said
   std::string s = "stable up to " + text(std::floor(1000 * std::max(0., loss)) / 1000);
@@ -217,9 +219,11 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
       if (std::isfinite(p.slope_loss) || std::isfinite(p.ellipticity_loss))
         lines.push_back(
             fmt::format("stability: {}, fibre at {:g} degrees: {}", word(p.path), p.angle, up_to(p, map.amount.back())));
+    const double end = std::min(map.hencky_end, 1.2);
     lines.push_back(
         std::isinf(map.safe_hencky)
-            ? std::string("stability: no loss of strong ellipticity found up to a Hencky norm of 1.2")
+            ? fmt::format("stability: no loss of strong ellipticity found up to a Hencky norm of {:.3g}{}", end,
+                          end < 1.2 ? ", beyond which the law has no numbers in some states" : "")
             : fmt::format("stability: strongly elliptic in every state up to a Hencky norm of {:.3g}", map.safe_hencky));
   }
   return lines;
@@ -259,9 +263,9 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
   }
   if (study.stability) {
     const StabilityMap& map = study.stability->map;
-    std::string text = "path,fibre_angle_deg,slope_loss,ellipticity_loss\n";
+    std::string text = "path,fibre_angle_deg,slope_loss,ellipticity_loss,end\n";
     for (const PathStability& p : map.paths)
-      text += fmt::format("{},{},{},{}\n", word(p.path), p.angle, p.slope_loss, p.ellipticity_loss);
+      text += fmt::format("{},{},{},{},{}\n", word(p.path), p.angle, p.slope_loss, p.ellipticity_loss, p.end);
     files.push_back({"stability.csv", text});
     std::vector<double> l1, l2, value;
     for (Eigen::Index row = 0; row < map.plane.rows(); ++row)

@@ -3,9 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
 #include <cmath>
+#include <ctime>
 
+#include "base/random.hpp"
+#include "material/at_rest.hpp"
 #include "material/catalogue.hpp"
+#include "material/ellipticity.hpp"
 
 using namespace langer;
 
@@ -105,4 +110,96 @@ TEST_CASE("the map: losses by direction, the plane of stretches, the safe radius
       if (path == Path::uniaxial) CHECK(std::isinf(s.slope_loss));
     }
   CHECK(safe_hencky({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}, 1.2) == 0);  // unstable at rest
+}
+
+namespace {
+
+// moduli >= 0, up to two families with any exponent and dispersion: polyconvex
+Material polyconvex(Random& random) {
+  const auto up_to = [&](double x) { return x * random.uniform(); };
+  Material m;
+  switch (random.below(3)) {
+    case 0:
+      m.matrix = {Yeoh{up_to(0.1), up_to(0.1), up_to(0.1)}};
+      break;
+    case 1:
+      m.matrix = {Yeoh{0, up_to(0.1), up_to(0.01)}};  // without stiffness at rest
+      break;
+    default:
+      m.matrix = {MooneyRivlin{up_to(0.1), up_to(0.1)}};
+  }
+  for (std::uint64_t k = random.below(3); k > 0; --k) {
+    Fibre f{{up_to(2), std::pow(10, up_to(2))}, up_to(180)};
+    f.kappa = random.below(2) ? up_to(1. / 3) : 0;
+    m.fibres.push_back(f);
+  }
+  m.volume = {QuadraticVolume{1e-3}};
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("a law that is polyconvex is nowhere said to be unstable, however stiff its fibres get") {
+  for (std::uint64_t trial = 0; trial < 60; ++trial) {
+    Random random(17, trial);
+    const Material m = polyconvex(random);
+    const auto a = fibre_directions(m);
+    CAPTURE(trial);
+    for (int state = 0; state < 10; ++state) {
+      const Mat3 F = Mat3::Identity() + 0.5 * Mat3::NullaryExpr([&] { return random.uniform() - 0.5; });
+      if (F.determinant() < 0.1) continue;
+      const double s = smallest_shear_stiffness(m, F / std::cbrt(F.determinant()), a).value;
+      CHECK_FALSE(std::isless(s, 0));  // no number is no loss
+    }
+    if (trial % 20) continue;
+    CHECK(std::isinf(safe_hencky(m, 1.2)));
+    for (Path path : all_paths) CHECK(std::isinf(path_stability(m, path, amounts(1, 11)).ellipticity_loss));
+  }
+}
+
+TEST_CASE("a stiff fibre hides no loss of the matrix across it") {
+  // along the fibre the tangent is 1e12 times as stiff as the matrix, whose shear modulus is negative
+  const Material m{{Yeoh{-0.01, 0, 0}}, {Fibre{{1, 5}, 0}}, {QuadraticVolume{1e-3}}};
+  const Mat3 F = Vec3(1.9, 1 / std::sqrt(1.9), 1 / std::sqrt(1.9)).asDiagonal();
+  const ShearStiffness s = smallest_shear_stiffness(m, F, fibre_directions(m));
+  CHECK(s.value == doctest::Approx(-0.02 / 1.9).epsilon(1e-6));  // waves in the plane across the fibre, n.b n = 1 / 1.9
+}
+
+TEST_CASE("where a law has no number it is not said to be lost") {
+  const Material m{{Yeoh{0.01, 0.03, 0}}, {Fibre{{0.02, 100}, 0}}, {QuadraticVolume{1e-3}}};
+  const PathStability s = path_stability(m, Path::uniaxial, amounts(1, 51));
+  CHECK(std::isinf(s.slope_loss));
+  CHECK(std::isinf(s.ellipticity_loss));
+  CHECK(s.end == doctest::Approx(std::sqrt(1 + std::sqrt(3.)) - 1).epsilon(1e-3));  // 100 (lambda^2 - 1)^2 = 300
+  const HenckyReach reach = hencky_reach(m, 1.2);
+  CHECK(std::isinf(reach.safe));
+  CHECK(reach.end < 1.2);
+}
+
+TEST_CASE("the map takes seconds where fibres are stiff, and a law without stiffness at rest loses nothing on it") {
+  for (double a1 : {0.01, 0.}) {
+    const std::clock_t began = std::clock();
+    StabilityOptions options;
+    options.points = 51, options.stretches = 41;
+    const StabilityMap map = stability_map({{Yeoh{a1, 0.03, 0}}, {Fibre{{0.02, 10}, 0}}, {QuadraticVolume{1e-3}}}, options);
+    CHECK(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC < 10);
+    CHECK(std::isinf(map.safe_hencky));
+    for (const PathStability& p : map.paths) {
+      CHECK(std::isinf(p.ellipticity_loss));
+      if (p.path == Path::uniaxial) CHECK(std::isinf(p.slope_loss));
+    }
+  }
+}
+
+TEST_CASE("stiffness at rest is that of the matrix alone") {
+  const Material with{{Yeoh{1e-6, 1, 0}}, {Fibre{{5, 1}, 0}}, {QuadraticVolume{1}}};
+  CHECK(at_rest(with) == AtRest::stiff);
+  CHECK(at_rest_in_words(with).empty());
+  const Material without{{Yeoh{0, 1, 0}}, {Fibre{{5, 1}, 0}, Fibre{{5, 1}, 60}}, {QuadraticVolume{1}}};
+  CHECK(at_rest(without) == AtRest::without_stiffness);
+  CHECK(at_rest_in_words(without) == "no stiffness at rest: the shear modulus of yeoh is 0 MPa there");
+  CHECK(stiffness_at_rest_cure(without).starts_with("matrix.yeoh.a1 other than 0"));
+  CHECK(at_rest({{MooneyRivlin{0.1, -0.1}}, {}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
+  CHECK(at_rest({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}) == AtRest::unstable);
+  CHECK(at_rest({{}, {Fibre{{5, 1}, 0}}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
 }
