@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "report/sources.hpp"
 #include "store/h5.hpp"
@@ -23,6 +24,79 @@ void add_tests(ReportPage& page, const Source& source, const FitRecord& fit) {
   }
 }
 
+// Standard deviation of a test's points about a smooth curve: each beside the cubic through its four neighbours. [MPa]; 0 below five points
+double scatter(const std::vector<double>& x, const std::vector<double>& y) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 2; i + 2 < y.size(); ++i) {
+    double through = 0, weights = 1;
+    for (std::size_t j : {i - 2, i - 1, i + 1, i + 2}) {
+      double weight = 1;
+      for (std::size_t k : {i - 2, i - 1, i + 1, i + 2})
+        if (k != j) weight *= (x[i] - x[k]) / (x[j] - x[k]);
+      through += weight * y[j], weights += weight * weight;
+    }
+    if (!std::isfinite(through)) continue;  // the same place twice
+    sum += (y[i] - through) * (y[i] - through) / weights, ++n;
+  }
+  return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double root_mean_square(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, a.size())));
+}
+
+// Good: the law misses every test by no more than twice what its points scatter, or than 1 % of the largest stress.
+void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
+  constexpr double least = 0.01, enough = 2;
+  std::string missed;
+  for (const FittedTest& test : fit.tests) {
+    double largest = 0;
+    for (const auto* list : {&test.stress_x, &test.stress_z})
+      for (double s : *list) largest = std::max(largest, std::abs(s));
+    for (const auto& [stress, model] : {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
+      const double miss = root_mean_square(*stress, *model), points = scatter(test.first, *stress), noise = std::max(points, least * largest);
+      if (stress->empty() || !(miss > enough * noise)) continue;
+      missed += fmt::format("{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %", missed.empty() ? "" : "; ", test.name,
+                            100 * miss / largest, 100 * points / largest);
+      break;
+    }
+  }
+  const std::string errors = fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest stress; R² = {:.5f}", fit.mean_error_percent,
+                                         fit.max_error_percent, fit.r2);
+  if (missed.empty())
+    page.verdicts.push_back({Level::good, source.label, "the law follows the tests within their scatter: " + errors});
+  else
+    page.verdicts.push_back({Level::warning, source.label,
+                             fmt::format("the law misses tests by more than their scatter ({}), root mean squares: another law or a "
+                                         "shorter range may follow them; {}", missed, errors)});
+}
+
+void judge_parameters(ReportPage& page, const Source& source, const FitRecord& fit) {
+  std::string open, on_bound;
+  double worst = 0;
+  for (const FittedParameter& p : fit.parameters) {
+    std::string& list = p.value == p.lower || p.value == p.upper ? on_bound : open;
+    if (&list == &open && std::islessequal(p.standard_error, 0.5 * std::abs(p.value))) {
+      worst = std::max(worst, p.standard_error / std::abs(p.value));
+      continue;
+    }
+    if (&list == &on_bound && fit.at_rest && fit.at_rest->key.ends_with("." + p.name)) continue;  // said below
+    list += (list.empty() ? "" : ", ") + p.name;
+  }
+  if (!open.empty())
+    page.verdicts.push_back({Level::warning, source.label,
+                             fmt::format("the tests hardly determine {}: standard error above half the value", open)});
+  if (!on_bound.empty())
+    page.verdicts.push_back({Level::warning, source.label, fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
+  if (fit.at_rest) page.verdicts.push_back({Level::warning, source.label, in_words(*fit.at_rest)});
+  if (open.empty() && on_bound.empty() && !fit.at_rest && !fit.parameters.empty())
+    page.verdicts.push_back({Level::good, source.label,
+                             fmt::format("the tests determine every parameter: standard errors of at most {:.2g} %", 100 * worst)});
+}
+
 }  // namespace
 
 void add_materials(ReportPage& page, const std::vector<Source>& sources) {
@@ -32,18 +106,10 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
     ReportTable table{"Parameters: " + source.label,
                       {{"parameter", "-"}, {"unit", "-"}, {"value", "-"}, {"standard error", "-"}, {"lower bound", "-"}, {"upper bound", "-"}},
                       {}};
-    std::string open;
-    for (const FittedParameter& p : fit->parameters) {
-      table.rows.push_back({p.name, p.unit, p.value, p.standard_error, p.lower, p.upper});
-      if (!(p.standard_error <= 0.5 * std::abs(p.value))) open += (open.empty() ? "" : ", ") + p.name;
-    }
+    for (const FittedParameter& p : fit->parameters) table.rows.push_back({p.name, p.unit, p.value, p.standard_error, p.lower, p.upper});
     page.tables.push_back(std::move(table));
-    page.verdicts.push_back({Level::good, source.label,
-                             fmt::format("fitted with a mean error of {:.2g} % and at most {:.2g} % of the largest stress; R² = {:.5f}",
-                                         fit->mean_error_percent, fit->max_error_percent, fit->r2)});
-    if (!open.empty())
-      page.verdicts.push_back({Level::warning, source.label,
-                               fmt::format("the tests hardly determine {}: standard error above half the value", open)});
+    judge_fit(page, source, *fit);
+    judge_parameters(page, source, *fit);
     const h5::File file = h5::File::open(source.path);
     const auto said = [&](const char* group, const char* attribute) {
       if (!file.root().has(group) || !file.root().group(group).has_attribute(attribute)) return std::string();

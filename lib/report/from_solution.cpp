@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 
 #include "report/body_view.hpp"
@@ -25,8 +27,72 @@ double when(const History& history, const std::string& name, auto&& is) {
   return found == values.end() ? -1 : history.at("t")[static_cast<std::size_t>(found - values.begin())];
 }
 
-void judge(ReportPage& page, const Source& source, const History& history, bool contact) {
-  const auto say = [&](Level level, std::string text) { page.verdicts.push_back({level, source.label, std::move(text)}); };
+using Say = std::function<void(Level, std::string)>;
+
+struct IndenterForce {
+  double largest = 0, last = 0;  // [N]
+};
+std::map<std::string, IndenterForce> indenter_forces(const SolutionReader& solution, const h5::Group& group, const History& history) {
+  const auto n = static_cast<std::size_t>(solution.n_steps());
+  std::map<std::string, IndenterForce> forces;
+  const auto& nodes = solution.header().contact_nodes;
+  for (const auto& [name, unused] : nodes) {
+    std::vector<Vec3> rows(n, Vec3::Zero());
+    if (nodes.size() == 1) {
+      const std::vector<double> all = group.read_rows<double>("force_ind", 0, n, {3}).values;
+      for (std::size_t i = 0; i < n; ++i) rows[i] = {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
+    } else {
+      for (int k = 0; k < 3; ++k)
+        if (const auto found = history.find("force_" + name + "_" + "xyz"[k]); found != history.end())
+          for (std::size_t i = 0; i < n; ++i) rows[i][k] = found->second[i];
+    }
+    IndenterForce& force = forces[name];
+    for (const Vec3& f : rows) force.largest = std::max(force.largest, f.norm()), force.last = f.norm();
+  }
+  return forces;
+}
+
+void judge_contact(const Say& say, const std::map<std::string, IndenterForce>& forces, const History& history) {
+  const double penetration = history.count("penetration") ? std::abs(largest(history, "penetration")) : 0;
+  for (const auto& [name, force] : forces) {
+    if (force.largest > 0)
+      say(Level::good, fmt::format("{} touches the body: largest force {:.4g} N, largest penetration {:.1e} mm at the nodes", name,
+                                   force.largest, penetration));
+    else
+      say(Level::warning, fmt::format("{} never touches the body: its force is 0 in every step; look at its place and motion, and at the "
+                                      "nodes that may touch", name));
+  }
+}
+
+// "force 0.51 N +- 1.2 %": only a force whose estimated error is within the wanted one is called good
+void judge_errors(const Say& say, const std::vector<Summary>& summary, double force, double wanted) {
+  const auto value = [&](const std::string& name) {
+    const auto at = std::find_if(summary.begin(), summary.end(), [&](const Summary& s) { return s.name == name; });
+    return at == summary.end() ? std::numeric_limits<double>::quiet_NaN() : at->value;
+  };
+  bool any = false;
+  for (const Summary& s : summary) {
+    if (!s.name.ends_with("_error")) continue;
+    const std::string name = s.name.substr(0, s.name.size() - 6);
+    // what was found is its limit + cells + increments
+    double of = value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
+    if (std::isnan(of) && name == "force") of = force;
+    if (!std::isfinite(of) || of == 0) continue;
+    any = true;
+    const double percent = 100 * s.value / std::abs(of);
+    const std::string text = fmt::format("{} {:.4g} {} ± {:.2g} % by cells and increments", name, of, s.unit, percent);
+    if (name != "force")
+      say(Level::note, text);
+    else if (percent <= wanted)
+      say(Level::good, fmt::format("{}: within the {:g} % wanted", text, wanted));
+    else
+      say(Level::warning, fmt::format("{}: more than the {:g} % wanted; smaller cells, or `accuracy` in the solve config", text, wanted));
+  }
+  if (!any)
+    say(Level::note, "how much cells and increments change the result is not known: `estimate` or `accuracy` in the solve config tells it");
+}
+
+void judge(const Say& say, const History& history) {
   const double residual = std::abs(largest(history, "residual")), iterations = largest(history, "iterations");
   say(Level::good, fmt::format("equilibrium in all {} steps: largest relative residual {:.1e}, at most {:g} iterations",
                                history.at("t").size(), residual, iterations));
@@ -57,8 +123,6 @@ void judge(ReportPage& page, const Source& source, const History& history, bool 
   if (history.count("volume_change") && largest(history, "volume_change") > 0.02)
     say(Level::warning, fmt::format("a cell changes its volume by {:.3g} %, though the material is nearly incompressible",
                                     100 * largest(history, "volume_change")));
-  if (contact && history.count("penetration"))
-    say(Level::note, fmt::format("contact: largest penetration {:.1e} mm", std::abs(largest(history, "penetration"))));
   for (const auto& [name, values] : history)
     if (name.find("error") != std::string::npos && !values.empty())
       say(Level::note, fmt::format("{}: {:.3g} at the end, at most {:.3g}", name, values.back(), largest(history, name)));
@@ -86,7 +150,11 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources, const R
       units[name] = group.unit(name).empty() ? "-" : group.unit(name);
     }
     if (n == 0) continue;
-    judge(page, source, history, !solution.header().contact_nodes.empty());
+    const Say say = [&](Level level, std::string text) { page.verdicts.push_back({level, source.label, std::move(text)}); };
+    judge(say, history);
+    const auto forces = indenter_forces(solution, group, history);
+    judge_contact(say, forces, history);
+    judge_errors(say, solution.summary(), forces.empty() ? 0 : forces.begin()->second.last, *percent_of(config.accuracy));
     for (const auto& [name, values] : history) {
       if (name == "t" || name == "next_increment" || name.starts_with("weakest")) continue;
       if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0; })) continue;  // nothing to see
