@@ -25,14 +25,17 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
 
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
-  const FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation};
-  const FitResult found = best_fit(config, problem);
+  FitProblem problem = fit_problem(config);
+  FitResult found = best_fit(config, problem);
   if (!found.best.converged)
     throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
                                         fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
                                                     config.starts, found.best.why, found.best.kkt, found.best.cost),
                                         "", "more starts, other start values or narrower bounds"});
+  const auto at_rest = stiffen_at_rest(problem, found, {config.starts, static_cast<unsigned>(config.seed), {}},
+                                       config.study.value_or(StudyConfig{}).noise);
   FitRecord record = fit_record(problem, found);
+  record.at_rest = at_rest;
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.say("warning: {}", line);
   if (config.check == SecondAnswer::nlopt) {

@@ -99,12 +99,14 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   const double began = wall_seconds();
   SolveConfig config = job.config;
   const std::optional<Material> material =
-      job.has("material") ? std::optional(material_from(job.input("material"))) : config.material;
+      job.has("material") ? std::optional(material_of_body(job.input("material"))) : config.material;
   const std::optional<ChosenRung> rung = choose_accuracy(config, material);
   if (rung) job.say("accuracy: {}", rung->words);
   const Mesh mesh = job.has("mesh") ? read_mesh(job.input("mesh")).mesh : mesh_in(config, job.where);
   refuse_bad(mesh, job.has("mesh") ? job.input("mesh") : "");
   const Scene whole = make_scene(config, mesh, material, job.where);
+  for (const Material& m : whole.materials)
+    if (at_rest(m) == AtRest::unstable) job.say("warning: a law is {}", at_rest_in_words(m));
   const FibreJump jump = whole.has_fibres() ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",

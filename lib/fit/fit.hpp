@@ -14,6 +14,7 @@ namespace langer {
 struct FreeParameter {
   std::string key;  // as in material/parameters.hpp
   double start = 0, lower = 0, upper = 0;
+  bool preset = false;  // its bound next to 0 is the preset's: what the tests justify may raise it (stiffness_at_rest.hpp)
 };
 
 struct FitProblem {

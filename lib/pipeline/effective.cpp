@@ -4,7 +4,7 @@
 
 #include "config/json_schema.hpp"
 #include "config/reader.hpp"
-#include "material/material.hpp"
+#include "material/at_rest.hpp"
 #include "report/report_config.hpp"
 #include "study/fit_config.hpp"
 #include "sweep/gather_config.hpp"
@@ -26,6 +26,15 @@ Effective check(Tree tree, const std::string& folder) {
   return e;
 }
 
+// a law that stands alone is one for bodies
+Effective check_material(Tree tree, const std::string& folder) {
+  const Loaded<Material> loaded = read_config<Material>(tree);
+  if (at_rest(loaded.config) == AtRest::without_stiffness)
+    throw Failure(Exit::config, Error{loaded.where("matrix"), "matrix", at_rest_in_words(loaded.config),
+                                      stiffness_at_rest_cure(loaded.config), "a body without it has no first step"});
+  return check<Material>(std::move(tree), folder);
+}
+
 template <Listed Config>
 ConfigKind kind() {
   return {check<Config>, describe<Config>, top_keys<Config>, json_schema<Config>};
@@ -36,7 +45,7 @@ const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
       {"mesh", kind<MeshConfig>()},   {"fit", kind<FitConfig>()},   {"sensitivity", kind<SensitivityConfig>()},
       {"solve", kind<SolveConfig>()}, {"post", kind<PostConfig>()}, {"gather", kind<GatherConfig>()},
-      {"report", kind<ReportConfig>()}, {"tune", kind<TuneConfig>()}, {"material", kind<Material>()},
+      {"report", kind<ReportConfig>()}, {"tune", kind<TuneConfig>()}, {"material", {check_material, describe<Material>, top_keys<Material>, json_schema<Material>}},
   };
   return table;
 }

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "config/reader.hpp"
+#include "base/error.hpp"
+#include "material/at_rest.hpp"
 #include "store/material_file.hpp"
 #include "tensor/stress.hpp"
 
@@ -12,6 +14,14 @@ Material material_from(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension();
   if (extension == ".yaml" || extension == ".yml") return read_config<Material>(load_yaml(path)).config;
   return read_material(path).material;
+}
+
+Material material_of_body(const std::string& path) {
+  const Material material = material_from(path);
+  if (at_rest(material) == AtRest::without_stiffness)
+    throw Failure(Exit::input, Error{{path}, "", "a law with " + at_rest_in_words(material), stiffness_at_rest_cure(material),
+                                     "a body without it has no first step"});
+  return material;
 }
 
 SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity) {

@@ -8,7 +8,8 @@
 
 namespace langer {
 
-Material material_from(const std::string& path);  // material.h5, or YAML with the keys of a material
+Material material_from(const std::string& path);     // material.h5, or YAML with the keys of a material
+Material material_of_body(const std::string& path);  // the same; throws Failure(input) where it has no stiffness at rest
 
 SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity);
 StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report);

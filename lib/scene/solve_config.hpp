@@ -10,6 +10,7 @@
 #include "base/fields.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
+#include "material/at_rest.hpp"
 #include "scene/fibre_field.hpp"
 #include "scene/mesh_config.hpp"
 #include "solve/kinsol.hpp"
@@ -184,6 +185,12 @@ struct SolveConfig {
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
+    const auto needs_stiffness = [&](const std::optional<Material>& m, const std::string& key) {
+      if (m && at_rest(*m) == AtRest::without_stiffness)
+        found.push_back({key, at_rest_in_words(*m), stiffness_at_rest_cure(*m), "a body without it has no first step"});
+    };
+    needs_stiffness(material, "material.matrix");
+    for (const auto& [name, body] : materials) needs_stiffness(body.material, "materials." + name + ".material.matrix");
     if (loads.empty() && contacts.empty()) found.push_back({"", "nothing moves", "loads or contacts", ""});
     if (mesh && !mesh->exports.empty()) found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
     if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});

@@ -29,6 +29,20 @@ void write_vector(const h5::Group& group, const std::string& name, const std::ve
   group.write<double>(name, {values.size()}, values, unit);
 }
 
+void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
+  for (const auto& [name, value] : {std::pair{"fitted", s.fitted}, {"allowed", s.allowed}, {"least", s.least}, {"taken", s.taken}, {"noise", s.noise}})
+    group.write_scalar(name, value, "MPa");
+  group.write_scalar("error_before", s.error_before, "percent");
+  group.write_scalar("error_after", s.error_after, "percent");
+  group.attribute("key", s.key);
+}
+
+StiffnessAtRest read_at_rest(const h5::Group& group) {
+  const auto value = [&](const char* name) { return group.read_scalar(name); };
+  return {value("fitted"), value("allowed"),       value("least"), value("taken"), value("noise"), group.text_attribute("key"),
+          value("error_before"), value("error_after")};
+}
+
 void write_fit(const h5::Group& root, const FitRecord& fit) {
   const h5::Group group = root.make_group("fit"), parameters = group.make_group("parameters");
   std::string order;
@@ -82,6 +96,7 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   group.write_scalar("aicc", fit.aicc);
   group.write_scalar("bic", fit.bic);
 
+  if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
@@ -131,6 +146,7 @@ FitRecord read_fit(const h5::Group& root) {
     test.max_error_percent = one.read_scalar("max_error");
     fit.tests.push_back(std::move(test));
   }
+  if (group.has("at_rest")) fit.at_rest = read_at_rest(group.group("at_rest"));
   fit.study = read_study(root);
   return fit;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/stiffness_at_rest.hpp"
 #include "material/material.hpp"
 #include "store/identity.hpp"
 #include "store/study_record.hpp"
@@ -41,6 +42,7 @@ struct FitRecord {
   std::vector<double> strain, stress, model;             // (n) of the first test [-], [MPa], [MPa]
   std::vector<FittedTest> tests;                         // all of them
   double r2 = 0, aicc = 0, bic = 0;                      // see fit/fit.hpp; NaN where there are too few points
+  std::optional<StiffnessAtRest> at_rest;                // where its bound was raised
   StudyRecord study;                                     // read back: fitted range, verdict and safe radius
 };
 

@@ -85,6 +85,7 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
         for (const MaterialParameter& k : known)
           if (k.key == power && *k.value < 0) box = {-10, 0, true, true};
       }
+      one.preset = config.bounds == Bounds::admissible && !(box.high <= 0 ? p.upper : p.lower);
       if (config.bounds != Bounds::custom) one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
     }
     free.push_back(one);
@@ -183,6 +184,38 @@ std::vector<Test> measured_tests(const FitConfig& config) {
     }
   }
   return tests;
+}
+
+namespace {
+
+// of the tests that stretch, over what is strained by a tenth of the most at least [MPa]
+double greatest_secant(const std::vector<Test>& tests) {
+  double greatest = 0;
+  for (const Test& test : tests) {
+    const auto strain = [&](std::size_t i) { return std::abs(test.kind == TestKind::simple_shear ? test.first[i] : test.first[i] - 1); };
+    double most = 0;
+    for (std::size_t i = 0; i < test.points(); ++i) most = std::max(most, strain(i));
+    for (std::size_t i = 0; i < test.points(); ++i)
+      if (strain(i) > 0 && strain(i) >= 0.1 * most) greatest = std::max(greatest, std::abs(test.stress_x[i]) / strain(i));
+  }
+  return greatest;
+}
+
+}  // namespace
+
+FitProblem fit_problem(const FitConfig& config) {
+  FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation};
+  if (config.bounds == Bounds::custom) return problem;
+  const double secant = 3 * greatest_secant(problem.tests);
+  Material law = config.law;
+  const std::vector<MaterialParameter> known = parameters(law);
+  for (std::size_t i = 0; i < problem.free.size(); ++i) {
+    FreeParameter& free = problem.free[i];
+    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == free.key; });
+    if (found != known.end() && found->unit == std::string(unit::MPa) && !config.parameters[i].upper && free.upper > 0)
+      free.upper = std::max(free.upper, std::min(secant, found->range.high));
+  }
+  return problem;
 }
 
 }  // namespace langer

@@ -101,7 +101,8 @@ struct FitConfig {
     v(&FitConfig::law, "law", unit::none, "energy terms, fibre angles and the numbers that are not fitted", required);
     v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
     v(&FitConfig::bounds, "bounds", unit::none,
-      "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable");
+      "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable, and a shear "
+      "modulus at rest that the tests can tell from 0 (docs/identification.md)");
     v(&FitConfig::dilatation, "dilatation", unit::none,
       "state of the specimen: the volume term left out (incompressible) or counted (uniaxial tests only)");
     v(&FitConfig::starts, "starts", unit::none, "searches: one from the start values, the others from random places in the box",
@@ -124,5 +125,9 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config);
 
 // reads the files; throws Failure(input)
 std::vector<Test> measured_tests(const FitConfig& config);
+
+// all of it; upper bounds of moduli that the config leaves to a preset are three times the greatest secant modulus of the tests, where
+// that is more than 10 MPa
+FitProblem fit_problem(const FitConfig& config);
 
 }  // namespace langer

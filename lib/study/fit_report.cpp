@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "material/at_rest.hpp"
 #include "material/ellipticity.hpp"
 #include "store/curves_file.hpp"
 
@@ -131,6 +132,10 @@ std::vector<std::string> fit_results(const FitRecord& record) {
 
 std::vector<std::string> fit_warnings(const FitRecord& record, const Material& material) {
   std::vector<std::string> lines;
+  if (record.at_rest) lines.push_back(in_words(*record.at_rest));
+  if (at_rest(material) == AtRest::without_stiffness)
+    lines.push_back(fmt::format("the law has {}: no body of it can be solved; it needs {}", at_rest_in_words(material),
+                                stiffness_at_rest_cure(material)));
   for (const MatrixTerm& term : material.matrix)
     if (const double mu = shear_modulus(term); mu < 0)
       lines.push_back(fmt::format("{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
@@ -152,9 +157,12 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   const double far = 1.5 * record.strain_max;
   for (int i = 0; i <= 200 && far > 0; ++i) {
     const Uniaxial u = uniaxial_incompressible(material, 1 + i * far / 200);
-    if (u.converged && std::isgreater(smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value, 0)) continue;
-    lines.push_back(
-        fmt::format("strong ellipticity is lost at strain {:.2g}; the curve ends at {:.2g}", i * far / 200, record.strain_max));
+    const double value = u.converged ? smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value
+                                     : std::numeric_limits<double>::quiet_NaN();
+    if (std::isgreaterequal(value, 0)) continue;
+    lines.push_back(fmt::format("{} at strain {:.2g}; the curve ends at {:.2g}",
+                                std::isnan(value) ? "the law has no number" : "strong ellipticity is lost", i * far / 200,
+                                record.strain_max));
     break;
   }
   return lines;

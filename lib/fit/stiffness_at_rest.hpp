@@ -1,0 +1,39 @@
+// A law's shear modulus at rest, where the tests hardly feel it.                         docs/identification.md
+// Tests of J shape often put it at 0, or so near that noise decides. A body of such a law cannot be solved: its tangent at rest is
+// singular. Moduli that the tests cannot tell from 0 describe them as well, so one of them is taken:
+//   least  = noise / |s|,  s_i = w_i (stress of a neo-Hookean matrix of mu = 1 MPa at point i)
+// the standard error that mu would have if the tests were to find nothing else. All values together move by one standard deviation of
+// the noise: chi-square rises by 1, by less where other parameters follow.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fit/fit.hpp"
+
+namespace langer {
+
+struct StiffnessAtRest {
+  double fitted = 0;   // shear modulus that the tests put at rest [MPa]
+  double allowed = 0;  // up to here chi-square stays within 3.84 of its minimum, others following; infinity: no end was found
+  double least = 0;    // as above
+  double taken = 0;    // of the law in the end
+  double noise = 0;    // of a residual [MPa]; times the weight where there is one
+  std::string key;     // of the number whose bound was raised
+  double error_before = 0, error_after = 0;  // mean errors [%]: what the bound costs
+};
+
+std::string in_words(const StiffnessAtRest& s);
+
+// standard deviation of a residual: what the fit misses by, and no less than `part` of the largest stress
+double residual_noise(const FitProblem& problem, const FitResult& fit, double part);
+
+// infinity where the tests do not strain the matrix at all
+double least_shear_modulus(const FitProblem& problem, double noise);
+
+// Where the law's shear modulus is below the least one: raises the lower bound of one number of the matrix (of those with
+// FreeParameter::preset the one that costs least), fits again and changes `problem` and `fit`. Nothing where the modulus is above, or no bound
+// may be raised.
+std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& fit, const FitOptions& options, double part);
+
+}  // namespace langer
