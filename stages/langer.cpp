@@ -1,5 +1,6 @@
 // langer show | new | check | describe | schema | explain | times | man | completion: what one wants to know beside the stages.
 #include "pipeline/effective.hpp"
+#include "post/describe_columns.hpp"
 #include "stage.hpp"
 #include "tool/check.hpp"
 #include "tool/run_state.hpp"
@@ -44,6 +45,7 @@ int check_files(const Given& given) {
 }
 
 int describe_kind(const Given& given) {
+  if (given.places[0] == "columns") return put_out(columns_text()), 0;
   const ConfigKind* kind = find_config_kind(given.places[0]);
   if (!kind) schema_text(given.places[0] == "pipeline" ? "" : given.places[0]);  // says which there are
   put_out(kind->reference());

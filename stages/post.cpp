@@ -221,6 +221,7 @@ int export_scene(int argc, char** argv) {
   return guarded(usage.program, [&] {
     int code = 0;
     if (!parsed(app, usage, argc, argv, code)) return code;
+    never_replace(solution);
     if (!log.empty()) kept.open(log, command_line(argc, argv), false);
     need_file(solution);
     for (const std::string& file : files)

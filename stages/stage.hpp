@@ -76,6 +76,7 @@ class RunLog {
   }
   // `goes_on`: the run may continue one that was stopped
   void open(const std::string& path, const std::string& command, bool goes_on) {
+    need_own_log(path);
     said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
     if (!said::log) throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
     fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
@@ -238,11 +239,16 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
       return static_cast<int>(Exit::config);
     }
     const std::string command = command_line(argc, argv);
+    never_replace(config_file);
+    for (const auto& [port, files] : job.inputs) std::for_each(files.begin(), files.end(), never_replace);
+    if (!log.empty() && std::filesystem::weakly_canonical(log) == std::filesystem::weakly_canonical(job.output))
+      throw Failure(Exit::input, Error{{log}, "", "is the output too", "another name for --log", ""});
     if (!log.empty()) kept.open(log, command, std::filesystem::exists(job.output + ".part"));
     std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
     for (const auto& [port, files] : job.inputs)
       for (const std::string& file : files) need_file(file);
     Tree tree = load_yaml(config_file);
+    for (const std::string& file : files_of(tree)) never_replace(file);
     for (const std::string& setting : settings) apply_setting(tree, setting);
     std::vector<std::string> ports;
     for (const auto& [port, files] : job.inputs) ports.push_back(port);
@@ -252,6 +258,8 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     job.where = std::move(loaded.where);
     if (!job.dry_run) need_output(job.output, config_file, job.inputs);
     job.identity = identity_of(name, job.config, job.where, job.inputs, command);
+    if (!job.dry_run) need_replaceable(job.output);  // by now it is known what the config names
+    begin_beside(job.output);
     if (job.verbose) say_inputs(job.identity, program);
     if (job.dry_run && !spec.foretells) {
       need_kinds(spec, job.inputs);

@@ -80,7 +80,7 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
           const std::vector<double>& cpu, const std::vector<double>& error, const std::vector<int>& front) {
   const std::string name = "error_" + quantity;
   std::string all = "rung,cpu_s,error_percent\n", best = all;
-  const auto line = [&](std::size_t i) { return fmt::format("{},{:.6g},{:.6g}\n", name_of(ladder.members[i]), cpu[i], error[i]); };
+  const auto line = [&](std::size_t i) { return fmt::format("{},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], error[i]); };
   for (std::size_t i = 0; i < cpu.size(); ++i)
     if (std::isfinite(cpu[i]) && error[i] > 0) all += line(i);
   for (int i : front)
@@ -136,7 +136,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
       }
       const auto k = static_cast<std::size_t>(i);
       job.say("  {:g} %: {} ({:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]), error[k], cpu[k], memory[k]);
-      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", column.name, wanted, name_of(ladder.members[k]), error[k], cpu[k],
+      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(column.name), wanted, csv_cell(name_of(ladder.members[k])), error[k], cpu[k],
                             memory[k]);
     }
     draw(job, pictures, column.name, ladder, cpu, as_rung, front);

@@ -15,7 +15,9 @@ std::string text(const Error& e) {
 }
 
 Failure::Failure(Exit code, std::vector<Error> errors) : code_(code), errors_(std::move(errors)) {
-  for (const Error& e : errors_) message_ += (message_.empty() ? "" : "\n") + text(e);
+  constexpr std::size_t most = 50;  // a file of another kind may have a hundred thousand
+  for (std::size_t i = 0; i < std::min(most, errors_.size()); ++i) message_ += (message_.empty() ? "" : "\n") + text(errors_[i]);
+  if (errors_.size() > most) message_ += "\n... and " + std::to_string(errors_.size() - most) + " more";
 }
 
 Failure::Failure(Exit code, Error error) : Failure(code, std::vector<Error>{std::move(error)}) {}
@@ -40,7 +42,8 @@ std::string nearest(const std::string& name, const std::vector<std::string>& kno
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& k : known)  // something of the name must remain
-    if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size())) least = d, best = k;
+    if (name.size() < k.size() + least && k.size() < name.size() + least)
+      if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size())) least = d, best = k;
   return best;
 }
 

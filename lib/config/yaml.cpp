@@ -13,6 +13,8 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <unordered_map>
 
 namespace langer {
 
@@ -94,6 +96,7 @@ class Builder : public YAML::EventHandler {
     std::string key;  // of a map: the key whose value comes next
     Place key_place;
     bool has_key = false, drop = false;  // drop: the key was refused, its value is read and forgotten
+    std::unordered_map<std::string, int> lines = {};  // where each key of a map stands
   };
   std::string file_, base_;
   std::size_t& n_parts_;
@@ -128,8 +131,8 @@ class Builder : public YAML::EventHandler {
     map.key_place = place(mark);
     map.has_key = true;
     map.drop = false;
-    if (const Tree* first = map.tree.find(key)) {
-      errors.push_back({map.key_place, "", fmt::format("the key \"{}\" was already given at line {}", key, first->place.line),
+    if (const auto [first, is_new] = map.lines.emplace(key, map.key_place.line); !is_new) {
+      errors.push_back({map.key_place, "", fmt::format("the key \"{}\" was already given at line {}", key, first->second),
                         "each key once", ""});
       map.drop = true;
     } else if (key == "<<") {
@@ -189,10 +192,13 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
 }
 
 void merge(Tree& base, const Tree& over) {
+  std::unordered_map<std::string_view, std::size_t> index;  // a map may have 100 000 keys
+  base.map.reserve(base.map.size() + over.map.size());      // so that keys stay where they are
+  for (std::size_t i = 0; i < base.map.size(); ++i) index.emplace(base.map[i].key, i);
   for (const auto& [key, value] : over.map) {
-    const auto same =
-        std::find_if(base.map.begin(), base.map.end(), [&key = key](const Tree::Entry& e) { return e.key == key; });
-    if (same == base.map.end())
+    const auto known = index.find(key);
+    Tree::Entry* const same = known == index.end() ? nullptr : &base.map[known->second];
+    if (!same)
       base.map.push_back({key, value});
     else if (same->value.kind == Tree::Kind::map && value.kind == Tree::Kind::map) {
       merge(same->value, value);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "store/curves_file.hpp"
+#include "store/replace.hpp"
 
 namespace langer {
 
@@ -66,11 +67,20 @@ void need_output(const std::string& output, const std::string& config, const Inp
   for (const auto& [port, files] : inputs) sources.insert(sources.end(), files.begin(), files.end());
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
+  need_own_output(output);
+  for (const char* beside : {".part", ".steps", ".lock"}) need_replaceable(output + beside);
   const fs::path folder = fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
   fs::create_directories(folder, ec);
   if (!fs::is_directory(folder))
     refuse(folder.string(), "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(folder.string(), "this folder cannot be written to");
+}
+
+std::set<std::string> files_of(const Tree& tree) {
+  std::set<std::string> files{tree.place.file};
+  for (const Tree& part : tree.list) files.merge(files_of(part));
+  for (const auto& entry : tree.map) files.merge(files_of(entry.value));
+  return files;
 }
 
 std::string content_of(const std::string& path) {

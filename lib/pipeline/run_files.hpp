@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "pipeline/ports.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
+#include "store/replace.hpp"
 
 namespace langer {
 
@@ -20,8 +22,10 @@ void need_file(const std::string& path, const Place& named_at = {}, const std::s
 // What a config may hold in place of a file at a port: refuses both and neither.
 void need_one_source(const StageSpec& stage, const Tree& config, const std::vector<std::string>& ports_given);
 
-// Makes the folder of an output file; throws Failure(input) where it cannot be written or would replace an input.
+// Makes the folder of an output file; throws Failure(input) where it cannot be written, or would replace an input or what is not ours.
 void need_output(const std::string& output, const std::string& config, const InputFiles& inputs);
+
+std::set<std::string> files_of(const Tree& tree);  // that its parts were read from: the config itself and what it includes
 
 // Content id of an input: from the root attributes of an HDF5 file, from the values (not the comments) of a YAML file,
 // from the bytes of any other file.
@@ -38,6 +42,7 @@ Identity identity_of(const std::string& stage, const Config& config, const Where
   for (const NamedFile& file : files_named_by(config)) {
     need_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);
+    never_replace(file.path);
   }
   return identity;
 }

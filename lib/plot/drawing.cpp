@@ -148,7 +148,7 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name) {
                    2 * drawing.width, 2 * drawing.height);
   s += fmt::format(
       "set output {}\nset lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n",
-      gnuplot_string(name + ".png"));
+      gnuplot_file(name + ".png"));
   s +=
       fmt::format("unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n", drawing.width, drawing.height);
   GnuplotWriter writer{drawing, {}, {}};

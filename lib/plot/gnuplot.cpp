@@ -54,6 +54,11 @@ std::string gnuplot_string(const std::string& text) {
   return s + "'";
 }
 
+std::string gnuplot_file(const std::string& name) {
+  const bool plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) || std::strchr("_./", name[0]));
+  return gnuplot_string(plain ? name : "./" + name);
+}
+
 std::string literal(const std::string& name) {
   std::string s;
   for (char c : name) {
@@ -88,7 +93,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
     // lines beyond the last colour begin with other dashes
     const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
     const char* const rgb = colours[colour % colours.size()];
-    draw += fmt::format("{}{} using {}:{}", i ? ", \\\n     " : "", gnuplot_string(line.csv), gnuplot_string(line.x),
+    draw += fmt::format("{}{} using {}:{}", i ? ", \\\n     " : "", gnuplot_file(line.csv), gnuplot_string(line.x),
                         gnuplot_string(line.y));
     if (line.points)
       draw += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
@@ -99,14 +104,14 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
     draw += fmt::format(" title {}", printed(line.legend));
     if (!line.names.empty())
       draw += fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
-                          gnuplot_string(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
+                          gnuplot_file(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
   }
   for (const auto& [terminal, size, type] :
        {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})
     s += fmt::format("set terminal {} enhanced size {} font 'DejaVu Sans,{}' {}background rgb 'white'\nset output {}\n{}\n",
                      terminal, size, type == std::string("svg") ? 14 : 13,
                      type == std::string("svg") ? "" : "fontscale 2 linewidth 2 pointscale 2 ",
-                     gnuplot_string(name + "." + type), draw);
+                     gnuplot_file(name + "." + type), draw);
   return s + "unset output\n";
 }
 
@@ -118,7 +123,7 @@ std::string run_gnuplot(const std::string& folder, const std::string& script) {
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_addchdir_np(&actions, folder.empty() ? "." : folder.c_str());
-  std::string program = "gnuplot", file = script;
+  std::string program = "gnuplot", file = "./" + script;  // a name may begin with -
   char* const arguments[] = {program.data(), file.data(), nullptr};
   pid_t child = 0;
   posix_spawnattr_t attributes;  // what this program ignores, gnuplot need not

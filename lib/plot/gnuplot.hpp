@@ -31,6 +31,8 @@ struct Plot {
 std::string gnuplot_script(const Plot& plot, const std::string& name);
 
 std::string gnuplot_string(const std::string& text);  // as a gnuplot string
+// a file's name as one: "<", "|", "-", "$" and the like at its begin would make it a pipe, a stream or a block of data
+std::string gnuplot_file(const std::string& name);
 std::string literal(const std::string& name);         // enhanced text that prints as it stands
 std::string plain(const std::string& text);           // enhanced text without its marks: σ_xx for σ_{xx}
 

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "post/curves.hpp"
 #include "plot/gnuplot.hpp"
+#include "store/solution_layout.hpp"
 
 namespace langer {
 
@@ -93,7 +94,7 @@ std::string column_name(const ColumnChoice& choice) {
 std::string unit_of(const ColumnChoice& choice) {
   if (choice.quantity) return line_of(*choice.quantity).unit;
   if (choice.quotient) return "-";
-  return choice.history->starts_with("penetration") ? "mm" : choice.history->starts_with("force") ? "N" : "-";
+  return solution::unit_of(*choice.history);
 }
 
 std::string label_of(const ColumnChoice& choice) {

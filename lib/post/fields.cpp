@@ -1,5 +1,6 @@
 #include "post/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -89,9 +90,11 @@ VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt 
   for (const auto [e, a] : body.corners(node)) {
     const double w = body.geometry(e).V;
     const ElementValues& values = gauss[e];
-    if (at == StressAt::nodal_average)
-      sum += w * (cell.at_nodes.row(a) * values).transpose();
-    else
+    if (at == StressAt::nodal_average) {
+      VecX row = (cell.at_nodes.row(a) * values).transpose();
+      row[6] = std::clamp(row[6], values.col(6).minCoeff(), values.col(6).maxCoeff());  // J: no volume that no point of the cell has
+      sum += w * row;
+    } else
       sum += w * values.row(cell.nearest_gauss[a]).transpose();
     V += w;
   }

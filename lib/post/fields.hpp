@@ -4,7 +4,8 @@
 //   node              nodal_average: the trilinear field through the 8 Gauss points (hex27: nearest to the 27), taken at the
 //                     element's node; nearest_gauss: the Gauss point nearest to the node. Both averaged over the elements at the node,
 //                     weighted with reference volume, within one region (bodies of different materials never mix;
-//                     a node between two regions shows the lower numbered one).
+//                     a node between two regions shows the lower numbered one). J is kept within the values of each cell's own points:
+//                     near incompressibility the field through them has swings that no material has.
 // Rows are averaged; von Mises, pressure and principal stresses are taken of the averaged row, so that what a table shows
 // fits together. Pressure is the mean stress tr(sigma)/3, positive in tension.
 #pragma once

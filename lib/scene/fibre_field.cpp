@@ -14,6 +14,7 @@
 #include "base/csv_table.hpp"
 #include "mesh/facets.hpp"
 #include "store/h5.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -72,6 +73,7 @@ Directions from_hdf5(const PointField& field) {
   std::array<std::vector<double>, 6> column;
   for (int i = 0; i < 6; ++i) {
     column[i] = file.root().read_finite(field.columns[i], {h5::any});
+    need_unit(file.root(), field.columns[i], i < 3 ? "mm" : "-");
     if (column[i].size() != column[0].size())
       throw Failure(Exit::input, Error{{field.file.path, 0, 0}, field.columns[i], fmt::format("found {} numbers", column[i].size()),
                                        fmt::format("{}, as {} has", column[0].size(), field.columns[0]), ""});

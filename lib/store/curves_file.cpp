@@ -19,13 +19,21 @@ std::string csv_name(const std::string& name, const std::string& unit) {
   return name + "_" + word;
 }
 
+std::string csv_cell(const std::string& text) {
+  const bool blank = !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '#');
+  if (!blank && text.find_first_of(",;\"\n\r\t") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string csv(const std::vector<Column>& columns) {
   std::string text;
   const std::size_t rows = columns.empty() ? 0 : columns[0].values.size();
   for (const Column& c : columns) {
     if (c.values.size() != rows)
       throw Failure(Exit::bug, Error{{}, c.name, fmt::format("{} values", c.values.size()), fmt::format("{} rows", rows), ""});
-    text += (text.empty() ? "" : ",") + csv_name(c.name, c.unit);
+    text += (text.empty() ? "" : ",") + csv_cell(csv_name(c.name, c.unit));
   }
   text += "\n";
   for (std::size_t i = 0; i < rows; ++i)

@@ -10,6 +10,7 @@
 
 #include "mesh/facets.hpp"
 #include "mesh/section.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -135,6 +136,7 @@ Mesh read_grid(const h5::Group& root) {
     if (type != vtk_type(mesh.type))
       grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron), 29 (triquadratic hexahedron) or 71 (Lagrange tetrahedron), one for all");
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
+  need_unit(grid, "Points", "mm");
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
   mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));
   const auto offsets = grid.read<std::int64_t>("Offsets", {e + 1});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "store/h5_handle.hpp"
+#include "store/replace.hpp"
 #include "store/seal.hpp"
 
 namespace langer::h5 {
@@ -50,6 +51,28 @@ herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
+// a link on the way to a path leads into another file; soft links are followed, `depth` of them at most
+bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string begin = path.substr(0, end);
+    H5L_info_t info;
+    if (begin.size() < 2 || H5Lget_info(file, begin.c_str(), &info, H5P_DEFAULT) < 0) return false;
+    if (info.type != H5L_TYPE_HARD && info.type != H5L_TYPE_SOFT) return true;
+    if (info.type == H5L_TYPE_SOFT) {
+      std::string target(info.u.val_size, '\0');
+      if (depth == 0 || H5Lget_val(file, begin.c_str(), target.data(), target.size(), H5P_DEFAULT) < 0) return true;
+      target = target.c_str();
+      if (!target.starts_with('/')) target = begin.substr(0, begin.rfind('/') + 1) + target;
+      return leads_elsewhere(file, target + (end == path.npos ? "" : path.substr(end)), depth - 1);
+    }
+    if (end == path.npos) return false;
+  }
+}
+
+void refuse_external(hid_t file, const Group& group, const std::string& name, const std::string& full) {
+  if (leads_elsewhere(file, full)) group.refuse(name, "is a link into another file", "the data themselves", "copy them into this file (h5copy)");
+}
+
 Handle open_object(hid_t file, const std::string& path) { return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose}; }
 
 Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
@@ -82,7 +105,16 @@ std::string read_text_attribute(hid_t object, const Group& group, const std::str
 
 }  // namespace
 
-bool Group::has(const std::string& name) const { return H5Lexists(file_->id, full(name).c_str(), H5P_DEFAULT) > 0; }
+bool Group::has(const std::string& name) const {
+  if (!file_->writing) refuse_external(file_->id, *this, name, full(name));
+  return H5Lexists(file_->id, full(name).c_str(), H5P_DEFAULT) > 0;
+}
+
+void refuse_stored_elsewhere(hid_t dataset, const Group& group, const std::string& name) {
+  const Handle list(H5Dget_create_plist(dataset), H5Pclose);
+  if (list.good() && (H5Pget_external_count(list) > 0 || H5Pget_layout(list) == H5D_VIRTUAL))
+    group.refuse(name, "keeps its values in another file", "the values themselves", "copy them into this file (h5repack)");
+}
 
 namespace {
 // what kind of object is told by its id: H5O_info_t is another type in each HDF5
@@ -92,6 +124,7 @@ std::vector<std::string> links(hid_t file, const Group& group, H5I_type_t kind) 
   if (!here.good() || H5Literate(here, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_link, &all) < 0)
     group.refuse("", "group cannot be read");
   for (const std::string& name : all) {
+    refuse_external(file, group, name, (group.path() == "/" ? "" : group.path()) + "/" + name);
     const Handle object(H5Oopen(here, name.c_str(), H5P_DEFAULT), H5Oclose);
     if (object.good() && H5Iget_type(object) == kind) chosen.push_back(name);
   }
@@ -169,6 +202,7 @@ std::string library() {
 
 File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
+  need_replaceable(path);
   auto file = std::make_shared<OpenFile>();
   file->path = path, file->current = path + ".part", file->unfinished = unfinished;
   const Handle list = creation(H5P_FILE_CREATE);

@@ -160,6 +160,7 @@ Array<T> Group::read_rows(const std::string& name, std::size_t first, std::size_
   Array<T> array{whole, {}};
   if (!all) array.shape[0] = count;
   const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
+  refuse_stored_elsewhere(dataset, *this, name);
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   if (H5Tget_class(type) != Kind<T>::kind || H5Tget_size(type) == 0) refuse(name, "values of another type", Kind<T>::name);
   const std::size_t n = product(array.shape);
@@ -193,6 +194,7 @@ double Group::read_scalar(const std::string& name) const { return read<double>(n
 std::string Group::read_text(const std::string& name) const {
   const Handle dataset(has(name) ? H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT) : -1, H5Dclose);
   if (!dataset.good()) refuse(name, "dataset is missing");
+  refuse_stored_elsewhere(dataset, *this, name);
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   return string_value(*this, name, type, space, file_->size,
                       [&](hid_t memory, void* to) { return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); });

@@ -41,6 +41,7 @@ struct OpenFile {
 
 Handle string_type(const std::string& text);
 Handle creation(hid_t kind);  // property list without object times
+void refuse_stored_elsewhere(hid_t dataset, const Group& group, const std::string& name);
 void written(bool good, const Group& group, const std::string& name);
 
 // a string, fixed or variable length, through HDF5's reading call

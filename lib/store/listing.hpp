@@ -11,6 +11,7 @@
 
 #include "config/member.hpp"
 #include "store/h5.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -43,6 +44,7 @@ template <class V>
 void read_member(const h5::Group& group, const Member& m, const std::string& name, V& value) {
   if constexpr (std::is_arithmetic_v<V>) {
     const double x = group.read_scalar(name);
+    need_unit(group, name, m.unit);
     const Range& r = m.range;
     if (!std::isfinite(x) || x < r.low || x > r.high || (x == r.low && !r.low_included) || (x == r.high && !r.high_included))
       group.refuse(name, std::to_string(x), type_words<V>(m));

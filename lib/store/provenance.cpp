@@ -12,6 +12,7 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/version.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -76,7 +77,7 @@ std::string content_id(const Identity& identity, int schema_version) {
 void write_identity(const h5::Group& root, const Schema& schema, const Identity& identity) {
   root.attribute("schema", std::string(schema.name));
   root.attribute("schema_version", std::int64_t{schema.version});
-  root.attribute("units", std::string("mm N MPa s deg"));
+  root.attribute("units", std::string(house_units));
   root.attribute("stage", identity.stage);
   root.attribute("config_hash", identity.config_hash);
   root.attribute("inputs", joined(identity.inputs));
@@ -106,6 +107,8 @@ namespace {
 Origin origin(const h5::Group& root) {
   if (!root.has_attribute("schema") || !root.has_attribute("schema_version"))
     root.refuse("", "no schema attribute: not a file of langer");
+  if (root.has_attribute("units") && root.text_attribute("units") != house_units)
+    root.refuse("", "units " + root.text_attribute("units"), house_units, "convert the values");
   Origin origin;
   origin.schema = root.text_attribute("schema");
   origin.version = static_cast<int>(root.integer_attribute("schema_version"));

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "store/replace.hpp"
 
 namespace langer {
 
@@ -87,6 +88,7 @@ void sync_folder_of(const std::string& path) {
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
+  need_replaceable_by(path, text);
   const std::string part = path + ".part";
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out << text;

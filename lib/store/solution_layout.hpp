@@ -1,9 +1,10 @@
-// Names and units in solution.h5 that its writer and its reader share.                              docs/schema.md
+// Names, units and meanings in solution.h5 that its writer and its readers share.                    docs/schema.md
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace langer::solution {
 
@@ -22,16 +23,63 @@ bool among(const std::array<const char*, n>& names, const std::string& name) {
 // a cell array that no step has
 inline bool is_static(const std::string& name) { return among(static_cells, name) || name.starts_with("fibre_"); }
 
-inline std::string unit_of(const std::string& name) {
-  for (const char* word : {"von_mises", "pressure", "sigma", "stress", "shear_stiffness"})
-    if (name.starts_with(word)) return "MPa";
-  for (const char* word : {"penetration", "gap", "u_", "weakest_x", "weakest_y", "weakest_z"})
-    if (name.starts_with(word)) return "mm";
-  for (const char* word : {"force", "reaction"})
-    if (name.starts_with(word)) return "N";
-  for (const char* word : {"energy", "driving_force"})
-    if (name.starts_with(word)) return "N mm";
-  return "-";
+// What /history and /VTKHDF hold of every step, with unit and meaning; * stands for the name of a contact.
+struct HistoryLine {
+  const char *name, *unit, *meaning;
+};
+inline constexpr auto history_lines = std::to_array<HistoryLine>({
+    {"t", "-", "place on the path from 0 to 1"},
+    {"increment", "-", "of t, with which the step was found"},
+    {"iterations", "-", "tangents that the step took"},
+    {"residual", "-", "norm of the residual over that of the reactions; never negative"},
+    {"next_increment", "-", "of t, with which the next step begins"},
+    {"J_min", "-", "smallest det F over all Gauss points; 1 at rest"},
+    {"energy", "N mm", "stored in the body, 0 at rest"},
+    {"u_ind", "mm", "displacement of the first indenter: x, y, z"},
+    {"force_ind", "N", "of the body on the first indenter: x, y, z"},
+    {"force_*_x", "N", "of the body on that indenter, positive along +x"},
+    {"force_*_y", "N", "of the body on that indenter, positive along +y"},
+    {"force_*_z", "N", "of the body on that indenter, positive along +z"},
+    {"contact_open", "-", "number of candidates that do not touch"},
+    {"contact_stick", "-", "number of candidates that stick"},
+    {"contact_slip", "-", "number of candidates that slip"},
+    {"penetration", "mm", "greatest depth of a node inside an indenter, or gap where there is a reaction; never negative"},
+    {"cone", "-", "greatest of |r_t| - friction r_n and of -r_n, over the largest reaction; never negative"},
+    {"complementarity", "-", "what is left of the contact law, over the largest reaction times motion; never negative"},
+    {"negative_eigenvalues", "-", "of the constrained tangent; more than 0: unstable; -1: singular to the last digit"},
+    {"shear_stiffness_min", "MPa", "smallest over all Gauss points; negative where strong ellipticity is lost"},
+    {"weakest_x", "mm", "place of shear_stiffness_min in the reference state"},
+    {"weakest_y", "mm", "place of shear_stiffness_min in the reference state"},
+    {"weakest_z", "mm", "place of shear_stiffness_min in the reference state"},
+    {"weakest_cell", "-", "cell of shear_stiffness_min, from 0"},
+    {"unstable_volume", "-", "share of the reference volume without strong ellipticity, 0 to 1"},
+    {"outside_fit", "-", "share of the reference volume beyond the fitted tests, 0 to 1"},
+    {"isochoric_fibre_stretch_min", "-", "smallest sqrt(I4_bar) over all Gauss points; 1 at rest"},
+    {"isochoric_fibre_stretch_max", "-", "greatest sqrt(I4_bar) over all Gauss points; 1 at rest"},
+    {"driving_force", "N mm", "work of imposed displacements per unit of t; positive where they do work on the body"},
+    {"volume_change", "-", "greatest |V / V0 - 1| of a cell that is nearly incompressible; never negative"},
+    // fields
+    {"J", "-", "mean det F of a cell; 1 at rest"},
+    {"pressure", "MPa", "tr(sigma)/3 of a cell, the mean stress: positive in tension"},
+    {"von_mises", "MPa", "of a cell's mean Cauchy stress; never negative"},
+    {"I4_bar", "-", "of a cell and its first fibre family, isochoric; 1 at rest, above 1 in tension"},
+});
+
+// the line of a name; none where nobody has written one
+constexpr const HistoryLine* line_of(std::string_view name) {
+  for (const HistoryLine& line : history_lines) {
+    const std::string_view pattern = line.name;
+    const std::size_t star = pattern.find('*');
+    if (star == pattern.npos ? name == pattern
+                             : name.size() > pattern.size() && name.starts_with(pattern.substr(0, star)) && name.ends_with(pattern.substr(star + 1)))
+      return &line;
+  }
+  return nullptr;
+}
+
+inline std::string unit_of(std::string_view name) {
+  const HistoryLine* line = line_of(name);
+  return line ? line->unit : "-";
 }
 
 }  // namespace langer::solution

@@ -5,6 +5,7 @@
 #include "store/provenance.hpp"
 #include "store/solution_file.hpp"
 #include "store/solution_layout.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -53,6 +54,20 @@ void read_fibres(const h5::Group& cells, SolutionHeader& header) {
   }
 }
 
+void check_units(const h5::Group& root) {
+  const auto units_of = [](const h5::Group& group, auto&& unit) {
+    for (const std::string& name : group.datasets()) need_unit(group, name, unit(name));
+  };
+  const auto of_list = [](const std::string& name) { return solution::unit_of(name); };
+  units_of(root.group("history"), of_list);
+  units_of(root.group("VTKHDF").group("CellData"), of_list);
+  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) { return name == "u" ? "mm" : "N"; });
+  if (!root.has("contact")) return;
+  const h5::Group contacts = root.group("contact");
+  for (const std::string& name : contacts.groups())
+    units_of(contacts.group(name), [](const std::string& array) { return array == "r" ? "N" : array == "gap" ? "mm" : "-"; });
+}
+
 }  // namespace
 
 SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::File::open(path), {}, {}, 0}) {
@@ -78,6 +93,7 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
       }
     }
   }
+  check_units(root);
   const h5::Group steps = root.group("VTKHDF").group("Steps");
   const std::int64_t n = steps.integer_attribute("NSteps");
   const h5::Shape times = n == 0 ? h5::Shape{0} : root.group("history").shape("t");

@@ -54,8 +54,8 @@ std::string zones_csv(const SensitivityRecord& r) {
   for (std::size_t j = 0; j < r.parameters.size(); ++j)
     for (std::size_t z = 0; z < r.zones.size(); ++z) {
       text +=
-          fmt::format("{},{},{},{},{},{},{},{},{}", r.parameters[j].name, z + 1, r.zones[z].from, r.zones[z].to,
-                      row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], effect_unit(r.parameters[j].unit), row(range, j)[z]);
+          fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(r.parameters[j].name), z + 1, r.zones[z].from, r.zones[z].to,
+                      row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], csv_cell(effect_unit(r.parameters[j].unit)), row(range, j)[z]);
       for (const auto& [name, A] : more) text += fmt::format(",{}", row(A, j)[z]);
       text += "\n";
     }

@@ -237,7 +237,7 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
         "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      text += fmt::format("{},{},{},{},", r.names[i], r.value[i], r.error[k], 100 * r.error[k] / r.size[i]);
+      text += fmt::format("{},{},{},{},", csv_cell(r.names[i]), r.value[i], r.error[k], 100 * r.error[k] / r.size[i]);
       text += r.profiles.empty() ? "," : fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
       text += r.bootstrap.rows() < 2 ? ",,\n" : fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
     }
@@ -252,10 +252,10 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
       files.push_back({"profile_" + r.names[i] + ".csv", csv({{"change", "percent", relative}, {"rise", "-", rise}})});
     }
     std::string advice = "test,worst_percent,gain";
-    for (const std::string& name : r.names) advice += "," + name + "_percent";
+    for (const std::string& name : r.names) advice += "," + csv_cell(name + "_percent");
     advice += "\n";
     for (const AdviceRecord& a : r.advice) {
-      advice += fmt::format("\"{}\",{},{}", a.test, 100 * a.worst, a.gain);
+      advice += fmt::format("{},{},{}", csv_cell(a.test), 100 * a.worst, a.gain);
       for (double x : a.relative) advice += fmt::format(",{}", 100 * x);
       advice += "\n";
     }

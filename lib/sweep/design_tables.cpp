@@ -72,7 +72,8 @@ std::string effects_csv(const Design& design, const std::vector<QuantityEffects>
     for (std::size_t i = 0; i < design.parameters.size(); ++i) {
       const DesignParameter& p = design.parameters[i];
       rows +=
-          fmt::format("{},{},{},{},{},{}", e.name, e.unit, short_name(p), p.unit, number_text(p.lower), number_text(p.upper));
+          fmt::format("{},{},{},{},{},{}", csv_cell(e.name), csv_cell(e.unit), csv_cell(short_name(p)), csv_cell(p.unit),
+                      number_text(p.lower), number_text(p.upper));
       for (const Value& v : values(e, static_cast<Eigen::Index>(i))) {
         const bool interval = !std::string(v.name).starts_with("one_at_a_time");
         if (!headed) text += interval ? fmt::format(",{0},{0}_low,{0}_high", v.name) : fmt::format(",{}", v.name);

@@ -52,12 +52,6 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
 }
 
 // a word of an axis in a table: quoted where a comma or a quote would split it
-std::string cell(const std::string& word) {
-  if (word.find_first_of(",\"\n") == std::string::npos) return word;
-  std::string quoted = "\"";
-  for (const char c : word) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 }  // namespace
 
@@ -77,12 +71,12 @@ Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axe
 
 std::string csv(const Sweep& sweep) {
   std::vector<std::string> words;
-  for (const SweepAxis& a : sweep.axes) words.push_back(csv_name(a.name, a.unit));
-  for (const SweepColumn& c : sweep.columns) words.push_back(csv_name(c.name, c.unit));
+  for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(csv_name(a.name, a.unit)));
+  for (const SweepColumn& c : sweep.columns) words.push_back(csv_cell(csv_name(c.name, c.unit)));
   std::string text = fmt::format("{}\n", fmt::join(words, ","));
   for (std::size_t i = 0; i < sweep.members.size(); ++i) {
     words.clear();
-    for (const SweepAxis& a : sweep.axes) words.push_back(cell(a.values[i]));
+    for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(a.values[i]));
     for (const SweepColumn& c : sweep.columns) words.push_back(std::isnan(c.values[i]) ? "" : number_text(c.values[i]));
     text += fmt::format("{}\n", fmt::join(words, ","));
   }

@@ -54,7 +54,9 @@ struct Table {
     return head;
   }
   std::string csv() const {
-    std::string text = fmt::format("{}\n", fmt::join(heads, ","));
+    std::string text;
+    for (const std::string& head : heads) text += (text.empty() ? "" : ",") + csv_cell(head);
+    text += "\n";
     std::size_t rows = 0;
     for (const auto& c : columns) rows = std::max(rows, c.size());
     for (std::size_t i = 0; i < rows; ++i)

@@ -37,6 +37,8 @@ const std::vector<Usage>& langer_commands() {
   static const std::vector<Usage> commands = [] {
     std::vector<std::string> kinds = config_kind_names();
     kinds.push_back("pipeline");
+    std::vector<std::string> described = config_kind_names();
+    described.push_back("columns");
     std::vector<Usage> all{
         {"langer show", "Prints what is in a file that Langer made.",
          {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
@@ -51,8 +53,8 @@ const std::vector<Usage>& langer_commands() {
          {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
           {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
          {}, "", "langer check pipelines/indentation.yaml configs/*/*.yaml", ""},
-        {"langer describe", "Prints every key of a config: type, range, unit, default, meaning.",
-         {{"KIND", "", fmt::format("one of {}", list_words(config_kind_names())), "", config_kind_names(), true}},
+        {"langer describe", "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
+         {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
          {}, "", "langer describe solve", ""},
         {"langer schema", "Prints the JSON Schema of a config, for editors.",
          {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true}, {"--list", "", "print the kinds instead", "", {}}},

@@ -3,11 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+
 #include "config/reader.hpp"
 #include "config/writer.hpp"
+#include "post/describe_columns.hpp"
 #include "post/steps.hpp"
 #include "run/post_config.hpp"
 #include "store/curves_file.hpp"
+#include "store/solution_layout.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
@@ -77,6 +81,26 @@ TEST_CASE("every quantity can be measured, is finite, and is found by its own wo
     CHECK(std::isfinite(s.value(choice)));
     CHECK(s.look(choice).measures[0].unit == line.unit);
   }
+}
+
+TEST_CASE("the list of columns says unit and meaning of every quantity and every number of the solver") {
+  const std::string text = columns_text();
+  for (const QuantityLine& line : quantity_lines) {
+    CAPTURE(line.word);
+    CHECK(std::string(line.meaning).size() >= 6);
+    CHECK(text.find(std::string("\n  ") + line.word + " ") != std::string::npos);
+  }
+  CHECK(text.find("pressure                     MPa   mean stress: tr(sigma)/3, the mean stress: positive in tension") != std::string::npos);
+  // a history has the unit of the quantity of its name
+  for (const QuantityLine& line : quantity_lines)
+    if (const solution::HistoryLine* history = solution::line_of(std::string_view(line.word)); history && line.of != Of::point)
+      CHECK(std::string(history->unit) == line.unit);
+  const auto unit = [](const std::string& choice) { return unit_of(choices(choice)[0]); };
+  CHECK(unit("{history: shear_stiffness_min}") == "MPa");
+  CHECK(unit("{history: weakest_x}") == "mm");
+  CHECK(unit("{history: energy}") == "N mm");
+  CHECK(unit("{history: force_left_y}") == "N");
+  CHECK(unit("{history: volume_change}") == "-");
 }
 
 TEST_CASE("the unloaded state gives zeros, and ones for ratios of volume and length") {
@@ -234,6 +258,22 @@ TEST_CASE("the configs of the project are read, and their canonical text reads b
     const std::string text = to_yaml(loaded.config);
     CHECK(to_yaml(read_config<PostConfig>(parse_yaml(text, "again.yaml")).config) == text);
   }
+}
+
+TEST_CASE("every column of every shipped post config has its line in the list") {
+  int columns = 0;
+  for (const auto& file : std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/configs/post")) {
+    const Tree tree = load_yaml(file.path().string());
+    const Tree* list = tree.find("columns");
+    if (!list || list->list.empty() || list->list[0].kind != Tree::Kind::map) continue;  // of gather and others
+    CAPTURE(file.path().string());
+    for (const ColumnChoice& c : read_config<PostConfig>(tree).config.columns) {
+      if (c.history) CHECK(solution::line_of(*c.history));
+      if (c.quantity) CHECK(columns_text().find(std::string("\n  ") + line_of(*c.quantity).word + " ") != std::string::npos);
+      ++columns;
+    }
+  }
+  CHECK(columns > 50);
 }
 
 TEST_CASE("the table of an indentation has the columns that others rely on") {

@@ -241,6 +241,20 @@ TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, an
   CHECK(said == "there is no gnuplot on the PATH");
 }
 
+TEST_CASE("names of files that gnuplot would take for a pipe, a stream or a block of data are names of files") {
+  const std::string where = folder("names");
+  for (const std::string name : {"<touch run #", "|touch run #", "-", "$data", "+", "--help", "'x"}) {
+    CAPTURE(name);
+    write(where + "/" + name + ".csv", "t,u_mm\n0,0\n1,0.5\n");
+    write(where + "/" + name + ".gp", gnuplot_script(Plot{"", "t", "u", {{name + ".csv", "t", "u_mm", "u"}}}, name));
+    if (!has_gnuplot()) continue;
+    CHECK(run_gnuplot(where, name + ".gp") == "");
+    CHECK(text_of(where + "/" + name + ".svg").find("</svg>") != std::string::npos);
+    CHECK(text_of(where + "/" + name + ".png").starts_with("\x89PNG"));
+    for (const auto& file : std::filesystem::directory_iterator(where)) CHECK_FALSE(file.path().filename().string().starts_with("run"));
+  }
+}
+
 TEST_CASE("a body without a field is drawn plain, with its points, the edges at rest and what holds and moves it") {
   const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 1, 1));
   RenderScene scene{mesh, mesh.X, {}, "", {}};

@@ -1,0 +1,53 @@
+#include "post/describe_columns.hpp"
+
+#include <fmt/format.h>
+
+#include "post/quantity.hpp"
+#include "store/solution_layout.hpp"
+
+namespace langer {
+
+namespace {
+
+const char* words(Of of) {
+  switch (of) {
+    case Of::step:
+      return "of the whole state";
+    case Of::indenter:
+      return "of the indenter; needs a contact";
+    case Of::nodes:
+    case Of::point:
+      return "at a place (`at:` a node set or observation point), mean over its nodes";
+    case Of::set:
+      return "of a node set (`at:`)";
+    default:
+      return "extreme over the whole body";
+  }
+}
+
+// labels are gnuplot's: x_{y} for an index
+std::string plain(std::string label) {
+  std::erase_if(label, [](char c) { return c == '{' || c == '}'; });
+  return label;
+}
+
+std::string line(const std::string& name, const std::string& unit, const std::string& meaning) {
+  return fmt::format("  {:<28} {:<5} {}\n", name, unit, meaning);
+}
+
+}  // namespace
+
+std::string columns_text() {
+  std::string s = "Columns of curves: name, unit, meaning with its sign. In a CSV table a column is called name_unit, name alone without unit.\n";
+  const char* group = "";
+  for (const QuantityLine& q : quantity_lines) {
+    if (const char* of = words(q.of); of != std::string(group)) s += fmt::format("\nquantity: {}\n", group = of);
+    s += line(q.word, q.unit, fmt::format("{}: {}", plain(q.label), q.meaning));
+  }
+  s += "\nquotient: of two columns of one unit, by name, without unit; empty where the second is 0\n";
+  s += "\nhistory: what the solver wrote for every step, /history of a solution (of those with three numbers: quantities), and fields of cells\n";
+  for (const solution::HistoryLine& h : solution::history_lines) s += line(h.name, h.unit, h.meaning);
+  return s;
+}
+
+}  // namespace langer

@@ -1,0 +1,24 @@
+// Values are in mm, N, MPa, s and degrees. A dataset that says otherwise is refused: it would be read as what it is not.
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "store/h5.hpp"
+
+namespace langer {
+
+inline constexpr const char* house_units = "mm N MPa s deg";
+
+// `unit`: that of the values as they are used; the dataset's attribute `unit` or `units`, where it has one, must say the same. "-" and ""
+// there pass: so older versions wrote what nobody had named.
+inline void need_unit(const h5::Group& group, const std::string& name, const std::string& unit) {
+  if (unit.empty()) return;
+  for (const char* attribute : {"unit", "units"})
+    if (const std::string found = group.annotation(name, attribute); !found.empty() && found != "-" && found != unit)
+      group.refuse(name, fmt::format("values in {}", found), unit == "-" ? "a pure number" : "values in " + unit,
+                   "convert them: langer reads mm, N, MPa, s and degrees");
+}
+
+}  // namespace langer

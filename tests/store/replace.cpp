@@ -1,0 +1,107 @@
+// What belongs to the user is never written over.
+#include "store/replace.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <functional>
+
+#include "example.hpp"
+#include "store/curves_file.hpp"
+#include "store/h5.hpp"
+#include "store/mesh_file.hpp"
+#include "store/seal.hpp"
+
+using namespace langer;
+using example::write_bytes;
+
+namespace {
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Failure& failure) {
+    CHECK(failure.code() == Exit::input);
+    return failure.what();
+  }
+  return "";
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("what a run reads is not replaced, whatever name leads to it") {
+  const std::string folder = example::folder("spared"), data = folder + "/fit.csv";
+  write_bytes(data, "strain,stress_MPa\n0,0\n");
+  std::filesystem::create_hard_link(data, folder + "/same.csv");
+  never_replace(data);
+  for (const std::string name : {"/fit.csv", "/same.csv", "/../spared/fit.csv"}) {
+    CHECK(holds(refusal([&] { write_text_file(folder + name, "strain,stress_MPa\n"); }), "is read by this run and would be replaced"));
+    CHECK(holds(refusal([&] { h5::File::create(folder + name); }), "is read by this run"));
+    CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is read by this run"));
+  }
+  CHECK(example::bytes(data) == "strain,stress_MPa\n0,0\n");
+  CHECK_FALSE(std::filesystem::exists(data + ".part"));
+  CHECK(refusal([&] { write_text_file(folder + "/other.csv", "a\n"); }) == "");
+}
+
+TEST_CASE("devices, FIFOs, folders and links are not replaced") {
+  const std::string folder = example::folder("no_file");
+  write_bytes(folder + "/target.h5", "");
+  REQUIRE(mkfifo((folder + "/fifo").c_str(), 0600) == 0);
+  std::filesystem::create_symlink(folder + "/target.h5", folder + "/link");
+  std::filesystem::create_symlink(folder + "/nowhere", folder + "/dangling");
+  const std::vector<std::array<std::string, 2>> cases{
+      {"/dev/null", "is no plain file"}, {folder + "/fifo", "is no plain file"}, {folder, "is a folder"}, {folder + "/link", "is a link to " + folder + "/target.h5"}, {folder + "/dangling", "is a link to"}};
+  for (const auto& [path, found] : cases) {
+    CAPTURE(path);
+    CHECK(holds(refusal([&] { need_own_output(path); }), found));
+    CHECK(holds(refusal([&] { write_text_file(path, "a\n"); }), found));
+    CHECK(holds(refusal([&] { h5::File::create(path); }), found));
+  }
+  CHECK(refusal([&] { need_own_log("/dev/null"); }) == "");
+  CHECK(refusal([&] { need_own_log(folder + "/new.log"); }) == "");
+  for (const char* name : {"/fifo", "/link", "/dangling"}) CHECK(refusal([&] { need_own_log(folder + name); }) != "");
+}
+
+TEST_CASE("an output or a log that is there has to be ours") {
+  const std::string folder = example::folder("own");
+  write_mesh(folder + "/mesh.h5", example::bar(), example::identity());
+  write_bytes(folder + "/empty.h5", "");
+  write_bytes(folder + "/notes.txt", "what I found\n");
+  write_bytes(folder + "/cut.h5", example::bytes(folder + "/mesh.h5").substr(0, 9000));
+  write_bytes(folder + "/report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n");
+  write_bytes(folder + "/solve.log", "# langer-solve solve.yaml\n");
+  for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"}) CHECK(refusal([&] { need_own_output(folder + name); }) == "");
+  for (const char* name : {"/notes.txt", "/solve.log"})
+    CHECK(holds(refusal([&] { need_own_output(folder + name); }), "is there already and was not made by langer"));
+  for (const char* name : {"/solve.log", "/none.log"}) CHECK(refusal([&] { need_own_log(folder + name); }) == "");
+  for (const char* name : {"/notes.txt", "/mesh.h5"}) CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is no log of langer"));
+}
+
+TEST_CASE("beside an output that is made for the first time, a text with another first line is somebody else's") {
+  const std::string folder = example::folder("beside"), ours = "strain,stress_MPa,model_MPa\n0,0,0\n", theirs = "strain,stress_MPa\n0,0\n";
+  begin_beside(folder + "/material.h5");
+  write_bytes(folder + "/fit.csv", theirs);
+  CHECK(holds(refusal([&] { write_text_file(folder + "/fit.csv", ours); }), "was not made by this step"));
+  CHECK(example::bytes(folder + "/fit.csv") == theirs);
+  write_bytes(folder + "/fit.csv", "strain,stress_MPa,model_MPa\n0,0,0.5\n");  // of a run that was killed
+  CHECK(refusal([&] { write_text_file(folder + "/fit.csv", ours); }) == "");
+  write_bytes(folder + "/material.h5", "");
+  begin_beside(folder + "/material.h5");  // other columns in another run of the same step
+  write_bytes(folder + "/fit.csv", theirs);
+  CHECK(refusal([&] { write_text_file(folder + "/fit.csv", ours); }) == "");
+}
+
+TEST_CASE("a cell of a CSV table stands between quotes where it has to") {
+  for (const char* plain : {"", "a1", "mu_star_c1_MPa", "0.5 to 1", "Größe", "a/b", "it's"}) CHECK(csv_cell(plain) == plain);
+  CHECK(csv_cell("a,b") == "\"a,b\"");
+  CHECK(csv_cell("say \"yes\"") == "\"say \"\"yes\"\"\"");
+  CHECK(csv_cell("two\nlines") == "\"two\nlines\"");
+  CHECK(csv_cell("a;b") == "\"a;b\"");
+  CHECK(csv_cell("# no comment") == "\"# no comment\"");
+  CHECK(csv_cell(" blank") == "\" blank\"");
+  CHECK(csv({{"a, b", "-", {1}}, {"c", "N, mm", {2}}}) == "\"a, b\",\"c_N,_mm\"\n1,2\n");
+}
