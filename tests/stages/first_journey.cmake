@@ -1,6 +1,7 @@
 # Curves of one's own, from `langer new indentation` to a report: they never end at rest, and the page says what they cannot tell. A law
 # without stiffness at rest is named before the first step.
 include(${ROOT}/tests/support/run.cmake)
+set(ENV{PATH} "${BIN}:$ENV{PATH}")
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/project)
 
@@ -9,7 +10,9 @@ function(journey name curves)
   set(folder ${WORK}/project)
   run(0 ${BIN}/langer new indentation ${name})
   if(curves)
-    file(COPY ${curves}/along.csv ${curves}/across.csv DESTINATION ${folder}/${name})
+    foreach(curve along across)
+      file(COPY_FILE ${curves}/${curve}.csv ${folder}/${name}/${curve}.csv)
+    endforeach()
   endif()
   set(folder ${WORK}/project/${name})
   run(0 ${BIN}/langer check pipeline.yaml)
