@@ -76,7 +76,7 @@ ForeignLaw calculix_material(const Material& material, const std::vector<Vec3>& 
   if (!m.fibres.empty()) return with_fibres(m, acting(material, directions), name);
   const std::string law = hyperelastic(m);
   if (law.empty())
-    return {"", "this matrix",
+    return {"", matrix_words(m),
             "one of its laws: neo-Hooke, Mooney-Rivlin, Yeoh, polynomials up to the third power, Ogden, Arruda-Boyce"};
   return {fmt::format("*MATERIAL, NAME={}\n", name) + law, "", ""};
 }

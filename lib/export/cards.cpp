@@ -24,14 +24,6 @@ const Term* only(const Material& m) {
 
 std::string number(double x) { return fmt::format("{:.10g}", x); }
 
-std::string matrix_words(const Material& m) {
-  std::string words;
-  for (const MatrixTerm& term : m.matrix)
-    words += (words.empty() ? "" : " + ") + std::string(std::visit([](const auto& t) { return t.key; }, term));
-  if (!m.fibres.empty()) words += fmt::format(" with {} fibre famil{}", m.fibres.size(), m.fibres.size() == 1 ? "y" : "ies");
-  return words;
-}
-
 struct Direction {
   double x, z;
 };
@@ -126,7 +118,7 @@ Card calculix(const Material& m) {
   const ForeignLaw law = calculix_material(m, in_frame, "LANGER");
   Card card{"CalculiX", "calculix.inp", "", !law.text.empty()};
   if (!card.exists) {
-    card.text = "** " + note("CalculiX", m.fibres.empty() ? matrix_words(m) : law.lacks, law.nearest) + "\n";
+    card.text = "** " + note("CalculiX", law.lacks, law.nearest) + "\n";
     return card;
   }
   card.text =
@@ -186,7 +178,7 @@ std::string ansys_fibres(const Material& m, const Polynomial& p) {
 
 // what TB,AHYPER cannot hold
 std::pair<std::string, std::string> beyond_ansys(const Material& m) {
-  if (!polynomial(m)) return {"fibres in " + matrix_words({m.matrix, {}, m.volume}), "a polynomial matrix (yeoh), or UserMat"};
+  if (!polynomial(m)) return {"fibres in " + matrix_words(m), "a polynomial matrix (yeoh), or UserMat"};
   if (m.fibres.size() > 2) return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
   for (const Fibre& f : m.fibres) {
     if (f.kappa != 0) return {"dispersed fibres", "kappa: 0, or UserMat"};

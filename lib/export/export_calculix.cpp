@@ -17,6 +17,7 @@ namespace {
 
 constexpr int side_of_facet[6] = {6, 4, 3, 5, 1, 2};  // S1 ... S6 by our local facet
 constexpr double usual_stiffness = 1000;              // of contact, in units of the softest law's 2 a1 per mm
+constexpr double with_fibres = 0.05;                  // longest increment of a scene with contact and fibres
 
 std::string name_of(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
@@ -78,6 +79,11 @@ class Writer {
           "** one lets less of the sphere into the body. Langer has the exact sphere and lets nothing in.\n"
           "** RF of the set RIGID_... moves the sphere: it is minus the force on the indenter\n",
           usual_stiffness);
+    if (fibres_touched())
+      s_ += fmt::format(
+          "** increments of {:g} at most: ELASTIC_FIBER ends the run where an iteration stretches a fibre too far, instead of "
+          "cutting the increment\n",
+          with_fibres);
     body();
     for (std::size_t c = 0; c < deck_.contacts.size(); ++c) contact(deck_.contacts[c], static_cast<int>(c));
     steps();
@@ -180,12 +186,19 @@ class Writer {
     s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n", number + 1, slave, master);
   }
 
+  bool fibres_touched() const {
+    return !deck_.contacts.empty() &&
+           std::any_of(deck_.groups.begin(), deck_.groups.end(), [](const FibreGroup& g) { return !g.fibres.empty(); });
+  }
+
   void steps() {
+    const double most = fibres_touched() ? with_fibres : 1;
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
-      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n", std::min(deck_.first, takes),
-                        takes, std::min(deck_.smallest, takes), std::min(deck_.largest, takes));
+      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n",
+                        std::min({deck_.first, takes, most}), takes, std::min(deck_.smallest, takes),
+                        std::min({deck_.largest, takes, most}));
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
         if (h.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.value * t);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "material/material.hpp"
 
@@ -36,6 +37,14 @@ inline std::optional<Polynomial> polynomial(const Material& material) {
   for (const MatrixTerm& term : material.matrix)
     if (!p.add(term)) return std::nullopt;
   return p;
+}
+
+// names of its terms
+inline std::string matrix_words(const Material& material) {
+  std::string words;
+  for (const MatrixTerm& term : material.matrix)
+    words += (words.empty() ? "" : " + ") + std::string(std::visit([](const auto& t) { return t.key; }, term));
+  return words;
 }
 
 }  // namespace langer
