@@ -19,17 +19,31 @@ std::optional<FitRecord> fit_of(const std::string& path) {
   return read_material(path).fit;
 }
 
+// The fit's ties that hold here: in a sheet that is turned, and not of numbers that are ranked themselves.
+std::vector<Tie> ties_in(const FitRecord& fit, Material& material, const std::vector<std::string>& keys, double turn) {
+  std::vector<Tie> ties;
+  for (Tie tie : fit.ties) {
+    if (std::find(keys.begin(), keys.end(), tie.key) != keys.end()) continue;
+    for (const MaterialParameter& p : parameters(material))
+      if (p.key == tie.key && p.unit == std::string(unit::deg)) tie.offset += turn * (1 - tie.factor);
+    ties.push_back(tie);
+  }
+  return ties;
+}
+
 // The stress over the strains as a function of the ranked numbers; every copy has a material of its own.
 CurveMaker stress_of(const SensitivityConfig& config, const Material& material, const std::vector<std::string>& keys,
-                     const std::vector<double>& strain) {
+                     const std::vector<Tie>& ties, const std::vector<double>& strain) {
   return [=, &strain]() -> ParametricCurve {
     const auto own = std::make_shared<Material>(material);
+    const auto tied = std::make_shared<TiedNumbers>(*own, ties);
     std::vector<double*> numbers;
     for (const std::string& key : keys)
       for (const MaterialParameter& p : parameters(*own))
         if (p.key == key) numbers.push_back(p.value);
     return [=, &strain](const VecX& p, VecX& y) {
       for (std::size_t j = 0; j < numbers.size(); ++j) *numbers[j] = p[static_cast<Eigen::Index>(j)];
+      tied->follow();
       const auto sigma = config.dilatation == Dilatation::compressible
                              ? uniaxial_curve(*own, strain, config.stress, config.dilatation)
                              : path_curve(*own, config.test, strain, config.stress);
@@ -52,7 +66,8 @@ void need_samples(const Job<SensitivityConfig>& job, const std::string& method, 
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   const SensitivityConfig& config = job.config;
   Material material = turned(material_from(job.input("material")), config.turn);
-  const Ranking chosen = ranking(config, material, fit_of(job.input("material")), job.where);
+  const std::optional<FitRecord> fit = fit_of(job.input("material"));
+  const Ranking chosen = ranking(config, material, fit, job.where);
   SensitivityRecord record;
   record.parameters = chosen.numbers;
   for (int i = 0; i < config.strain.points; ++i)
@@ -66,7 +81,8 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
     value[j] = n.value, lower[j] = n.lower, upper[j] = n.upper;
   }
-  const CurveMaker stress = stress_of(config, material, chosen.keys, record.strain);
+  const CurveMaker stress = stress_of(config, material, chosen.keys, fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(),
+                                     record.strain);
   VecX curve;
   if (stress()(value, curve)) {
     record.curve.assign(curve.data(), curve.data() + curve.size());
@@ -93,6 +109,7 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   }
   if (config.sobol) {
     options.progress = progress_of("sensitivity", "Sobol", job.quiet);
+    options.sequence = config.sobol->sequence;
     record.sobol = sobol(stress, lower, upper, config.sobol->samples, options);
     need_samples(job, "sobol", record.sobol->rows, record.sobol->without_curve, 64);
   }

@@ -7,7 +7,8 @@ set(floors base tensor config mesh contact sensitivity geometry material element
 # include pattern -> where it may stand
 set(third_parties
   "yaml-cpp/=lib/config/" "hdf5=lib/store/" "gmsh=lib/geometry/gmsh/" "cholmod=lib/solve/linear" "umfpack=lib/solve/linear"
-  "kinsol=lib/solve/kinsol.cpp" "sundials=lib/solve/kinsol.cpp" "nvector=lib/solve/kinsol.cpp" "CLI/=stages/" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp")
+  "kinsol=lib/solve/kinsol.cpp" "sundials=lib/solve/kinsol.cpp" "nvector=lib/solve/kinsol.cpp" "CLI/=stages/" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp"
+  "boost/=lib/sensitivity/sobol_sequence.cpp")
 set(failed FALSE)
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/lib/*.hpp ${ROOT}/lib/*.cpp ${ROOT}/stages/*.hpp ${ROOT}/stages/*.cpp)
 foreach(file ${files})

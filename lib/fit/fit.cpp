@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "fit/periodic.hpp"
 
 namespace langer {
 
@@ -36,19 +37,22 @@ struct Model {
   std::vector<Test> tests;
   Dilatation dilatation;
   VecX stress, weight;
+  TiedNumbers tied;
 
   explicit Model(const FitProblem& problem)
       : material(problem.law),
         tests(problem.tests),
         dilatation(problem.dilatation),
         stress(measured_stress(problem.tests)),
-        weight(weights(problem.tests)) {
+        weight(weights(problem.tests)),
+        tied(material, problem.ties) {
     for (const MaterialParameter& p : chosen(material, problem.free)) numbers.push_back(p.value);
   }
   Model(const Model&) = delete;
 
   bool residual(const VecX& p, VecX& r) {
     for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = p[static_cast<Eigen::Index>(i)];
+    tied.follow();
     r.resize(stress.size());
     Eigen::Index at = 0;
     for (const Test& test : tests) {
@@ -66,6 +70,63 @@ bool imposed(const Test& test, const Material& law) {
   return test.kind == TestKind::simple_shear || (test.kind != TestKind::uniaxial && test.shear == OffAxisShear::held);
 }
 
+// 180 for an angle whose box holds all of them, and whatever follows it as well; 0 for other numbers
+double period(const FitProblem& problem, const FreeParameter& p, const std::string& unit) {
+  if (unit != unit::deg || !(p.upper - p.lower >= 180 * (1 - 1e-12))) return 0;
+  for (const Tie& tie : problem.ties)
+    if (tie.of == p.key && tie.factor != std::round(tie.factor)) return 0;
+  return 180;
+}
+
+// One search, told within the box. An angle that turned as far as the wider box of the search allows goes on from there.
+LeastSquaresResult search(const FitProblem& problem, LeastSquares& q, const LeastSquaresOptions& options) {
+  LeastSquaresResult one;
+  for (int turn = 0; turn < 4; ++turn) {
+    one = least_squares(q, options);
+    bool stopped = false;
+    for (Eigen::Index i = 0; i < one.p.size(); ++i)
+      if (const double period = q.period_of(i); period > 0) {
+        const FreeParameter& p = problem.free[static_cast<std::size_t>(i)];
+        one.p[i] = into_box(one.p[i], period, p.lower, p.upper);
+        stopped = stopped || one.at_bound[static_cast<std::size_t>(i)];
+      }
+    if (!stopped) break;
+    q.start = one.p;
+  }
+  return one;
+}
+
+// where a search starts: exponents up to 100 act alike over most of such a box, so small ones are drawn more often
+double drawn(const FreeParameter& p, double u) {
+  const bool wide_exponent = p.key.ends_with(".c2") && p.upper - p.lower > 20;
+  return p.lower + (wide_exponent ? u * u * u : u) * (p.upper - p.lower);
+}
+
+void know(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
+  const LeastSquaresResult& best = fit.best;
+  const double size = q.size / std::sqrt(static_cast<double>(best.r.size()));
+  const std::vector<Eigen::Index> curves = curve_sizes(problem.tests);
+  const auto noise = [&] {
+    std::vector<Eigen::Index> in;
+    for (Eigen::Index i = 0; i < best.p.size(); ++i)
+      if (!fit.left_out[static_cast<std::size_t>(i)]) in.push_back(i);
+    return residual_noise(best.r, best.J(Eigen::all, in), curves, size);
+  };
+  fit.left_out = best.at_bound;
+  fit.noise = noise();
+  std::vector<double> turn;
+  Material law = problem.law;
+  for (const MaterialParameter& p : chosen(law, problem.free)) turn.push_back(p.unit == unit::deg ? 180 : 0);
+  const SymmetricAngles found = symmetric_angles(q, best, fit.noise.deviation, turn);
+  fit.symmetric = found.at, fit.columns = found.columns;
+  for (std::size_t i = 0; i < found.at.size(); ++i)
+    if (found.at[i]) fit.left_out[i] = true;
+  if (fit.left_out != best.at_bound) fit.noise = noise();
+  fit.covariance = fit.noise.deviation > 0 || std::isfinite(fit.noise.freedom)
+                       ? covariance(best.J, fit.left_out, fit.noise)
+                       : MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
 FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   FitQuality q;
   const VecX error = model - stress;
@@ -79,7 +140,7 @@ FitQuality quality(const VecX& model, const VecX& stress, double largest) {
 
 void judge(const FitProblem& problem, FitResult& fit) {
   const VecX stress = measured_stress(problem.tests);
-  const auto n = static_cast<double>(stress.size()), k = static_cast<double>(problem.free.size()) + 1;
+  const auto n = static_cast<double>(stress.size());
   fit.quality = quality(fit.model, stress, 1);
   fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
   Eigen::Index at = 0, stressed = 0;
@@ -95,9 +156,12 @@ void judge(const FitProblem& problem, FitResult& fit) {
     stressed += m;
   }
   fit.quality.mean_error_percent /= static_cast<double>(stressed);
-  const double spread = n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
-  fit.quality.aicc = n > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (n - k - 1) : std::numeric_limits<double>::quiet_NaN();
-  fit.quality.bic = spread + k * std::log(n);
+  const bool correlated = fit.noise.rho > 0;
+  const double spread = correlated ? minus_two_log_likelihood(fit.best.r, fit.noise)
+                                   : n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
+  const double k = static_cast<double>(problem.free.size()) + (correlated ? 2 : 1), m = fit.noise.effective;
+  fit.quality.aicc = m > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (m - k - 1) : std::numeric_limits<double>::quiet_NaN();
+  fit.quality.bic = spread + k * std::log(m);
 }
 
 }  // namespace
@@ -129,6 +193,14 @@ VecX measured_stress(const std::vector<Test>& tests) {
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+std::vector<Eigen::Index> curve_sizes(const std::vector<Test>& tests) {
+  std::vector<Eigen::Index> sizes;
+  for (const Test& test : tests)
+    for (const auto* list : {&test.stress_x, &test.stress_z})
+      if (!list->empty()) sizes.push_back(static_cast<Eigen::Index>(list->size()));
+  return sizes;
+}
+
 VecX weights(const std::vector<Test>& tests) {
   std::vector<double> all;
   for (const Test& test : tests) all.insert(all.end(), test.values(), test.weight);
@@ -139,6 +211,7 @@ Material with_parameters(const FitProblem& problem, const VecX& p) {
   Material material = problem.law;
   const auto list = chosen(material, problem.free);
   for (std::size_t i = 0; i < list.size(); ++i) *list[i].value = p[static_cast<Eigen::Index>(i)];
+  TiedNumbers(material, problem.ties).follow();
   return material;
 }
 
@@ -160,6 +233,8 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
     q.typical[i] = std::max(std::abs(p.start), std::isfinite(width) ? 0.01 * width : 0.1);
     // every energy is a sum of moduli times functions of the rest
     q.linear.push_back(linear && list[static_cast<std::size_t>(i)].unit == std::string(unit::MPa));
+    q.period.push_back(period(problem, p, list[static_cast<std::size_t>(i)].unit));
+    q.lower[i] -= q.period.back(), q.upper[i] += q.period.back();
   }
   return q;
 }
@@ -167,7 +242,7 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
 LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const LeastSquaresOptions& options) {
   LeastSquares q = least_squares_problem(problem);
   q.start = start;
-  return least_squares(q, options);
+  return search(problem, q, options);
 }
 
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
@@ -190,8 +265,9 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   const VecX given = q.start;
   double lowest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < options.starts; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i) q.start[i] = k == 0 ? given[i] : q.lower[i] + uniform(rng) * (q.upper[i] - q.lower[i]);
-    LeastSquaresResult one = least_squares(q, options.least_squares);
+    for (Eigen::Index i = 0; i < n; ++i)
+      q.start[i] = k == 0 ? given[i] : drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
+    LeastSquaresResult one = search(problem, q, options.least_squares);
     fit.starts.row(k) << one.p.transpose(), one.cost;
     // two starts at the same optimum differ by rounding: the first stays
     if (k == 0 || one.cost < lowest * (1 - 1e-9) - 1e-30 * q.size * q.size) {
@@ -201,7 +277,7 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   }
   fit.material = with_parameters(problem, fit.best.p);
   if (std::isfinite(fit.best.cost)) {
-    fit.covariance = covariance(fit.best);
+    know(problem, q, fit);
     fit.model = measured_stress(problem.tests) + fit.best.r.cwiseQuotient(weights(problem.tests));
     judge(problem, fit);
   }

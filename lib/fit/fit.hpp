@@ -1,13 +1,15 @@
 // Parameters of a law from one or several tests: least squares on the stress.         [A23] eqs 35-36
 //   min over p of  1/2 sum_i w_i^2 (model_i(p) - stress_i)^2,  lower <= p <= upper
 // The values stand in the order of the tests; within a test all x components, then all z components.
+// An angle whose box holds 180 degrees is periodic: it has no bounds, and an answer is told within the box.
 // The search starts at the given values and at seeded random places of the box; the lowest cost wins, the first of equals.
 // Everything here may run on several threads at once, each with its own problem or result.
 #pragma once
 
-#include "fit/least_squares.hpp"
+#include "fit/residual_noise.hpp"
 #include "fit/test_data.hpp"
 #include "material/parameters.hpp"
+#include "material/ties.hpp"
 
 namespace langer {
 
@@ -22,6 +24,7 @@ struct FitProblem {
   std::vector<FreeParameter> free;
   std::vector<Test> tests;
   Dilatation dilatation = Dilatation::incompressible;  // compressible: held uniaxial tests only
+  std::vector<Tie> ties = {};                          // resolved; of numbers that are not free
 };
 
 struct FitOptions {
@@ -33,7 +36,9 @@ struct FitOptions {
 // How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test; NaN for a test
 // without stress, which those of all tests leave out.
 //   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2, NaN where every stress is the same
-//   aicc = n ln(2 cost/n) + 2 k + 2 k (k + 1)/(n - k - 1),  bic = n ln(2 cost/n) + k ln n,  k = parameters + 1
+//   aicc = -2 ln L + 2 k + 2 k (k + 1)/(n - k - 1),  bic = -2 ln L + k ln n
+// Where residuals are not correlated -2 ln L = N ln(2 cost/N), k = parameters + 1, n = N, the number of values. Where they are,
+// L is that of the autoregression (residual_noise.hpp), k one more and n the effective number of values.
 struct FitQuality {
   double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;
 };
@@ -41,7 +46,11 @@ struct FitQuality {
 struct FitResult {
   Material material;  // the law with the parameters found
   LeastSquaresResult best;
-  MatX covariance;  // NaN where the tests do not determine a parameter
+  MatX covariance;  // under `noise`; NaN where the tests do not determine a parameter, and for those left out
+  ResidualNoise noise;
+  std::vector<bool> symmetric;  // angles of symmetry (periodic.hpp): no first effect
+  std::vector<bool> left_out;   // of the covariance: those, and parameters on a bound
+  MatX columns;                 // Jacobian, with the second derivative of angles of symmetry
   MatX starts;      // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
   VecX model;       // of each value [MPa]; empty if no start has a model
   FitQuality quality;
@@ -52,6 +61,7 @@ struct FitResult {
 bool model_stress(const Material& material, const Test& test, Dilatation dilatation, double* stress);
 
 VecX measured_stress(const std::vector<Test>& tests);
+std::vector<Eigen::Index> curve_sizes(const std::vector<Test>& tests);  // values of each measured curve, in the order above
 VecX weights(const std::vector<Test>& tests);
 
 // the law with the numbers p in place of the free ones

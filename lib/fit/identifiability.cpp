@@ -9,6 +9,7 @@
 
 #include "base/in_order.hpp"
 #include "base/random.hpp"
+#include "fit/periodic.hpp"
 
 namespace langer {
 
@@ -33,6 +34,8 @@ struct Held {
     rest.size = all.size;
     if (!all.linear.empty())
       for (Eigen::Index i : free) rest.linear.push_back(all.linear[static_cast<std::size_t>(i)]);
+    if (!all.period.empty())
+      for (Eigen::Index i : free) rest.period.push_back(all.period[static_cast<std::size_t>(i)]);
     rest.residual = [&all, free, held, x, n](const VecX& q, VecX& r) {
       VecX p(n);
       p[held] = x;
@@ -71,10 +74,11 @@ Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX&
 // Walks from the optimum to one side until the rise passes the limit; then the place where it does.
 void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& best, double error, double chi_min, double noise,
           double limit, int side) {
-  const double bound = side < 0 ? q.lower[i] : q.upper[i], room = std::abs(bound - best[i]);
+  const double half = 0.5 * q.period_of(i);
+  const double bound = half > 0 ? best[i] + side * half : side < 0 ? q.lower[i] : q.upper[i], room = std::abs(bound - best[i]);
   double& end = side < 0 ? profile.low : profile.high;
   bool& open = side < 0 ? profile.low_open : profile.high_open;
-  double step = std::isfinite(error) && error > 0 ? 0.5 * error : 0.02 * (q.upper[i] - q.lower[i]);
+  double step = std::isfinite(error) && error > 0 ? 0.5 * error : 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
   Point last{best[i], 0, best};
   const double root = std::sqrt(limit);
   for (int n = 0; n < 40; ++n) {
@@ -121,22 +125,22 @@ double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double 
 VecX sizes_of(const LeastSquares& problem, const VecX& p) {
   VecX size = p.cwiseAbs();
   for (Eigen::Index i = 0; i < p.size(); ++i)
-    if (size[i] == 0) size[i] = problem.upper[i] - problem.lower[i];
+    if (size[i] == 0) size[i] = problem.period_of(i) > 0 ? problem.period_of(i) : problem.upper[i] - problem.lower[i];
   return size;
 }
 
-Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& at_bound,
-                                double noise) {
+Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& left_out,
+                                const ResidualNoise& noise) {
   Identifiability s;
   const auto n = p.size();
-  s.noise = noise, s.size = size;
+  s.noise = noise.total(), s.size = size;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (!at_bound[static_cast<std::size_t>(i)]) free.push_back(i);
+    if (!left_out[static_cast<std::size_t>(i)]) free.push_back(i);
   const auto k = static_cast<Eigen::Index>(free.size());
   MatX A(J.rows(), k);
   for (Eigen::Index j = 0; j < k; ++j)
-    A.col(j) = J.col(free[static_cast<std::size_t>(j)]) * size[free[static_cast<std::size_t>(j)]] / noise;
+    A.col(j) = J.col(free[static_cast<std::size_t>(j)]) * size[free[static_cast<std::size_t>(j)]] / s.noise;
   s.error = s.correlation_worst = VecX::Constant(n, nan);
   s.covariance = s.correlation = MatX::Constant(n, n, nan);
   s.combination = MatX::Zero(n, k);
@@ -153,21 +157,7 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, 
     if (V(at, c) < 0) V.col(c) *= -1;
   }
   for (Eigen::Index j = 0; j < k; ++j) s.combination.row(free[static_cast<std::size_t>(j)]) = V.row(j);
-  // combinations that the data do not feel at all leave their parameters undetermined
-  const double floor = 1e-11 * s.singular[0];
-  for (Eigen::Index a = 0; a < k; ++a)
-    for (Eigen::Index b = 0; b < k; ++b) {
-      double sum = 0;
-      for (Eigen::Index c = 0; c < k; ++c) {
-        const double part = V(a, c) * V(b, c);
-        if (s.singular[c] > floor)
-          sum += part / (s.singular[c] * s.singular[c]);
-        else if (std::abs(V(a, c)) > 1e-6 && std::abs(V(b, c)) > 1e-6)
-          sum = nan;
-      }
-      const Eigen::Index i = free[static_cast<std::size_t>(a)], j = free[static_cast<std::size_t>(b)];
-      s.covariance(i, j) = sum * size[i] * size[j];
-    }
+  s.covariance = covariance(J, left_out, noise);
   for (Eigen::Index i : free) s.error[i] = std::sqrt(s.covariance(i, i));
   for (Eigen::Index i : free)
     for (Eigen::Index j : free) {
@@ -205,7 +195,7 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
       threads, jobs,
       [&](int worker, int job) {
         walk(sides[static_cast<std::size_t>(job)], problem[static_cast<std::size_t>(worker)], job / 2, best, error[job / 2],
-             chi_min, noise, options.limit, job % 2 ? 1 : -1);
+             chi_min, noise * (options.factor.size() ? options.factor[job / 2] : 1), options.limit, job % 2 ? 1 : -1);
       },
       [&](int, int job) {
         if (options.progress) options.progress((job + 1.) / jobs);
@@ -225,16 +215,58 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
   return all;
 }
 
-Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, double noise, const BootstrapOptions& options) {
+namespace {
+
+// draws residuals like those of the fit
+class Residuals {
+ public:
+  Residuals(const VecX& r, const ResidualNoise& noise, double growth) : noise_(noise), innovation_(r) {
+    Eigen::Index at = 0;
+    const double begin = std::sqrt(1 - noise.rho * noise.rho);
+    for (Eigen::Index n : noise.curves) {
+      for (Eigen::Index i = n - 1; i > 0; --i) innovation_[at + i] -= noise.rho * r[at + i - 1];
+      if (n > 0) innovation_[at] *= begin;
+      at += n;
+    }
+    innovation_.array() -= innovation_.mean();
+    const double size = innovation_.norm() / std::sqrt(static_cast<double>(r.size()));
+    innovation_ *= size > 0 ? growth * noise.deviation * begin / size : 0;
+    block_ = noise.rho > 0 ? static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size())))) : 1;
+  }
+
+  VecX draw(Random& random) const {
+    const Eigen::Index m = innovation_.size();
+    VecX e(m);
+    Eigen::Index at = 0, from = 0, left = 0;
+    for (Eigen::Index n : noise_.curves) {
+      for (Eigen::Index i = 0; i < n; ++i, ++at, ++from, --left) {
+        if (left == 0) left = block_, from = static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(m)));
+        const double u = innovation_[from % m];
+        e[at] = i == 0 ? u / std::sqrt(1 - noise_.rho * noise_.rho) : noise_.rho * e[at - 1] + u;
+      }
+    }
+    if (noise_.white > 0)
+      for (double& x : e) x += noise_.white * random.normal();
+    return e;
+  }
+
+ private:
+  const ResidualNoise& noise_;
+  VecX innovation_;
+  Eigen::Index block_ = 1;
+};
+
+}  // namespace
+
+Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options) {
   Bootstrap result;
   const int threads = std::clamp(options.threads, 1, std::max(1, options.samples));
   std::vector<LeastSquares> problem;
   for (int t = 0; t < threads; ++t) problem.push_back(maker());
   VecX r_best;
   problem[0].residual(best, r_best);
-  const auto m = r_best.size(), n = best.size();
-  // residuals of a fit are smaller than the noise that made them
-  const double grown = m > n ? std::sqrt(static_cast<double>(m) / static_cast<double>(m - n)) : 1;
+  const auto n = best.size();
+  const Residuals residuals(r_best, noise, options.growth);
   std::vector<LeastSquaresResult> found(static_cast<std::size_t>(threads));
   std::vector<VecX> good;
   in_order(
@@ -242,10 +274,7 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, double noise, c
       [&](int worker, int sample) {
         const auto w = static_cast<std::size_t>(worker);
         Random random(options.seed, static_cast<std::uint64_t>(sample));
-        VecX e(m);
-        for (Eigen::Index i = 0; i < m; ++i)
-          e[i] = options.gaussian ? noise * random.normal()
-                                  : grown * r_best[static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(m)))];
+        const VecX e = residuals.draw(random);
         LeastSquares q = problem[w];
         q.start = best;
         q.residual = [&, e](const VecX& p, VecX& r) {
@@ -260,10 +289,13 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, double noise, c
       [&](int worker, int sample) {
         const LeastSquaresResult& one = found[static_cast<std::size_t>(worker)];
         // a sample that still creeps along a valley counts where it got to: its cost is right to many digits
-        if (std::isfinite(one.cost) && one.kkt <= 1e-4)
+        if (std::isfinite(one.cost) && one.kkt <= 1e-4) {
           good.push_back(one.p);
-        else
+          for (Eigen::Index j = 0; j < n; ++j)
+            if (problem[0].period_of(j) > 0) good.back()[j] = best[j] + difference(problem[0], j, best[j], one.p[j]);
+        } else {
           ++result.failed;
+        }
         if (options.progress) options.progress((sample + 1.) / options.samples);
       });
   result.samples.resize(static_cast<Eigen::Index>(good.size()), n);

@@ -1,20 +1,23 @@
 // What data tell about parameters: errors, correlations, combinations that they hardly feel, profiles, and which further test
 // would help most. Works on any residual in a box (least_squares.hpp), of one test or of many.
-//   residuals are divided by `noise`, their standard deviation, so that a sum of squares is a chi-square
+//   residuals are divided by the noise, their standard deviation, so that a sum of squares is a chi-square. Where they are
+//   correlated (residual_noise.hpp) errors are those of the sandwich, a profile's rise is divided by the square of the factor by
+//   which the parameter's interval is wider (adjusted profile [CB07]), and samples are drawn with that correlation
 //   sizes     |p|, or the width of the box where p is 0: errors and combinations are relative to them
-// Parameters on a bound are left out of errors and combinations: NaN.
+// Parameters on a bound, and angles of symmetry, are left out of errors and combinations: NaN. Profiles have them all the same.
+// Intervals of a periodic parameter lie around its estimate and may leave the box; half a period to each side is the whole of it.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "fit/least_squares.hpp"
+#include "fit/residual_noise.hpp"
 
 namespace langer {
 
 struct Identifiability {
-  double noise = 0;               // standard deviation of one residual
+  double noise = 0;               // standard deviation of one residual, white part and all
   VecX size;                      // (p) what errors are relative to
   VecX error, correlation_worst;  // (p) standard errors in units of the parameters; largest |correlation| with another
   MatX covariance, correlation;
@@ -22,9 +25,9 @@ struct Identifiability {
   MatX combination;  // (p, free) unit columns: changes relative to size, one per singular value
 };
 
-// J (m, p) at the optimum; at_bound as least_squares gives it
-Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& at_bound,
-                                double noise);
+// J (m, p) at the optimum; left_out of each parameter
+Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& left_out,
+                                const ResidualNoise& noise);
 VecX sizes_of(const LeastSquares& problem, const VecX& p);
 
 // The combination of the smallest singular value in words: "a1 +44 %, a2 -45 %, ... together move the data by one standard
@@ -41,6 +44,7 @@ struct Profile {
 };
 struct ProfileOptions {
   double limit = 3.841458820694124;
+  VecX factor = {};  // (p) of intervals, see interval_factors(); empty: ones
   int threads = 1;
   std::function<void(double)> progress;
 };
@@ -50,19 +54,22 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
 // the rise at one value: at most the limit where the interval holds it
 double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value, const VecX& best, double noise);
 
-// Fits to the model with fresh noise: Gaussian of the given size, or the fit's own residuals drawn again.
+// Fits to the model with fresh noise: the fit's own residuals drawn again, and Gaussian noise where more is believed in.
+// Of the residuals the innovations are drawn, centred, in blocks, and put together with their correlation again (post-blackened
+// block bootstrap [DH97], section 8.2.3), grown to the noise's deviation.
+//   growth  further factor on the residuals: Student's over the normal one, for deviation and correlation are estimated too
 struct Bootstrap {
-  MatX samples;    // (n, p) of the fits that converged
+  MatX samples;    // (n, p) of the fits that converged; periodic ones within half a period of the estimate
   VecX low, high;  // percentiles 2.5 and 97.5
   int failed = 0;
 };
 struct BootstrapOptions {
   int samples = 200;
   std::uint64_t seed = 1;
-  bool gaussian = true;
+  double growth = 1;
   int threads = 1;
   std::function<void(double)> progress;
 };
-Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, double noise, const BootstrapOptions& options);
+Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options);
 
 }  // namespace langer

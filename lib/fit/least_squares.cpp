@@ -1,10 +1,10 @@
 #include "fit/least_squares.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
 #include "fit/bounded_linear.hpp"
+#include "fit/residual_noise.hpp"
 
 namespace langer {
 
@@ -81,7 +81,7 @@ VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
     };
     for (double part : {1e-3, -1e-3, 1e-2, -1e-2, 1e-1, -1e-1})
       if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most) most = gained, best = moved;
-    const double width = q.upper[i] - q.lower[i];
+    const double width = q.period_of(i) > 0 ? q.period_of(i) : q.upper[i] - q.lower[i];
     for (int k = 1; k < 8 && std::isfinite(width) && level == p; ++k)
       if (std::abs(gain_at(q.lower[i] + k * width / 8)) <= rounding && jacobian(q, moved, J_other) &&
           kkt_residual(q, moved, other, J_other) > 1e-6)
@@ -228,36 +228,11 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
 }
 
 MatX covariance(const LeastSquaresResult& s) {
-  const Eigen::Index n = s.p.size(), m = s.r.size();
-  MatX cov = MatX::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (!s.at_bound[static_cast<std::size_t>(i)] && s.J.col(i).norm() > 0) free.push_back(i);
-  const auto n_free = static_cast<Eigen::Index>(free.size());
-  if (n_free == 0 || m <= n_free) return cov;
-  MatX J = s.J(Eigen::all, free);
-  const VecX norms = J.colwise().norm().transpose();
-  J = J * norms.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<MatX> svd(J, Eigen::ComputeThinV);
-  const VecX sv = svd.singularValues();
-  // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not distinguishable from 0
-  const double smallest = 1e-10 * sv[0];
-  MatX inverse = MatX::Zero(n_free, n_free);
-  VecX undetermined = VecX::Zero(n_free);
-  for (Eigen::Index k = 0; k < n_free; ++k) {
-    const VecX v = svd.matrixV().col(k);
-    if (sv[k] > smallest)
-      inverse += v * v.transpose() / (sv[k] * sv[k]);
-    else
-      undetermined += v.cwiseAbs2();
-  }
-  const double variance = 2 * s.cost / static_cast<double>(m - n_free);
-  for (Eigen::Index a = 0; a < n_free; ++a)
-    for (Eigen::Index b = 0; b < n_free; ++b)
-      if (undetermined[a] < 1e-6 && undetermined[b] < 1e-6)
-        cov(free[static_cast<std::size_t>(a)], free[static_cast<std::size_t>(b)]) =
-            variance * inverse(a, b) / (norms[a] * norms[b]);
-  return cov;
+  Eigen::Index n_free = 0;
+  for (Eigen::Index i = 0; i < s.p.size(); ++i) n_free += !s.at_bound[static_cast<std::size_t>(i)] && s.J.col(i).norm() > 0;
+  const Eigen::Index m = s.r.size();
+  if (m <= n_free) return MatX::Constant(s.p.size(), s.p.size(), std::numeric_limits<double>::quiet_NaN());
+  return covariance(s.J, s.at_bound, white_noise(std::sqrt(2 * s.cost / static_cast<double>(m - n_free)), m));
 }
 
 }  // namespace langer

@@ -23,7 +23,10 @@ struct LeastSquares {
   std::function<bool(const VecX& p, VecX& r)> residual;
   VecX start, lower, upper, typical;
   double size = 1;
-  std::vector<bool> linear;  // parameters in which r is linear: one difference gives their column; empty: none
+  std::vector<bool> linear;    // parameters in which r is linear: one difference gives their column; empty: none
+  std::vector<double> period;  // of parameters that come again, such as angles; 0 for the others; empty: none
+
+  double period_of(Eigen::Index i) const { return period.empty() ? 0 : period[static_cast<std::size_t>(i)]; }
 };
 
 struct LeastSquaresOptions {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlopt.hpp>
 
+#include "fit/periodic.hpp"
+
 namespace langer {
 
 namespace {
@@ -71,15 +73,15 @@ Comparison second_answer(const FitProblem& problem, const LeastSquaresResult& fi
   Comparison c;
   c.p = f.best;
   c.cost = f.lowest * f.scale;
-  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale, difference = c.cost - first.cost;
-  c.agrees = std::abs(difference) <= allowed;
+  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale, higher = c.cost - first.cost;
+  c.agrees = std::abs(higher) <= allowed;
   double apart = 0;
   for (Eigen::Index i = 0; i < c.p.size(); ++i)
-    apart = std::max(apart, std::abs(c.p[i] - first.p[i]) / std::max(std::abs(first.p[i]), f.q.typical[i]));
+    apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) / std::max(std::abs(first.p[i]), f.q.typical[i]));
   const std::string same = apart < 1e-2 ? fmt::format("parameters within {:.0e} of themselves", apart)
                                         : "with other parameters, between which these tests do not decide";
   c.text = c.agrees ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
-           : difference < 0
+           : higher < 0
                ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
                : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no second answer here", c.cost,
                              first.cost);

@@ -2,6 +2,7 @@
 //   rows are parameters, columns are points of the curve
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -16,8 +17,12 @@ struct Estimate {
   MatX value, low, high;  // 95 % between low and high
 };
 
+enum class Sequence { sobol, random };
+constexpr auto names(Sequence) { return std::array{"sobol", "random"}; }
+
 struct SamplingOptions {
   std::uint64_t seed = 1;
+  Sequence sequence = Sequence::sobol;   // of Sobol's samples
   int threads = 1;                       // changes nothing but the time
   int resamples = 500;                   // of the bootstrap
   std::vector<std::vector<int>> groups;  // points taken together, such as those of a zone of strain

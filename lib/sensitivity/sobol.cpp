@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/in_order.hpp"
 #include "base/random.hpp"
+#include "sensitivity/sobol_sequence.hpp"
 
 namespace langer {
 
@@ -58,11 +60,16 @@ Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
   return r;
 }
 
-void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower, const VecX& range, Random random) {
+// (2 k) of one row, in [0, 1)
+VecX independent(Eigen::Index size, Random random) {
+  VecX u(size);
+  for (double& x : u) x = random.uniform();
+  return u;
+}
+
+void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower, const VecX& range, const VecX& u) {
   const auto k = lower.size();
-  VecX a(k), b(k);
-  for (Eigen::Index i = 0; i < k; ++i) a[i] = lower[i] + random.uniform() * range[i];
-  for (Eigen::Index i = 0; i < k; ++i) b[i] = lower[i] + random.uniform() * range[i];
+  VecX a = lower + u.head(k).cwiseProduct(range), b = lower + u.tail(k).cwiseProduct(range);
   const auto curve = [&](const VecX& p, VecX& y) {
     ++sums.curves;
     if (!phi(p, y) || !y.allFinite()) return false;
@@ -94,6 +101,7 @@ void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const V
 Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long n, const SamplingOptions& options) {
   Sobol result;
   const auto k = lower.size();
+  const bool random_rows = options.sequence == Sequence::random || 2 * k > SobolSequence::most_dimensions;
   const int threads = std::max(1, options.threads);
   std::vector<ParametricCurve> phi;
   for (int t = 0; t < threads; ++t) phi.push_back(maker());
@@ -105,10 +113,12 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
       threads, n_blocks,
       [&](int worker, int block) {
         const long from = n * block / n_blocks, to = n * (block + 1) / n_blocks;
+        std::optional<SobolSequence> sequence;
+        if (!random_rows) sequence.emplace(2 * k, Random(options.seed, 1ull << 41), static_cast<std::uint32_t>(from));
         Sums sums(k, middle.size());  // of its own: neighbours in `blocks` would share cache lines
         for (long row = from; row < to; ++row)
           add_row(sums, phi[static_cast<std::size_t>(worker)], middle, lower, upper - lower,
-                  Random(options.seed, static_cast<std::uint64_t>(row)));
+                  random_rows ? independent(2 * k, Random(options.seed, static_cast<std::uint64_t>(row))) : sequence->next());
         blocks[static_cast<std::size_t>(block)] = std::move(sums);
       },
       [&](int, int block) {

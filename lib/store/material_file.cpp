@@ -95,6 +95,11 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   group.write_scalar("r2", fit.r2);
   group.write_scalar("aicc", fit.aicc);
   group.write_scalar("bic", fit.bic);
+  group.write_scalar("residual_correlation", fit.residual_correlation, "-");
+  group.write_scalar("effective_values", fit.effective_values, "-");
+  std::string ties;
+  for (const Tie& tie : fit.ties) ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
+  if (!ties.empty()) group.attribute("ties", ties);
 
   if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
   std::vector<Summary> summary;
@@ -108,6 +113,20 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   summary.push_back({"kkt_residual", fit.kkt_residual, "-"});
   write_summary(root, summary);
   write_study(root, fit.study);
+}
+
+// "fibres[1].alpha = -fibres[0].alpha; ..."
+std::vector<Tie> read_ties(const std::string& text) {
+  std::vector<Tie> ties;
+  std::istringstream all(text);
+  for (std::string one; std::getline(all, one, ';');) {
+    const std::size_t equals = one.find('='), first = one.find_first_not_of(' ');
+    const auto tie = equals == std::string::npos || equals == 0 || first >= equals
+                         ? std::nullopt
+                         : parse_tie(one.substr(first, one.find_last_not_of(' ', equals - 1) + 1 - first), one.substr(equals + 1));
+    if (tie) ties.push_back(*tie);
+  }
+  return ties;
 }
 
 FitRecord read_fit(const h5::Group& root) {
@@ -147,6 +166,9 @@ FitRecord read_fit(const h5::Group& root) {
     fit.tests.push_back(std::move(test));
   }
   if (group.has("at_rest")) fit.at_rest = read_at_rest(group.group("at_rest"));
+  if (group.has("residual_correlation")) fit.residual_correlation = group.read_scalar("residual_correlation");
+  if (group.has("effective_values")) fit.effective_values = group.read_scalar("effective_values");
+  if (group.has_attribute("ties")) fit.ties = read_ties(group.text_attribute("ties"));
   fit.study = read_study(root);
   return fit;
 }

@@ -7,6 +7,7 @@
 
 #include "fit/stiffness_at_rest.hpp"
 #include "material/material.hpp"
+#include "material/ties.hpp"
 #include "store/identity.hpp"
 #include "store/study_record.hpp"
 #include "tensor/types.hpp"
@@ -43,6 +44,9 @@ struct FitRecord {
   std::vector<FittedTest> tests;                         // all of them
   double r2 = 0, aicc = 0, bic = 0;                      // see fit/fit.hpp; NaN where there are too few points
   std::optional<StiffnessAtRest> at_rest;                // where its bound was raised
+  // correlation of the residuals from value to value, and how many independent values they count as; 0 in files without it
+  double residual_correlation = 0, effective_values = 0;
+  std::vector<Tie> ties;                                 // numbers of the law that follow others
   StudyRecord study;                                     // read back: fitted range, verdict and safe radius
 };
 

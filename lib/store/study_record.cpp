@@ -26,6 +26,8 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
   group.attribute("order", fmt::format("{}", fmt::join(r.names, " ")));
   group.attribute("words", r.words);
   group.write_scalar("noise", r.noise, "MPa");
+  group.write_scalar("residual_correlation", r.rho, "-");
+  group.write_scalar("effective_values", r.effective, "-");
   write_vector(group, "error", r.error, "");
   write_vector(group, "size", r.size, "");
   write_vector(group, "singular", r.singular);

@@ -1,5 +1,5 @@
 // What data tell about a fit, and where its law is stable, in material.h5.               docs/schema.md
-//   /identifiability/{noise, error, correlation, singular, combination}   attribute `words` of /identifiability
+//   /identifiability/{noise, residual_correlation, effective_values, error, correlation, singular, combination}   attribute `words` of /identifiability
 //   /identifiability/profiles/<name>/{value, rise, interval}   attributes low_open, high_open
 //   /identifiability/bootstrap/{samples, interval}
 //   /identifiability/advice/{worst, gain, relative}            attribute `tests`
@@ -34,6 +34,8 @@ struct IdentifiabilityRecord {
   std::vector<std::string> names;
   std::vector<double> value, size;
   double noise = 0;
+  double rho = 0, effective = 0;  // correlation of residuals from value to value; number of values that they count as
+  std::vector<bool> symmetric;    // angles of symmetry, which have no standard error
   VecX error, singular;
   MatX correlation, combination;
   std::string words;  // of the least felt combination

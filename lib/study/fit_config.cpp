@@ -1,5 +1,7 @@
 #include "study/fit_config.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -58,6 +60,8 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
     box = start < 0 ? Range{-20, -1, true, true} : Range{1, 20, true, true};
   else if (power)
     box = {-20, 20, true, true};
+  else if (parameter.name.starts_with("c2") && parameter.unit == std::string(unit::none))
+    box.high = 100;  // skin in vivo, and porcine skin in stiff directions, is above 10
   else if (parameter.name.starts_with("Jm"))
     box = {0.1, 200, true, true};
   else if (parameter.name.starts_with("locking"))
@@ -93,6 +97,86 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   return free;
 }
 
+namespace {
+
+// of those whose text is understood
+std::vector<Tie> written_ties(const FitConfig& config) {
+  std::vector<Tie> all;
+  for (const FitTie& written : config.ties)
+    if (const auto tie = parse_tie(written.key, written.follows)) all.push_back(*tie);
+  return all;
+}
+
+Complaint unknown(const std::string& at, const std::string& key, const std::vector<MaterialParameter>& known) {
+  std::vector<std::string> keys;
+  std::string list;
+  for (const MaterialParameter& k : known) keys.push_back(k.key), list += (list.empty() ? "" : ", ") + k.key;
+  const std::string near = nearest(key, keys);
+  return {at, "the law has no number \"" + key + "\"", "one of " + list, near.empty() ? "" : "did you mean \"" + near + "\"?"};
+}
+
+// what is wrong with one tie whose text was understood; `whole` follows chains to their ends
+void complain(const std::string& at, const Tie& tie, const Tie& whole, const FitConfig& config, const std::vector<MaterialParameter>& known,
+              std::vector<Complaint>& all) {
+  const auto number = [&](const std::string& key) {
+    return std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == key; });
+  };
+  const auto tied = number(tie.key), of = number(tie.of);
+  if (tied == known.end()) all.push_back(unknown(at + "key", tie.key, known));
+  if (of == known.end()) all.push_back(unknown(at + "follows", tie.of, known));
+  if (tied == known.end() || of == known.end()) return;
+  if (tie.key == tie.of)
+    return all.push_back({at + "follows", "\"" + tie.key + "\" tied to itself", "another number of the law", ""});
+  const std::vector<FreeParameter> free = free_parameters(config);
+  if (std::any_of(free.begin(), free.end(), [&](const FreeParameter& p) { return p.key == tie.key; }))
+    return all.push_back({at + "key", "\"" + tie.key + "\" is tied and stands among the parameters to find", "one of the two",
+                          "bounds belong to " + tie.of + ", which it follows"});
+  if (tied->unit != of->unit)
+    return all.push_back({at + "follows", fmt::format("{} in {} tied to {} in {}", tie.key, tied->unit, tie.of, of->unit),
+                          "numbers of one unit", ""});
+  const auto root = std::find_if(free.begin(), free.end(), [&](const FreeParameter& p) { return p.key == whole.of; });
+  const auto source = number(whole.of);
+  if (source == known.end()) return;
+  const double from = root == free.end() ? *source->value : root->lower, to = root == free.end() ? from : root->upper;
+  for (const double end : {whole.factor * from + whole.offset, whole.factor * to + whole.offset})
+    if (end < tied->range.low || end > tied->range.high || (end == tied->range.low && !tied->range.low_included))
+      return all.push_back({at + "follows", fmt::format("{} would be {} where {} is {}", tie.key, number_text(end), whole.of,
+                                            number_text(whole.factor != 0 ? (end - whole.offset) / whole.factor : from)),
+                            fmt::format("between {} and {}, as the law asks", number_text(tied->range.low), number_text(tied->range.high)),
+                            "other bounds of " + whole.of + ", or another factor"});
+}
+
+void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
+  const std::vector<Tie> written = written_ties(config);
+  const ResolvedTies whole = resolved(written);
+  const auto itself = [](const Tie& t) { return t.key == t.of; };
+  const bool circle = !whole.circle.empty() && std::none_of(written.begin(), written.end(), itself);
+  std::set<std::string> seen;
+  for (std::size_t i = 0, understood = 0; i < config.ties.size(); ++i) {
+    const FitTie& one = config.ties[i];
+    const std::string at = fmt::format("ties[{}].", i);
+    if (!seen.insert(one.key).second) all.push_back({at + "key", "\"" + one.key + "\" a second time", "each number once", ""});
+    if (!parse_tie(one.key, one.follows)) {
+      all.push_back({at + "follows", "found \"" + one.follows + "\"", "a number of the law, with a sign, a factor or an offset",
+                     "such as fibres[0].alpha, -fibres[0].alpha, 0.5 * fibres[0].hgo.c1 or fibres[0].alpha + 90"});
+      continue;
+    }
+    if (!circle)
+      complain(at, written[understood], whole.ties[understood], config, known, all);
+    else if (one.key == whole.circle)
+      all.push_back({at + "follows", "\"" + one.key + "\" follows itself through the other ties",
+                     "ties that end at a number without one", ""});
+    ++understood;
+  }
+}
+
+}  // namespace
+
+std::vector<Tie> ties_of(const FitConfig& config) {
+  const ResolvedTies whole = resolved(written_ties(config));
+  return whole.circle.empty() ? whole.ties : std::vector<Tie>();
+}
+
 std::vector<Complaint> FitConfig::complaints() const {
   std::vector<Complaint> all;
   if (data.empty()) all.push_back({"data", "an empty list", "one test at least", ""});
@@ -113,11 +197,7 @@ std::vector<Complaint> FitConfig::complaints() const {
     const std::string at = "parameters[" + std::to_string(i) + "].";
     const auto found = std::find(keys.begin(), keys.end(), p.key);
     if (found == keys.end()) {
-      std::string list;
-      for (const std::string& k : keys) list += (list.empty() ? "" : ", ") + k;
-      const std::string near = nearest(p.key, keys);
-      all.push_back({at + "key", "the law has no number \"" + p.key + "\"", "one of " + list,
-                     near.empty() ? "" : "did you mean \"" + near + "\"?"});
+      all.push_back(unknown(at + "key", p.key, known));
       continue;
     }
     if (!seen.insert(p.key).second) all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
@@ -144,6 +224,7 @@ std::vector<Complaint> FitConfig::complaints() const {
                      "a value between " + number_text(lower) + " and " + number_text(upper),
                      p.start ? "" : "the start is the law's own value unless `start` is given"});
   }
+  complain_about_ties(*this, known, all);
   return all;
 }
 
@@ -204,7 +285,7 @@ double greatest_secant(const std::vector<Test>& tests) {
 }  // namespace
 
 FitProblem fit_problem(const FitConfig& config) {
-  FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation};
+  FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation, ties_of(config)};
   if (config.bounds == Bounds::custom) return problem;
   const double secant = 3 * greatest_secant(problem.tests);
   Material law = config.law;

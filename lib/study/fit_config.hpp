@@ -4,6 +4,7 @@
 //   law:        a material; its numbers are the start values, those not named under `parameters` stay as they are
 //   bounds:     admissible
 //   parameters: [{key: matrix.yeoh.a1}, {key: "fibres[0].alpha", lower: 0, upper: 90}, ...]
+//   ties:       [{key: "fibres[1].alpha", follows: "-fibres[0].alpha"}, ...]
 #pragma once
 
 #include <map>
@@ -83,6 +84,17 @@ struct FitParameter {
   }
 };
 
+struct FitTie {
+  std::string key, follows;
+  static void fields(auto& v) {
+    v(&FitTie::key, "key", unit::none, "path of a number of the law that is not among `parameters`", required);
+    v(&FitTie::follows, "follows", unit::none,
+      "path of the number that it follows, with a sign, a factor or an offset if need be: -fibres[0].alpha, "
+      "0.5 * fibres[0].hgo.c1, fibres[0].alpha + 90",
+      required);
+  }
+};
+
 enum class SecondAnswer { none, nlopt };
 constexpr auto names(SecondAnswer) { return std::array{"none", "nlopt"}; }
 
@@ -90,6 +102,7 @@ struct FitConfig {
   std::vector<FitData> data;
   Material law;
   std::vector<FitParameter> parameters;
+  std::vector<FitTie> ties;
   Bounds bounds = Bounds::custom;
   Dilatation dilatation = Dilatation::incompressible;
   int starts = 20;
@@ -100,6 +113,7 @@ struct FitConfig {
     v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
     v(&FitConfig::law, "law", unit::none, "energy terms, fibre angles and the numbers that are not fitted", required);
     v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
+    v(&FitConfig::ties, "ties", unit::none, "numbers of the law that follow others, such as those of a second family of fibres");
     v(&FitConfig::bounds, "bounds", unit::none,
       "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable, and a shear "
       "modulus at rest that the tests can tell from 0 (docs/identification.md)");
@@ -117,11 +131,14 @@ struct FitConfig {
 };
 
 // the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it must be admissible;
-// exponents 0..10, angles -90..90, limits of extension up to 200
+// exponents 0..10, those of fibres (c2) 0..100, angles -90..90, limits of extension up to 200
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start);
 
 // the parameters with their bounds and start values; a key that the law lacks stays without (complaints() names it)
 std::vector<FreeParameter> free_parameters(const FitConfig& config);
+
+// the ties of the law, resolved; those that complaints() names are left out
+std::vector<Tie> ties_of(const FitConfig& config);
 
 // reads the files; throws Failure(input)
 std::vector<Test> measured_tests(const FitConfig& config);

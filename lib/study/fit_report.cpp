@@ -26,6 +26,8 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   record.kkt_residual = fit.best.kkt;
   record.mean_error_percent = fit.quality.mean_error_percent, record.max_error_percent = fit.quality.max_error_percent;
   record.r2 = fit.quality.r2, record.aicc = fit.quality.aicc, record.bic = fit.quality.bic;
+  record.residual_correlation = fit.noise.rho, record.effective_values = fit.noise.effective;
+  record.ties = problem.ties;
   record.starts = fit.starts;
   const double* model = fit.model.data();
   for (std::size_t t = 0; t < problem.tests.size(); ++t) {
@@ -111,12 +113,15 @@ std::string fit_csv(const FitRecord& record) {
 std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
   for (const FittedParameter& p : record.parameters) {
-    const bool on_bound = p.value == p.lower || p.value == p.upper;
-    const std::string known = on_bound                       ? "on its bound"
-                              : std::isnan(p.standard_error) ? "not determined by this curve"
+    const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
+    const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
+    const std::string known = on_bound                                ? "on its bound"
+                              : std::isnan(p.standard_error) && turns ? "at an angle of symmetry, or not determined: see its profile"
+                              : std::isnan(p.standard_error)          ? "not determined by this curve"
                                                              : fmt::format("standard error {:.2g}", p.standard_error);
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
   }
+  for (const Tie& tie : record.ties) lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
   if (record.tests.size() > 1)
     for (const FittedTest& t : record.tests)
       lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2,
@@ -145,6 +150,13 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
       lines.push_back(
           fmt::format("c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
                       fibre.hgo.c1));
+  if (record.residual_correlation > 0) {
+    std::size_t values = 0;
+    for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
+    lines.push_back(fmt::format("residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
+                                "errors, intervals and AICc; the law misses the curves, or the device drifts",
+                                record.residual_correlation, values, record.effective_values));
+  }
   const MatX correlations = correlation(record.covariance);
   for (std::size_t i = 0; i < record.parameters.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {

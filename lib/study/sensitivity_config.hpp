@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "config/writer.hpp"
 #include "material/path.hpp"
+#include "sensitivity/sampling.hpp"
 
 namespace langer {
 
@@ -49,8 +50,11 @@ struct MorrisChoice {
 
 struct SobolChoice {
   int samples = 8192;
+  Sequence sequence = Sequence::sobol;
   static void fields(auto& v) {
     v(&SobolChoice::samples, "samples", unit::none, "rows of the two samples; each costs k + 2 curves", between(64, 100000000));
+    v(&SobolChoice::sequence, "sequence", unit::none,
+      "where the samples lie: sobol, a low-discrepancy sequence, evenly (best where samples are a power of 2), or random");
   }
 };
 

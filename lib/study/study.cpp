@@ -19,18 +19,14 @@ std::string word(E e) {
   return names(e)[static_cast<std::size_t>(e)];
 }
 
-// the test that a candidate would be: to the largest strain measured so far, as many points as the largest test
-Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests) {
+// The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as the largest test, whose weight it
+// has as well, for it is measured by the same device.
+Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, double reach) {
+  const Test& largest = *std::max_element(tests.begin(), tests.end(), [](const Test& a, const Test& b) { return a.points() < b.points(); });
   Test t;
-  t.kind = choice.kind, t.fibre_angle_deg = choice.fibre_angle;
-  double reach = 0;
-  std::size_t points = 0;
-  for (const Test& one : tests) {
-    for (double x : one.first) reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
-    points = std::max(points, one.points());
-  }
-  for (std::size_t i = 1; i <= points; ++i) {
-    const double x = reach * static_cast<double>(i) / static_cast<double>(points);
+  t.kind = choice.kind, t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
+  for (std::size_t i = 1; i <= largest.points(); ++i) {
+    const double x = reach * static_cast<double>(i) / static_cast<double>(largest.points());
     t.first.push_back(choice.kind == TestKind::simple_shear ? x : 1 + x);
     if (choice.kind == TestKind::biaxial) t.second.push_back(1 + x);
     t.stress_x.push_back(0);
@@ -39,21 +35,75 @@ Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests) {
   return t;
 }
 
+// the largest component of the Cauchy stress in a test, up to the first state that does not exist [MPa]
+double largest_cauchy(const Material& material, Test test) {
+  const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
+  double largest = 0;
+  for (std::size_t i = 0; i < test.points(); ++i) {
+    const PlaneState s = plane_state(material, a, test.kind, test.first[i], test.second.empty() ? 1 : test.second[i], test.shear);
+    if (!s.converged) break;
+    largest = std::max(largest, s.sigma.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+// How far a candidate goes: to the largest amount measured so far, but not beyond the stress that the material has borne.
+double reach_of(const CandidateChoice& choice, const Material& material, const std::vector<Test>& tests) {
+  double reach = 0, borne = 0;
+  for (const Test& one : tests) {
+    for (double x : one.first) reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
+    borne = std::max(borne, largest_cauchy(material, one));
+  }
+  const auto stress_at = [&](double amount) {
+    const std::vector<Vec3> a = specimen_fibres(material, choice.fibre_angle);
+    const double first = choice.kind == TestKind::simple_shear ? amount : 1 + amount;
+    const PlaneState s = plane_state(material, a, choice.kind, first, first);
+    return s.converged ? s.sigma.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
+  };
+  // the first crossing: stress need not rise throughout
+  constexpr int steps = 60;
+  for (int i = 1; i <= steps; ++i) {
+    double high = reach * i / steps, low = reach * (i - 1) / steps;
+    if (!std::isgreater(stress_at(high), borne * (1 + 1e-9))) continue;
+    for (int k = 0; k < 30; ++k) {
+      const double middle = 0.5 * (low + high);
+      (std::isgreater(stress_at(middle), borne) ? high : low) = middle;
+    }
+    return low;
+  }
+  return reach;
+}
+
+// Correlated residuals tell less than as many independent ones. Old tests and new ones alike count with the white noise that
+// would leave the worst known parameter the error that it has.
 std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
-                                    const MatX& known, const VecX& size, const std::vector<Eigen::Index>& free) {
+                                    const Identifiability& s) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
+    if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);
+  if (free.empty()) return {};
+  const MatX J = fit.best.J(Eigen::all, free);
+  const VecX size = s.size(free), told = s.error(free).cwiseQuotient(size);
+  const MatX white = covariance(J, std::vector<bool>(free.size(), false), white_noise(s.noise, J.rows()));
+  double noise = s.noise;
+  Eigen::Index worst = 0;
+  if (told.allFinite() && told.maxCoeff(&worst) > 0) noise *= told[worst] * size[worst] / std::sqrt(white(worst, worst));
+  const MatX known = information(J, size, noise);
   std::vector<Candidate> candidates;
   for (const CandidateChoice& choice : config.candidates) {
+    const double reach = reach_of(choice, fit.material, problem.tests);
+    if (!(reach > 0)) continue;
     FitProblem more = problem;
-    more.tests = {test_like(choice, problem.tests)};
+    more.tests = {test_like(choice, problem.tests, reach)};
     const LeastSquares q = least_squares_problem(more);
     VecX stress;
-    MatX J;
+    MatX J_all;
     // no test where the law has no state
-    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J)) continue;
-    MatX part(J.rows(), static_cast<Eigen::Index>(free.size()));
-    for (std::size_t j = 0; j < free.size(); ++j) part.col(static_cast<Eigen::Index>(j)) = J.col(free[j]);
-    const std::string name = fmt::format("{}, fibres at {:g} degrees", word(choice.kind), choice.fibre_angle);
-    candidates.push_back({name, part, config.noise * stress.cwiseAbs().maxCoeff()});
+    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J_all)) continue;
+    const bool shear = choice.kind == TestKind::simple_shear;
+    candidates.push_back({fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(choice.kind), choice.fibre_angle,
+                                      shear ? "shear" : "stretch", shear ? reach : 1 + reach),
+                          J_all(Eigen::all, free), noise});
   }
   std::vector<AdviceRecord> records;
   for (const Advice& a : advise(known, size, candidates)) {
@@ -65,49 +115,46 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   return records;
 }
 
+// how much wider samples must be for rho and deviation that are estimated: the mean over the parameters
+double growth(const ResidualNoise& noise, const FitResult& fit) {
+  VecX with = interval_factors(fit.columns, fit.left_out, noise);
+  ResidualNoise known = noise;
+  known.freedom = std::numeric_limits<double>::infinity();
+  return with.cwiseQuotient(interval_factors(fit.columns, fit.left_out, known)).mean();
+}
+
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
                                const ProgressOf& progress) {
   const LeastSquares q = least_squares_problem(problem);
   const auto say = [&](const char* what) { return progress ? progress(what) : std::function<void(double)>(); };
   const VecX& p = fit.best.p;
-  const auto m = fit.best.r.size(), n = p.size();
+  const auto n = p.size();
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
-  const double estimated = m > n ? std::sqrt(2 * fit.best.cost / static_cast<double>(m - n)) : 0;
-  const double noise = std::max(config.noise * largest, estimated);
-  const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.best.at_bound, noise);
+  const ResidualNoise noise = with_least(fit.noise, config.noise * largest);
+  const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
+  const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
-  record.names = parameter_names(problem);
+  record.names = parameter_names(problem), record.symmetric = fit.symmetric;
   record.value.assign(p.data(), p.data() + n);
   record.size.assign(s.size.data(), s.size.data() + n);
-  record.noise = noise, record.error = s.error, record.singular = s.singular;
+  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective, record.error = s.error, record.singular = s.singular;
   record.correlation = s.correlation, record.combination = s.combination;
   if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
   if (config.profiles) {
     ProfileOptions options;
-    options.threads = config.threads, options.progress = say("profiles");
-    for (const Profile& one : profiles([&] { return least_squares_problem(problem); }, p, s.error, noise, options))
+    options.factor = factors, options.threads = config.threads, options.progress = say("profiles");
+    for (const Profile& one : profiles([&] { return least_squares_problem(problem); }, p, s.error, s.noise, options))
       record.profiles.push_back({one.value, one.rise, one.low, one.high, one.low_open, one.high_open});
   }
   if (config.bootstrap > 0) {
     BootstrapOptions options;
     options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
-    // residuals smaller than the noise one believes in tell nothing about it
-    options.gaussian = noise > estimated, options.threads = config.threads, options.progress = say("bootstrap");
+    options.growth = growth(noise, fit), options.threads = config.threads, options.progress = say("bootstrap");
     const Bootstrap b = bootstrap([&] { return least_squares_problem(problem); }, p, noise, options);
     record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
   }
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (!fit.best.at_bound[static_cast<std::size_t>(i)]) free.push_back(i);
-  if (!free.empty()) {
-    const auto k = static_cast<Eigen::Index>(free.size());
-    MatX J(m, k);
-    VecX size(k);
-    for (Eigen::Index j = 0; j < k; ++j)
-      J.col(j) = fit.best.J.col(free[static_cast<std::size_t>(j)]), size[j] = s.size[free[static_cast<std::size_t>(j)]];
-    record.advice = advice_of(problem, fit, config, information(J, size, noise), size, free);
-  }
+  record.advice = advice_of(problem, fit, config, s);
   return record;
 }
 
@@ -191,10 +238,14 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
   std::vector<std::string> lines;
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
-    lines.push_back(fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
+    lines.push_back(r.rho > 0 ? fmt::format("with a noise of {:.3g} MPa, correlated by {:.3f} from value to value, so that they count as "
+                                            "{:.0f} in all, the data tell:",
+                                            r.noise, r.rho, r.effective)
+                              : fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      std::string s = std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
+      std::string s = r.symmetric[i]           ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
+                      : std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
                                              : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %)", r.names[i], r.error[k],
                                                            100 * r.error[k] / r.size[i]);
       if (!r.profiles.empty()) {

@@ -30,6 +30,7 @@ QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   if (design.one_at_a_time) e.one_at_a_time = one_at_a_time(phi, box.value, box.lower, box.upper, design.one_at_a_time->steps);
   if (design.morris)
     e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories, design.morris->levels, options);
+  if (design.sobol) options.sequence = design.sobol->sequence;
   if (design.sobol) e.sobol = sobol(maker, box.lower, box.upper, design.sobol->samples, options);
   if (e.one_at_a_time && e.one_at_a_time->complete)
     for (MatX* A : {&e.one_at_a_time->mu_star, &e.one_at_a_time->s, &e.one_at_a_time->spread})

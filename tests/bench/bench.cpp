@@ -1,6 +1,6 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: paper, depths, grading, growth
+//                               only when named: coverage, paper, depths, grading, growth
 #include <fmt/format.h>
 
 #include <array>
@@ -20,7 +20,8 @@
 
 using namespace langer;
 
-void measure_fit();  // fit.cpp
+void measure_fit();       // fit.cpp
+void measure_coverage();  // coverage.cpp
 
 namespace {
 
@@ -149,6 +150,7 @@ int main(int argc, char** argv) {
     measure("the same to 1 mm in steps of 0.1 mm", scene, skin);
   }
   if (wanted("fit")) measure_fit();
+  if (asked.count("coverage")) measure_coverage();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))
     for (int threads : {1, 2}) {

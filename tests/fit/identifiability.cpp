@@ -73,7 +73,7 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
   for (int i = 0; i < 10; ++i) y[i] = 2 + 0.5 * i + 0.1 * random.normal();
   const LeastSquares q = line(y);
   const LeastSquaresResult best = least_squares(q);
-  const Identifiability s = identifiability(best.J, best.p, sizes_of(q, best.p), best.at_bound, 0.1);
+  const Identifiability s = identifiability(best.J, best.p, sizes_of(q, best.p), best.at_bound, white_noise(0.1, 10));
   // sum x = 45, sum x^2 = 285, determinant 825
   CHECK(s.error[0] == doctest::Approx(0.1 * std::sqrt(285. / 825)).epsilon(1e-9));
   CHECK(s.error[1] == doctest::Approx(0.1 * std::sqrt(10. / 825)).epsilon(1e-9));
@@ -100,7 +100,7 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
   CHECK(boxed[0].high == doctest::Approx(best.p[0] + 0.5 * s.error[0]));
   BootstrapOptions draws;
   draws.samples = 4000;
-  const Bootstrap b = bootstrap([&] { return line(y); }, best.p, 0.1, draws);
+  const Bootstrap b = bootstrap([&] { return line(y); }, best.p, white_noise(0.1, 10), draws);
   CHECK(b.failed == 0);
   for (int i = 0; i < 2; ++i) {
     CHECK(b.low[i] == doctest::Approx(best.p[i] - 1.96 * s.error[i]).epsilon(0.1 * s.error[i] / std::abs(best.p[i])));
@@ -112,7 +112,7 @@ TEST_CASE("parameters that only act together are not determined, and the words s
   //   y depends on p0 + p1 alone
   MatX J(3, 3);
   J << 1, 1, 0, 2, 2, 0, 0, 0, 5;
-  const Identifiability s = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {false, false, false}, 0.1);
+  const Identifiability s = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {false, false, false}, white_noise(0.1, 3));
   CHECK(std::isnan(s.error[0]));
   CHECK(std::isnan(s.error[1]));
   CHECK(s.error[2] == doctest::Approx(0.02));
@@ -121,7 +121,7 @@ TEST_CASE("parameters that only act together are not determined, and the words s
   CHECK(words.find("b -") != std::string::npos);
   CHECK(words.find("c ") == std::string::npos);
   // on a bound: left out
-  const Identifiability held = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {true, false, false}, 0.1);
+  const Identifiability held = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {true, false, false}, white_noise(0.1, 3));
   CHECK(std::isnan(held.error[0]));
   CHECK(held.error[1] == doctest::Approx(0.1 / std::sqrt(5.)));
   CHECK(held.combination.cols() == 2);
@@ -133,7 +133,7 @@ TEST_CASE("one test along the fibre: 44, 45, 8, 46 and 24 % at 1 % noise, one sl
   MatX J;
   REQUIRE(jacobian(problem, table1, J));
   const double noise = 0.01 * largest_stress(q.tests[0]);
-  const Identifiability s = identifiability(J, table1, sizes_of(problem, table1), none_at_bound, noise);
+  const Identifiability s = identifiability(J, table1, sizes_of(problem, table1), none_at_bound, white_noise(noise, J.rows()));
   const double percent[] = {44, 45, 8, 46, 24};
   for (int i = 0; i < 5; ++i) CHECK(100 * s.error[i] / std::abs(table1[i]) == doctest::Approx(percent[i]).epsilon(0.05));
   CHECK(s.correlation(0, 3) == doctest::Approx(-0.9988).epsilon(2e-4));
@@ -191,7 +191,7 @@ TEST_CASE("95 % intervals of noisy tests hold the true parameters 90 to 99 times
     REQUIRE(best.converged);
     // the noise is estimated, as for real data; Student's factor for 35 degrees of freedom
     const double estimated = std::sqrt(2 * best.cost / 35);
-    const Identifiability s = identifiability(best.J, best.p, sizes_of(problem, best.p), best.at_bound, estimated);
+    const Identifiability s = identifiability(best.J, best.p, sizes_of(problem, best.p), best.at_bound, white_noise(estimated, 40));
     for (int i = 0; i < 5; ++i) {
       held[i] += std::abs(best.p[i] - truth[i]) <= 2.0301 * s.error[i];
       held_by_profile[i] += profile_rise(problem, i, truth[i], best.p, estimated) <= 2.0301 * 2.0301;
@@ -213,7 +213,7 @@ TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
   const VecX best = vec({0.05, 0.10}), error = vec({0.002, 0.004});
   BootstrapOptions one, three;
   one.samples = three.samples = 20, three.threads = 3;
-  const Bootstrap a = bootstrap(maker, best, 0.005, one), b = bootstrap(maker, best, 0.005, three);
+  const Bootstrap a = bootstrap(maker, best, white_noise(0.005, 20), one), b = bootstrap(maker, best, white_noise(0.005, 20), three);
   CHECK(a.samples.rows() == 20);
   CHECK((a.samples.array() == b.samples.array()).all());
   ProfileOptions p1, p3;
@@ -233,7 +233,7 @@ TEST_CASE("profiles and bootstrap tell how far they are, growing to the whole, o
   const auto listen = [&](double part) { told.push_back(part); };
   BootstrapOptions draws;
   draws.samples = 10, draws.threads = 3, draws.progress = listen;
-  bootstrap(maker, vec({0.05, 0.10}), 0.005, draws);
+  bootstrap(maker, vec({0.05, 0.10}), white_noise(0.005, 20), draws);
   CHECK(told.size() == 10);
   CHECK(std::is_sorted(told.begin(), told.end()));
   CHECK(told.back() == 1);

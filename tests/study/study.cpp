@@ -76,8 +76,10 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     const IdentifiabilityRecord& r = *s.record.identifiability;
     CHECK(r.names == std::vector<std::string>{"a1", "c1", "c2"});
     CHECK(s.told == std::vector<std::string>{"profiles", "bootstrap", "stability map"});
+    CHECK(r.rho == s.fit.noise.rho);
+    CHECK(r.effective == s.fit.noise.effective);
     // the misfit says more of the noise than the 1 % asked for, and is near the noise put in
-    CHECK(r.noise == doctest::Approx(std::sqrt(2 * s.fit.best.cost / 27)).epsilon(1e-9));
+    CHECK(r.noise == s.fit.noise.deviation);
     CHECK(r.noise == doctest::Approx(0.012).epsilon(0.4));
     for (int i = 0; i < 3; ++i) {
       const ProfileRecord& p = r.profiles[static_cast<std::size_t>(i)];
@@ -110,10 +112,19 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     fs::create_directories(folder);
     FitRecord record = fit_record(s.problem, s.fit);
     record.study = s.record;
+    record.ties = {{"fibres[1].alpha", "fibres[0].alpha", -1, 90}, {"fibres[1].hgo.c1", "fibres[0].hgo.c1", 0.5, 0}};
     Identity identity;
     identity.stage = "fit";
     write_material(folder + "/material.h5", s.fit.material, record, identity);
-    const StudyRecord back = read_material(folder + "/material.h5").fit->study;
+    const FitRecord fit = *read_material(folder + "/material.h5").fit;
+    CHECK(fit.residual_correlation == record.residual_correlation);
+    CHECK(fit.effective_values == record.effective_values);
+    REQUIRE(fit.ties.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(fit.ties[i].key == record.ties[i].key);
+      CHECK(tie_text(fit.ties[i]) == tie_text(record.ties[i]));
+    }
+    const StudyRecord& back = fit.study;
     CHECK(back.range->I1_bar == s.record.range->I1_bar);
     CHECK(back.range->I4_bar == s.record.range->I4_bar);
     CHECK(back.stability->verdict == s.record.stability->verdict);
