@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -132,6 +133,45 @@ void say_unknown(const Tree::Entry& entry, const std::string& path, const std::v
   f.say(entry.value.place, path,
         fmt::format("unknown key \"{}\"; known: {}{}", entry.key, list_words(known),
                     near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum, Findings& f) {
+  using Entries = std::vector<const Tree::Entry*>;
+  const auto those = [&](auto&& hold) {
+    Entries found;
+    for (const Tree::Entry& entry : tree.map)
+      if (hold(entry.value)) found.push_back(&entry);
+    return found;
+  };
+  const auto words = [](const Entries& entries) {
+    std::vector<std::string> keys;
+    for (const Tree::Entry* e : entries) keys.push_back(e->key);
+    return list_words(keys);
+  };
+  const Entries later = those([](const Tree& t) { return t.set_later; });
+  if (!later.empty() && later.size() < tree.map.size()) {
+    const Entries there = those([](const Tree& t) { return !t.set_later; });
+    f.say(later[0]->value.place, path, fmt::format("{} added to {}", words(later), words(there)), "a value of what is there",
+          fmt::format("to replace it: --set '{}={{{}: {{...}}}}'", path, later[0]->key));
+    return {};
+  }
+  std::uint64_t used = 0;
+  for (const Tree::Entry& entry : tree.map) used |= entry.value.layers;
+  const int top = std::countr_zero(used);
+  const auto of_layer = [&](int layer) { return those([&](const Tree& t) { return layer < 64 && t.layers >> layer & 1; }); };
+  const Entries over = used ? of_layer(top) : those([](const Tree&) { return true; });
+  for (int layer = top + 1; layer < 64; ++layer) {
+    const Entries under = of_layer(layer);
+    if (under.empty() || under == over) continue;
+    const bool others = std::none_of(over.begin(), over.end(), [&](const Tree::Entry* e) { return e->value.layers >> layer; });
+    if (others) break;
+    f.say(tree.place, path, fmt::format("found {} beside an included {}", words(over), words(under)),
+          "the alternatives that are included, with other numbers, or only others, which replace them",
+          is_sum ? fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key)
+                 : "leave this key out of the included file");
+    return {};
+  }
+  return over;
 }
 
 void throw_sorted(std::vector<Error> errors) {

@@ -72,6 +72,10 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
   }
 }
 
+// Of a map of alternatives, what holds: those of an included file give way as a whole to others that are written over them.
+// Said, and empty, where some are the same and some are others, or --set adds one to those that are there.
+std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum, Findings& f);
+
 // Reads the alternative that `entry` names; false if there is none of that name.
 template <class Choice>
 bool read_alternative(const Tree::Entry& entry, const std::string& path, const Member& m, Choice& out, Findings& f) {
@@ -109,21 +113,23 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     out = std::move(value);
   } else if constexpr (is_choice<T>) {
     if (tree.kind != Kind::map) return wrong_kind();
-    if (tree.map.size() != 1) {  // a misspelt key says more than their number
+    const std::size_t before = f.errors.size();
+    const std::vector<const Tree::Entry*> entries = chosen(tree, path, false, f);
+    if (f.errors.size() > before) return;
+    if (entries.size() != 1) {  // a misspelt key says more than their number
       const std::vector<std::string> known = alternatives<T>();
-      const std::size_t before = f.errors.size();
-      for (const Tree::Entry& entry : tree.map)
-        if (std::find(known.begin(), known.end(), entry.key) == known.end()) say_unknown(entry, path, known, f);
-      if (f.errors.size() == before) wrong("found " + std::to_string(tree.map.size()) + " keys");
+      for (const Tree::Entry* entry : entries)
+        if (std::find(known.begin(), known.end(), entry->key) == known.end()) say_unknown(*entry, path, known, f);
+      if (f.errors.size() == before) wrong("found " + std::to_string(entries.size()) + " keys");
       return;
     }
-    read_alternative(tree.map.front(), path, m, out, f);
+    read_alternative(*entries.front(), path, m, out, f);
   } else if constexpr (is_sum<T>) {
     if (tree.kind != Kind::map && tree.kind != Kind::list) return wrong_kind();
     out.clear();
-    for (const Tree::Entry& entry : tree.map) {
+    for (const Tree::Entry* entry : chosen(tree, path, true, f)) {
       typename T::value_type term;
-      if (read_alternative(entry, path, m, term, f)) out.push_back(std::move(term));
+      if (read_alternative(*entry, path, m, term, f)) out.push_back(std::move(term));
     }
     for (std::size_t i = 0; i < tree.list.size(); ++i) {
       typename T::value_type term;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace langer {
 
@@ -42,6 +43,16 @@ std::vector<PathStep> split_path(const std::string& path) {
   return steps;
 }
 
+namespace {
+
+bool lies_under_others(const Tree& one, const std::vector<Tree::Entry>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const Tree::Entry& e) {
+    return std::countr_zero(e.value.layers) < std::countr_zero(one.layers);
+  });
+}
+
+}  // namespace
+
 void set_value(Tree& tree, const std::string& path, Tree value) {
   const Place place = value.place;
   const auto fail = [&](std::string found, std::string expected) {
@@ -65,12 +76,15 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
       walked += (walked.empty() ? "" : ".") + step.key;
       if (!at->find(step.key)) {
         Tree made;
-        made.place = place;
+        made.place = place, made.set_later = true;
         at->map.push_back({step.key, made});
       }
-      at = const_cast<Tree*>(at->find(step.key));
+      Tree* next = const_cast<Tree*>(at->find(step.key));
+      if (lies_under_others(*next, at->map)) next->set_later = true;  // what lies over it may have replaced it
+      at = next;
     }
   }
+  value.layers = at->layers, value.set_later = at->set_later;
   *at = std::move(value);
 }
 

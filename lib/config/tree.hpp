@@ -1,9 +1,11 @@
 // A YAML file as a tree that knows where each part stands. The parser itself stays behind tree.cpp.
 // `include: file` (or a list of files; paths relative to the including file) is merged first, keys beside it win; deep for
-// maps. Refused with the right line: duplicate keys, `<<`, tags, anchors that contain themselves, include cycles, more than one
+// maps. Of keys that choose or sum alternatives (a law's matrix, an indenter's shape), what stands beside the include replaces
+// the included alternatives as a whole; `layers` tells the reader which are which. Refused with the right line: duplicate keys, `<<`, tags, anchors that contain themselves, include cycles, more than one
 // document, nesting deeper than 64 and more than 100 000 parts (aliases counted as often as they are used), non-YAML.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,9 @@ struct Tree {
   std::vector<Tree> list;
   Place place;       // of the value's key, or of the list item
   std::string base;  // folder that paths written here are relative to; empty: the working directory
+  // which files of a stack of includes gave this part: bit 0 the one that includes, bits above those that lie under it
+  std::uint64_t layers = 1;
+  bool set_later = false;  // this key was added by --set or a sweep
   const Tree* find(const std::string& key) const;
 };
 struct Tree::Entry {

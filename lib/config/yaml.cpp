@@ -8,6 +8,7 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -203,9 +204,31 @@ void merge(Tree& base, const Tree& over) {
     else if (same->value.kind == Tree::Kind::map && value.kind == Tree::Kind::map) {
       merge(same->value, value);
       same->value.place = value.place;
-    } else
+      same->value.layers |= value.layers;
+    } else {
+      const std::uint64_t layers = same->value.layers;
       same->value = value;
+      same->value.layers |= layers;
+    }
   }
+}
+
+std::uint64_t layers_in(const Tree& tree) {
+  std::uint64_t all = tree.layers;
+  for (const Tree& item : tree.list) all |= layers_in(item);
+  for (const auto& entry : tree.map) all |= layers_in(entry.value);
+  return all;
+}
+
+void put_under(Tree& tree, int layers) {
+  tree.layers = layers < 64 ? tree.layers << layers : 0;
+  for (Tree& item : tree.list) put_under(item, layers);
+  for (auto& entry : tree.map) put_under(entry.value, layers);
+}
+
+void lay(Tree& base, const Tree& over) {
+  put_under(base, std::bit_width(layers_in(over)));
+  merge(base, over);
 }
 
 // Files being read, outermost first, for cycles.
@@ -249,10 +272,10 @@ void resolve_includes(Tree& tree, Reading& reading) {
     const Tree included = load(path.string(), reading);
     if (included.kind != Tree::Kind::map)
       refuse(file->place, fmt::format("include: {} holds {}", path.string(), description(included)), "a map");
-    merge(base, included);
+    lay(base, included);
   }
   std::erase_if(tree.map, [](const Tree::Entry& e) { return e.key == "include"; });
-  merge(base, tree);
+  lay(base, tree);
   tree.map = std::move(base.map);
 }
 
