@@ -107,7 +107,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   const Scene whole = make_scene(config, mesh, material, job.where);
   for (const Material& m : whole.materials)
     if (at_rest(m) == AtRest::unstable) job.say("warning: a law is {}", at_rest_in_words(m));
-  const FibreJump jump = whole.has_fibres() ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
+  const FibreJump jump = whole.families() > 0 ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);

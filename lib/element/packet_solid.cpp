@@ -70,6 +70,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
   out.n = 1;
   for (std::size_t k = 0; k < material.fibres.size(); ++k) {
     const Fibre& fibre = material.fibres[k];
+    if (fibre.hgo.c1 == 0) continue;
     P a[3], h[6];
     for (int i = 0; i < 3; ++i)
       a[i] = F[3 * i] * fibres[k].a[0] + F[3 * i + 1] * fibres[k].a[1] + F[3 * i + 2] * fibres[k].a[2];
@@ -253,7 +254,8 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
 }  // namespace
 
 bool packet_form(const Material& material) {
-  if (material.fibres.size() > most_families) return false;
+  const auto stiff = std::count_if(material.fibres.begin(), material.fibres.end(), [](const Fibre& f) { return f.hgo.c1 != 0; });
+  if (static_cast<std::size_t>(stiff) > most_families) return false;
   for (const MatrixTerm& term : material.matrix)
     if (!std::visit([]<class Law>(const Law&) { return Law::of == Invariant::I1_bar; }, term)) return false;
   return true;

@@ -78,6 +78,7 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
   int n = 1;
   for (std::size_t k = 0; k < material.fibres.size(); ++k) {
     const Fibre& fibre = material.fibres[k];
+    if (fibre.hgo.c1 == 0) continue;
     Term& term = out[n++];
     P f[3];
     for (int i = 0; i < 3; ++i) f[i] = F[3 * i] * a[k][0] + F[3 * i + 1] * a[k][1] + F[3 * i + 2] * a[k][2];

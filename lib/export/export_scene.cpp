@@ -62,6 +62,17 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
   return &*part;
 }
 
+// no other program needs families with c1 = 0, and FEBio refuses them
+void leave_out_slack_families(Scene& scene, const Mesh& mesh) {
+  const auto is_slack = [](const Fibre& f) { return f.hgo.c1 == 0; };
+  for (int e = 0; e < mesh.n_cells() && !scene.fibres.empty(); ++e) {
+    const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
+    for (std::size_t k = families.size(); k-- > 0;)
+      if (is_slack(families[k])) scene.fibres[e].erase(scene.fibres[e].begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  for (Material& m : scene.materials) std::erase_if(m.fibres, is_slack);
+}
+
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -168,6 +179,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     refuse(path, "", "cells tet15", "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
   Scene whole = make_scene(config, header.mesh, {}, nowhere);
   whole.fibres = header.fibres;
+  leave_out_slack_families(whole, header.mesh);
   const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);
   const ReducedScene* part = exportable(found);
   const Scene& scene = part ? part->scene() : whole;

@@ -55,8 +55,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     say_line("solve: dry run, nothing is solved or written");
     line("body", fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(),
                              body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
-    std::size_t families = 0;
-    for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
+    const int families = scene.families();
     line("fibres", families == 0 ? "off, not in the material" : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
                                                                            scene.fibres.empty() ? "" : ", directions from a field"));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");

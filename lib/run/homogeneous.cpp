@@ -23,12 +23,13 @@ struct Hull {
 };
 
 bool same_fibres(const Mesh& mesh, const Scene& scene) {
-  if (scene.materials.front().fibres.empty()) return true;
+  const std::vector<Fibre>& families = scene.materials.front().fibres;
+  if (scene.families() == 0) return true;
   const std::vector<Vec3> first = scene.fibres_of(mesh, 0);
   for (int e = 1; e < mesh.n_cells(); ++e) {
     const std::vector<Vec3> here = scene.fibres_of(mesh, e);
     for (std::size_t k = 0; k < first.size(); ++k)
-      if (std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
+      if (families[k].hgo.c1 != 0 && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
   }
   return true;
 }

@@ -12,8 +12,7 @@ Progress::Progress(bool quiet, bool verbose, const Equilibrium& body, const Scen
     : quiet_(quiet), verbose_(verbose), live_(on_terminal() && !verbose && !said::log),
       contact_(!scene.contacts.empty()), start_(wall_seconds()) {
   if (quiet_) return;
-  std::size_t families = 0;
-  for (const Material& m : scene.materials) families = std::max(families, m.fibres.size());
+  const int families = scene.families();
   say_line("solve: {} {}, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}",
              body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(), body.dofs().n_free(),
              names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),

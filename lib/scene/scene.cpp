@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/read_surface.hpp"
 #include "scene/section.hpp"
@@ -46,6 +47,16 @@ void set_angles(Material& material, const std::vector<double>& angles, const std
   for (std::size_t k = 0; k < angles.size(); ++k) material.fibres[k].alpha_deg = angles[k];
 }
 
+// A field gives the direction of the first family: angles beside it tell those of further ones, and of a single one nothing.
+void refuse_angles_without_effect(const std::vector<double>& angles, const std::optional<FibreField>& field, const Material& material,
+                                  const std::string& key, const Find& where, std::vector<Error>& errors) {
+  if (!field || angles.empty() || material.fibres.size() != 1) return;
+  for (const Error& e : errors)
+    if (e.key == key) return;
+  errors.push_back({where(key), key, "found beside fibre_field, which gives the direction of the only family", "one of the two",
+                    "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
+}
+
 void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& general,
                    const Find& where, std::vector<Error>& errors) {
   std::string list;
@@ -57,6 +68,7 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
                         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
     }
   if (!errors.empty()) return;
+  bool angles_follow = false, field_follows = false;  // do any bodies take the keys at the top?
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const auto named = config.materials.find(mesh.bodies[b]);
     const BodyConfig own = named == config.materials.end() ? BodyConfig{} : named->second;
@@ -71,11 +83,14 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
       set_angles(material, own.fibre_angles, key + "fibre_angles", where, errors);
     else if (!config.fibre_angles.empty() && !own.material)
       set_angles(material, config.fibre_angles, "fibre_angles", where, errors);
-    const auto& field = own.fibre_field ? own.fibre_field : config.fibre_field;
+    const bool follows = !own.material && own.fibre_angles.empty();
+    const auto& field = own.fibre_field || !follows ? own.fibre_field : config.fibre_field;
     const std::string field_key = (own.fibre_field ? key : "") + "fibre_field";
     if (own.fibre_field && material.fibres.empty())
       errors.push_back({where(field_key), field_key, "the material has no fibres", "a material with fibres", ""});
-    std::erase_if(material.fibres, [](const Fibre& f) { return f.hgo.c1 == 0; });  // c1 = 0: no fibre code runs
+    refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field, material,
+                                 (own.fibre_field ? key : "") + "fibre_angles", where, errors);
+    angles_follow = angles_follow || !own.material, field_follows = field_follows || (follows && !own.fibre_field);
     scene.materials.push_back(material);
     if (!field || material.fibres.empty() || !errors.empty()) continue;
     if (scene.fibres.empty()) scene.fibres.resize(mesh.n_cells());
@@ -84,6 +99,11 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
       if (mesh.body[e] == static_cast<int>(b)) cells.push_back(e);
     lay_fibres(*field, mesh, cells, material, scene.fibres, field_key, where);
   }
+  for (const auto& [given, taken, key] : {std::tuple{!config.fibre_angles.empty(), angles_follow, "fibre_angles"},
+                                          std::tuple{config.fibre_field.has_value(), field_follows, "fibre_field"}})
+    if (given && !taken)
+      errors.push_back({where(key), key, "no body takes it: all of them have a material, angles or a field of their own",
+                        fmt::format("{} of a body, as materials.{}.{}", key, mesh.bodies[0], key), ""});
   if (scene.fibres.empty() || !errors.empty()) return;
   for (int e = 0; e < mesh.n_cells(); ++e)
     if (scene.fibres[e].empty()) scene.fibres[e] = fibre_directions(scene.materials[mesh.body[e]], mesh.frames[e]);
@@ -91,8 +111,11 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
 
 }  // namespace
 
-bool Scene::has_fibres() const {
-  return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return !m.fibres.empty(); });
+int Scene::families() const {
+  std::ptrdiff_t most = 0;
+  for (const Material& m : materials)
+    most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), [](const Fibre& f) { return f.hgo.c1 != 0; }));
+  return static_cast<int>(most);
 }
 
 std::vector<Vec3> Scene::fibres_of(const Mesh& mesh, int cell) const {

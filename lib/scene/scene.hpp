@@ -17,13 +17,13 @@ namespace langer {
 
 struct Scene {
   Formulation formulation = Formulation::mean_dilatation;
-  std::vector<Material> materials;        // one for each body of the mesh
+  std::vector<Material> materials;        // one for each body of the mesh; families with c1 = 0 keep their place
   std::vector<std::vector<Vec3>> fibres;  // directions by cell where a field gives them, else empty
   Dofs dofs;
   std::vector<RigidContact> contacts;  // empty: no contact code runs
   std::vector<double> stops;           // values of t where an indenter turns
 
-  bool has_fibres() const;
+  int families() const;  // with c1 other than 0, in the body that has most of them: others cost nothing
   std::vector<Vec3> fibres_of(const Mesh& mesh, int cell) const;  // from its field, or its material's angles and its frame
 };
 

@@ -36,11 +36,12 @@ bool stays(const Facets&, const Operation&, const Vec3&) { return false; }
 
 // What of the scene is not its own image; empty where nothing.
 std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, const Scene& scene) {
-  const bool fibrous = scene.has_fibres();
+  const bool fibrous = scene.families() > 0;
   for (int e = 0; e < mesh.n_cells() && fibrous; ++e) {
     const auto a = scene.fibres_of(mesh, e), b = scene.fibres_of(mesh, g.cell[e]);
+    const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
     for (std::size_t k = 0; k < a.size(); ++k)
-      if (const Vec3 turned = op.signs.cwiseProduct(a[k]); std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
+      if (const Vec3 turned = op.signs.cwiseProduct(a[k]); families[k].hgo.c1 != 0 && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
         return fmt::format("the fibres of cells {} and {}", e, g.cell[e]);
   }
   std::map<int, double> imposed;
