@@ -1,6 +1,7 @@
 // langer-fit: parameters of a law from measured tests.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
+#include "fit/doubts.hpp"
 #include "fit/second_answer.hpp"
 #include "export/cards.hpp"
 #include "study/fit_report.hpp"
@@ -26,6 +27,7 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
+  for (const std::string& line : doubts(problem.tests)) job.say("warning: {}", line);
   FitResult found = best_fit(config, problem);
   if (!found.best.converged)
     throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",

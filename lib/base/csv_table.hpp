@@ -1,11 +1,22 @@
-// A CSV file as a table of texts with their places: comments start with #, the first other line names the columns.
+// A CSV file as a table of texts with their places, as laboratories and spreadsheets write them.
+//   separators  tab, semicolon, comma or blanks: the one that gives the line of names; "sep=;" is obeyed; cells may be "quoted"
+//   comments    lines that start with #; blank lines, lines of separators only and separators at the ends are left out
+//   names       the first line that the caller knows as such (lines before it are the machine's preamble); else the first
+//               line, or, where that holds numbers only, the comment right above it, as numpy.savetxt writes it
+//   units       a line of nothing but units right below the names
+//   decimals    points or commas, not both in one file; commas that may as well part thousands (1,234) are asked about
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace langer {
+
+enum class DecimalSign { point, comma };
+constexpr auto names(DecimalSign) { return std::array{"point", "comma"}; }
 
 struct CsvCell {
   std::string text;
@@ -20,14 +31,24 @@ struct CsvRow {
 struct CsvTable {
   std::string name;  // of the file, for messages
   CsvRow header;
+  std::vector<std::string> units;  // by column, from a line below the names; empty: there is none
   std::vector<CsvRow> rows;
+  DecimalSign decimal = DecimalSign::point;
+  std::optional<double> number(const CsvCell& cell) const;  // the whole cell as a number
 };
 
-std::vector<CsvCell> csv_cells(const std::string& line);
-std::optional<double> csv_number(const std::string& text);  // the whole text as a number
+struct CsvReading {
+  std::optional<DecimalSign> decimal;                               // none: as the file shows
+  std::function<bool(const std::vector<CsvCell>&)> is_header = {};  // knows the line of names; none: the first
+};
 
-// throws Failure(input) for a row with more or fewer cells than the header
-CsvTable parse_table(const std::string& text, const std::string& shown_name);
-CsvTable read_table(const std::string& path);
+std::vector<CsvCell> csv_cells(const std::string& line, char separator = ',');  // ' ': any number of blanks
+std::optional<double> csv_number(const std::string& text);                      // the whole text as a number
+bool is_unit(const std::string& text);  // "MPa", "[mm]", "(N/mm^2)", "%", "-": may stand below a name
+
+// throws Failure(input): rows with more or fewer cells than the header, no names, text in UTF-16, decimals of two kinds
+CsvTable parse_table(const std::string& text, const std::string& shown_name, const CsvReading& reading = {});
+std::string text_of_table(const std::string& path);  // throws Failure(input)
+CsvTable read_table(const std::string& path, const CsvReading& reading = {});
 
 }  // namespace langer

@@ -1,7 +1,11 @@
 // A measured test: what was imposed and what was measured, in one system whatever the file says.
 //   first   lambda_x (simple shear: the amount g) of each point;  second  lambda_z, in biaxial tests only
 //   stress_x, stress_z [MPa] in the measure of the test; stress_z may be empty
-// Read from CSV by a format that names kind, columns, measures and units; a unit that the column's name carries must agree.
+// Read from CSV (base/csv_table.hpp) by a format that names kind, columns, measures and units, or by the names of the columns alone
+// (fit/column_names.hpp); what both say must agree. Forces and elongations become stresses and stretches by the specimen's sizes:
+//   P = F / (width thickness),  lambda = 1 + u / gauge_length
+// A measure that nobody told: deformations that start at 1 are stretches, those that start at 0 engineering strains, others are
+// asked about; what was taken stands in `notes`.
 // Refused, with file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches <= 0,
 // fewer than two points.
 #pragma once
@@ -12,7 +16,7 @@
 #include <vector>
 
 #include "base/csv_table.hpp"
-#include "fit/curve.hpp"
+#include "fit/column_names.hpp"
 #include "material/states.hpp"
 
 namespace langer {
@@ -25,32 +29,32 @@ struct Test {
   double fibre_angle_deg = 0;  // of the specimen, added to the law's
   double weight = 1;           // of its residuals: 1/standard deviation, or relative
   std::vector<double> first, second, stress_x, stress_z;
+  std::vector<std::string> notes;  // what was taken for granted when it was read
 
   std::size_t points() const { return first.size(); }
   std::size_t values() const { return stress_x.size() + stress_z.size(); }
 };
 
-enum class StrainMeasure { engineering, stretch, green_lagrange, log };
-constexpr auto names(StrainMeasure) { return std::array{"engineering", "stretch", "green_lagrange", "log"}; }
-enum class StressUnit { MPa, kPa, Pa };
-constexpr auto names(StressUnit) { return std::array{"MPa", "kPa", "Pa"}; }
-enum class StrainUnit { fraction, percent };
-constexpr auto names(StrainUnit) { return std::array{"fraction", "percent"}; }
-
 struct TestFormat {
-  Test like;  // name, kind, shear, angle, weight
-  StrainMeasure strain = StrainMeasure::engineering;
+  Test like;  // name, kind, shear, angle, weight; measure where neither `stress` nor the column tells
+  std::optional<StrainMeasure> strain;
+  std::optional<StressMeasure> stress;
   std::optional<StressUnit> stress_unit;  // where the column's name does not tell
-  StrainUnit strain_unit = StrainUnit::fraction;
-  std::string strain_x, strain_z, stress_x, stress_z;  // columns; strain_z and stress_z may be empty
-  std::map<std::string, std::string> where;            // only rows with these texts in these columns
-  std::string split;                                   // a column: one test per text in it
-  double strain_from = -1e300, strain_to = 1e300;      // of lambda_x - 1 (simple shear: g)
+  std::optional<StrainUnit> strain_unit;
+  std::optional<DecimalSign> decimal;
+  // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or pure shear test with strain_z
+  // has a grid of its own for each axis and becomes two tests
+  std::string strain_x, strain_z, stress_x, stress_z;
+  std::map<std::string, std::string> where;        // only rows with these texts in these columns
+  std::string split;                               // a column: one test per text in it
+  double strain_from = -1e300, strain_to = 1e300;  // of lambda_x - 1 (simple shear: g), after the shift by `toe`
+  std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z;  // at rest [mm]; z: for force and elongation along z
+  std::optional<double> toe;  // the stretch at which the stress along x first reaches this is the new rest [MPa]
 };
 
-std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);  // throws Failure(input)
-
-Test test_of(const Curve& curve, const std::string& name);
+std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);        // throws Failure(input)
+std::vector<Test> read_tests(const std::string& path, const TestFormat& format);    // throws Failure(input)
+std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name, const TestFormat& format);
 
 double largest_stress(const Test& test);
 

@@ -4,6 +4,7 @@
 
 #include "config/json_schema.hpp"
 #include "config/reader.hpp"
+#include "fit/doubts.hpp"
 #include "material/at_rest.hpp"
 #include "report/report_config.hpp"
 #include "study/fit_config.hpp"
@@ -21,8 +22,9 @@ namespace {
 template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
-  Effective e{to_yaml(loaded.config, relative_to(folder)), {}};
+  Effective e{to_yaml(loaded.config, relative_to(folder)), {}, {}};
   for (const NamedFile& file : files_named_by(loaded.config)) e.files.push_back({file.path, file.key, loaded.where(file.key)});
+  if constexpr (std::is_same_v<Config, FitConfig>) e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); };
   return e;
 }
 

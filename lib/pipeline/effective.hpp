@@ -2,6 +2,7 @@
 // what can be said of them without a file: reference, top keys, JSON Schema.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Effective {
     Place place;
   };
   std::vector<File> files;  // input files that the config names
+  // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty: nothing is measured.
+  std::function<std::vector<std::string>()> look_at_data = {};
 };
 
 struct ConfigKind {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -37,6 +38,15 @@ class Planning {
   std::vector<TextFile> files;
   std::vector<Rule> rules;
   std::vector<std::string> finals;
+  std::vector<std::string> doubts;
+
+  void look_at_data() {
+    for (const auto& look : looks_)
+      collect([&] {
+        for (std::string& doubt : look())
+          if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(std::move(doubt));
+      });
+  }
 
   void add(const Step& step) {
     const std::string here = (folder_ / step.folder).string();
@@ -56,6 +66,7 @@ class Planning {
         need_file(file.path, file.place, file.key);
         rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
       }
+      if (effective.look_at_data) looks_.push_back(effective.look_at_data);
       // the command stands in the config, so that a changed input is a changed config
       files.push_back({config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
     });
@@ -70,6 +81,7 @@ class Planning {
 
  private:
   fs::path folder_;
+  std::vector<std::function<std::vector<std::string>()>> looks_;
   std::vector<Error> errors_;
   Exit code_ = Exit::input;
 
@@ -147,22 +159,24 @@ struct Planned {
   std::vector<Step> steps;
 };
 
-Planned planned(const std::string& pipeline_file, std::string folder) {
+Planned planned(const std::string& pipeline_file, std::string folder, bool with_data = false) {
   Tree tree = load_yaml(pipeline_file);
   set_base(tree, "");
   const Pipeline written = read_pipeline(tree);
   if (folder.empty()) folder = "runs/" + written.name;
   const std::vector<Step> steps = expand(written, load_yaml);
-  Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0}, written.name, steps};
+  Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
   for (const Step& step : p.steps) p.planning.add(step);
+  if (with_data) p.planning.look_at_data();
   p.planning.stop_if_wrong();
+  p.report.doubts = p.planning.doubts;
   return p;
 }
 
 }  // namespace
 
 PlanReport check_pipeline(const std::string& pipeline_file, std::string folder) {
-  return planned(pipeline_file, std::move(folder)).report;
+  return planned(pipeline_file, std::move(folder), true).report;
 }
 
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command, bool slurm) {

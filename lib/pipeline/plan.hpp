@@ -4,12 +4,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace langer {
 
 struct PlanReport {
   std::string folder;
   std::size_t nodes = 0, steps = 0, changed = 0;  // changed: files written because their text is new
+  std::vector<std::string> doubts;                // what looks wrong in measured data; check_pipeline() alone reads them
 };
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.

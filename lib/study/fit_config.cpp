@@ -26,18 +26,15 @@ std::vector<Complaint> FitData::complaints() const {
                    "columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}"});
   if (!columns && (!split.empty() || !where.empty()))
     all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
-  const std::pair<const char*, bool> of_columns[] = {{"stress", stress.has_value()},
-                                                     {"strain", strain.has_value()},
-                                                     {"stress_unit", stress_unit.has_value()},
-                                                     {"strain_unit", strain_unit.has_value()}};
-  for (const auto& [key, given] : of_columns)
-    if (given && !columns)
-      all.push_back({key, "found without `columns`", "the columns of deformation and stress",
-                     "without them the names of the file's columns tell measure and unit"});
   if (columns && biaxial && columns->strain_z.empty())
     all.push_back({"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes", ""});
-  if (columns && !biaxial && !columns->strain_z.empty())
-    all.push_back({"columns.strain_z", "found in a test that is not biaxial", "kind: biaxial, or no strain_z", ""});
+  const bool own_grids = columns && !biaxial && !columns->strain_z.empty();
+  if (own_grids && kind != TestKind::equibiaxial && kind != TestKind::pure_shear)
+    all.push_back({"columns.strain_z", "found in a test without stress along z", "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
+  else if (own_grids && columns->stress_z.empty())
+    all.push_back({"columns.stress_z", "missing beside strain_z", "the stress along z, at the deformations of strain_z", ""});
+  if (toe && kind == TestKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
+  if (toe && own_grids) all.push_back({"toe", "found with a grid of its own for each axis", "no toe: data that start at rest", ""});
   if (columns && !columns->stress_z.empty() && (kind == TestKind::uniaxial || kind == TestKind::simple_shear))
     all.push_back({"columns.stress_z", "found in a test without stress along z", "equibiaxial, biaxial or pure_shear", ""});
   return all;
@@ -229,32 +226,27 @@ std::vector<Complaint> FitConfig::complaints() const {
 }
 
 std::vector<Test> measured_tests(const FitConfig& config) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
   std::vector<Test> tests;
   for (const FitData& data : config.data) {
     TestFormat format;
     Test& like = format.like;
     like.name = data.name.empty() ? std::filesystem::path(data.file.path).stem().string() : data.name;
-    like.kind = data.kind, like.measure = data.stress.value_or(StressMeasure::cauchy);
+    like.kind = data.kind;
     like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
     like.weight = data.standard_deviation ? 1 / *data.standard_deviation : data.weight.value_or(1);
-    std::vector<Test> found;
+    format.strain = data.strain, format.stress = data.stress, format.strain_unit = data.strain_unit;
+    format.stress_unit = data.stress_unit, format.decimal = data.decimal;
+    format.width = data.width, format.thickness = data.thickness, format.gauge_length = data.gauge_length;
+    format.width_z = data.width_z, format.gauge_length_z = data.gauge_length_z, format.toe = data.toe;
     if (data.columns) {
-      format.strain = data.strain.value_or(StrainMeasure::engineering);
-      format.strain_unit = data.strain_unit.value_or(StrainUnit::fraction), format.stress_unit = data.stress_unit;
       format.strain_x = data.columns->strain_x, format.strain_z = data.columns->strain_z;
       format.stress_x = data.columns->stress_x, format.stress_z = data.columns->stress_z;
       format.where = data.where, format.split = data.split;
-      format.strain_from = data.strain_from.value_or(-inf), format.strain_to = data.strain_to.value_or(inf);
       if (!data.split.empty() && data.name.empty()) like.name.clear();
-      found = tests_of(read_table(data.file.path), format);
-    } else {
-      const Curve curve =
-          between_strains(read_curve(data.file.path), data.strain_from.value_or(-inf), data.strain_to.value_or(inf));
-      Test test = test_of(curve, like.name);
-      test.kind = like.kind, test.shear = like.shear, test.fibre_angle_deg = like.fibre_angle_deg, test.weight = like.weight;
-      found = {test};
     }
+    if (data.strain_from) format.strain_from = *data.strain_from;
+    if (data.strain_to) format.strain_to = *data.strain_to;
+    std::vector<Test> found = read_tests(data.file.path, format);
     for (Test& test : found) {
       const std::string name = test.name;
       const auto taken = [&] {

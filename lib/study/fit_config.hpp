@@ -23,7 +23,8 @@ struct FitColumns {
   std::string strain_x, strain_z, stress_x, stress_z;
   static void fields(auto& v) {
     v(&FitColumns::strain_x, "strain_x", unit::none, "deformation along x; in simple shear its amount", required);
-    v(&FitColumns::strain_z, "strain_z", unit::none, "deformation along z, of a biaxial test");
+    v(&FitColumns::strain_z, "strain_z", unit::none,
+      "deformation along z, of a biaxial test; of an equibiaxial or pure shear test where stress_z has a grid of its own");
     v(&FitColumns::stress_x, "stress_x", unit::none, "stress along x; in simple shear the shear stress", required);
     v(&FitColumns::stress_z, "stress_z", unit::none, "stress along z, where it was measured");
   }
@@ -40,6 +41,8 @@ struct FitData {
   std::optional<StrainUnit> strain_unit;
   OffAxisShear shear = OffAxisShear::held;
   double fibre_angle = 0;
+  std::optional<DecimalSign> decimal;
+  std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z, toe;
   std::optional<double> weight, standard_deviation, strain_from, strain_to;
   std::map<std::string, std::string> where;
   std::string split;
@@ -51,11 +54,27 @@ struct FitData {
     v(&FitData::kind, "kind", unit::none, "what the test imposes");
     v(&FitData::columns, "columns", unit::none,
       "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
-      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), for uniaxial, equibiaxial and pure shear tests");
-    v(&FitData::stress, "stress", unit::none, "measure of the stress in `columns`; cauchy by default");
-    v(&FitData::strain, "strain", unit::none, "measure of the deformation in `columns`; engineering by default");
-    v(&FitData::stress_unit, "stress_unit", unit::none, "where the column's name does not end in _MPa, _kPa or _Pa");
-    v(&FitData::strain_unit, "strain_unit", unit::none, "of the deformation in `columns`; fraction by default");
+      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure shear "
+      "tests");
+    v(&FitData::stress, "stress", unit::none,
+      "measure of the stress where its column's name does not tell; in `columns` without either cauchy is taken, and said");
+    v(&FitData::strain, "strain", unit::none,
+      "measure of the deformation where its column's name does not tell; without either stretch where it starts at 1, engineering "
+      "where it starts at 0, and said");
+    v(&FitData::stress_unit, "stress_unit", unit::none,
+      "where the column's name does not tell; of a force (N, mN, kN) width and thickness make a nominal stress");
+    v(&FitData::strain_unit, "strain_unit", unit::none,
+      "where the column's name does not tell, fraction by default; of an elongation (mm, um) gauge_length makes a strain");
+    v(&FitData::decimal, "decimal", unit::none, "sign of decimals where the file leaves it open, as 1,234 does");
+    v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x", positive);
+    v(&FitData::thickness, "thickness", unit::mm, "of the specimen at rest, for forces", positive);
+    v(&FitData::gauge_length, "gauge_length", unit::mm, "length at rest between grips or marks, for elongations along x", positive);
+    v(&FitData::width_z, "width_z", unit::mm, "of the specimen at rest, across a force along z", positive);
+    v(&FitData::gauge_length_z, "gauge_length_z", unit::mm, "length at rest, for elongations along z", positive);
+    v(&FitData::toe, "toe", unit::MPa,
+      "the state in which the stress along x first reaches this is taken as the one at rest: stretches and nominal stresses are "
+      "referred to it, points before it left out",
+      positive);
     v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
     v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
     v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);

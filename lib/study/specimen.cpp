@@ -1,10 +1,13 @@
 #include "study/specimen.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "config/reader.hpp"
+#include "study/fit_config.hpp"
 
 namespace langer {
 
@@ -20,6 +23,22 @@ bool is_fence(const std::string& line) {
   const std::size_t first = line.find_first_not_of("# \t");
   return line.starts_with('#') && first != std::string::npos && line.compare(first, 3, "---") == 0 &&
          line.find_first_not_of("- \t\r", first) == std::string::npos;
+}
+
+// the config that is being read, beside its CSV
+bool is_this(const fs::path& path, const Place& place) {
+  std::error_code ec;
+  return fs::equivalent(path, place.file, ec);
+}
+
+// Any config may stand beside a CSV of its name: this one is the CSV's if most of its keys are those of an item of `data`.
+bool is_sidecar(const Tree& tree) {
+  static const std::vector<std::string> known = keys_of<FitData>();
+  if (tree.kind != Tree::Kind::map) return false;
+  const auto is_known = [&](const Tree::Entry& e) {
+    return std::find(known.begin(), known.end(), e.key) != known.end() && (e.key != "columns" || e.value.kind != Tree::Kind::list);
+  };
+  return 2 * std::count_if(tree.map.begin(), tree.map.end(), is_known) > static_cast<std::ptrdiff_t>(tree.map.size());
 }
 
 }  // namespace
@@ -63,11 +82,10 @@ void add_what_the_file_says(Tree& item) {
   if (!in || !(text << in.rdbuf())) return;
   Tree said = csv_header(text.str(), path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
-  if (beside != path && fs::is_regular_file(beside)) {
-    const Tree other = load_yaml(beside.string());
+  const Tree other = beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place) ? load_yaml(beside.string()) : Tree{};
+  if (other.kind != Tree::Kind::null && is_sidecar(other)) {
     if (said.kind == Tree::Kind::map)
       refuse(said.place, "found a header beside " + beside.string(), "one of the two", "both describe the same test");
-    if (other.kind != Tree::Kind::map) refuse({beside.string(), 1, 1}, "found " + description(other), "a map of keys");
     said = other;
   }
   for (const Tree::Entry& entry : said.map) {

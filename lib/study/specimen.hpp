@@ -4,7 +4,8 @@
 //   # kind: biaxial
 //   # columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}
 //   # ---
-// or in a file beside it with the same name and the ending .yaml; not in both.
+// or in a file beside it with the same name and the ending .yaml, not in both. A file beside it that is something else, as its keys
+// show (the fit's own config, fit.yaml beside fit.csv), is left alone.
 #pragma once
 
 #include "config/tree.hpp"

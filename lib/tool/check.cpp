@@ -57,6 +57,12 @@ std::optional<std::string> kind_by_keys(const Tree& tree) {
   return tie ? std::nullopt : best;
 }
 
+std::string warnings(const std::vector<std::string>& doubts) {
+  std::string lines;
+  for (const std::string& doubt : doubts) lines += "\n  warning: " + doubt;
+  return lines;
+}
+
 }  // namespace
 
 std::string kind_of(const std::string& path) {
@@ -73,11 +79,11 @@ std::string check_file(const std::string& path, std::string kind) {
   if (!has_schema(kind)) schema_text(kind);  // says which there are
   if (kind == "pipeline") {
     const PlanReport report = check_pipeline(path);
-    return fmt::format("{}: a pipeline of {} nodes and {} steps, right", path, report.nodes, report.steps);
+    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes, report.steps, warnings(report.doubts));
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
-  return fmt::format("{}: {}, right", path, kind);
+  return fmt::format("{}: {}, right{}", path, kind, effective.look_at_data ? warnings(effective.look_at_data()) : "");
 }
 
 }  // namespace langer

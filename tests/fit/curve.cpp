@@ -30,7 +30,8 @@ bool starts(const std::string& s, const std::string& with) {
 
 TEST_CASE("strain in percent, stretch, kPa and nominal stress are converted by the columns' names") {
   const Curve a = parse_curve("# a comment\nstrain,cauchy_stress_MPa\n0.1,0.5\n\n0.2,0.75\n", "a");
-  CHECK(a.strain == std::vector{0.1, 0.2});
+  CHECK(a.strain[0] == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(a.strain[1] == doctest::Approx(0.2).epsilon(1e-14));
   CHECK(a.stress == std::vector{0.5, 0.75});
   CHECK(a.measure == StressMeasure::cauchy);
   const Curve b = parse_curve("specimen , nominal_stress_kPa , stretch\r\nP1, 500, 1.25\r\nP1, +750, 1.5\r\n", "b");
@@ -66,7 +67,9 @@ TEST_CASE("all bad cells are told at once, up to ten lines") {
 }
 
 TEST_CASE("columns that are missing, doubled or without unit are refused") {
-  starts(refusal("strain,stress\n0,0\n"), "c.csv:1:1: columns: found strain, stress; expected one column of strain");
+  starts(refusal("strain,stress\n0,0\n"), "c.csv:1:8: stress_unit: no unit for the column \"stress\"");
+  starts(refusal("strain,stress_MPa\n0,0\n"), "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
+  starts(refusal("time,force\n0,0\n"), "c.csv:1:1: columns: found time, force; expected one column of strain");
   starts(refusal("strain,cauchy_stress_psi\n0,0\n"), "c.csv:1:1: columns: found strain, cauchy_stress_psi");
   starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"),
          "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
@@ -86,7 +89,11 @@ TEST_CASE("a missing file is refused by name") {
 }
 
 TEST_CASE("a range of strain keeps both ends") {
-  const Curve c = parse_curve("strain,cauchy_stress_MPa\n0,0\n0.1,1\n0.2,2\n0.3,3\n", "c");
-  CHECK(between_strains(c, 0.1, 0.2).stress == std::vector{1., 2.});
-  CHECK(between_strains(c, 1, 2).size() == 0);
+  const auto points = [](double from, double to) {
+    TestFormat f;
+    f.strain_from = from, f.strain_to = to;
+    return parse_tests("strain,cauchy_stress_MPa\n0,0\n0.25,1\n0.5,2\n0.75,3\n", "c", f)[0].stress_x;
+  };
+  CHECK(points(0.25, 0.5) == std::vector{1., 2.});
+  CHECK_THROWS_AS(points(1, 2), Failure);
 }

@@ -1,7 +1,7 @@
 // Text -> CSV -> a curve, and tests of two kinds.
 #include <cmath>
 
-#include "fit/test_data.hpp"
+#include "fit/curve.hpp"
 #include "fuzz.hpp"
 
 namespace {
@@ -23,9 +23,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   uniaxial.strain_x = "strain", uniaxial.stress_x = "cauchy_stress_MPa";
   biaxial.like.kind = TestKind::biaxial, biaxial.strain = StrainMeasure::stretch, biaxial.stress_unit = StressUnit::kPa;
   biaxial.strain_x = "lx", biaxial.strain_z = "lz", biaxial.stress_x = "sx", biaxial.stress_z = "sz", biaxial.split = "test";
-  for (const TestFormat& format : {uniaxial, biaxial})
+  TestFormat sized;
+  sized.width = 10, sized.thickness = 2, sized.gauge_length = 40, sized.toe = 0.01;
+  for (const TestFormat& format : {uniaxial, biaxial, sized})
     fuzz::reads_or_refuses("input.csv", [&] {
-      for (const Test& test : tests_of(parse_table(text, "input.csv"), format))
+      for (const Test& test : parse_tests(text, "input.csv", format))
         finite(test.first), finite(test.second), finite(test.stress_x), finite(test.stress_z);
     });
   return 0;

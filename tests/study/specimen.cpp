@@ -91,7 +91,7 @@ TEST_CASE("What is wrong in a header is told at its line and column in the CSV")
   holds(bad("# kinds: biaxial\n"), "bad.csv:2:3: data[0]: unknown key \"kinds\"");
   holds(bad("# fibre_angle: steep\n"), "bad.csv:2:3: data[0].fibre_angle: found steep");
   holds(bad("# stress: nominal\n", "strain,cauchy_stress_MPa\n0,0\n0.1,1\n"),
-        "bad.csv:2:3: data[0].stress: found without `columns`");
+        "bad.csv:4:8: stress: nominal for the column \"cauchy_stress_MPa\"; expected the measure that the column's name carries");
   holds(bad("# columns: {strain_x: ex, stress_x: sx_kPa}\n# stress_unit: MPa\n"),
         "stress_unit: MPa for the column \"sx_kPa\"; expected the unit that the column's name carries");
   holds(bad("# file: other.csv\n"), "bad.csv:2:3: found the key \"file\"");
@@ -101,4 +101,39 @@ TEST_CASE("What is wrong in a header is told at its line and column in the CSV")
   write("both.csv", std::string(header) + table);
   write("both.yaml", "kind: uniaxial\n");
   holds(refusal("{file: both.csv}"), "one of the two");
+}
+
+TEST_CASE("A config beside a CSV of its name is not taken for what the CSV says; a description with a slip is") {
+  write("fit.csv", "strain,cauchy_stress_kPa\n0,0\n0.1,5\n");
+  const std::string config =
+      "data: [{file: fit.csv}]\nlaw: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 1}}}\n"
+      "parameters: [{key: matrix.neo_hooke.a1, lower: 0, upper: 1}]\n";
+  write("fit.yaml", config);
+  CHECK(read_config<FitConfig>(load_yaml(folder + "/fit.yaml")).config.data[0].file.path == folder + "/fit.csv");
+  CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);  // and from another config
+  for (const char* other : {"parameters: [{key: matrix.neo_hooke.a1, around: 0.5}]\nstrain: {from: 0, to: 0.4, points: 3}\nsteps: 10\n",
+                            "columns: [force]\n", "pipeline: fit\nnodes: {}\n", "- a list\n", "just a text\n", "\n"}) {
+    CAPTURE(std::string(other));
+    write("fit.yaml", other);
+    CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);
+  }
+  write("fit.yaml", "kind: uniaxial\nfibre_angel: 30\nstress: cauchy\n");
+  holds(refusal("{file: fit.csv}"), "fit.yaml:2:1: data[0]: unknown key \"fibre_angel\"");
+  fs::remove(folder + "/fit.yaml");
+}
+
+TEST_CASE("A force in N over an elongation in mm, described in the config, in the header or beside it") {
+  write("lab.csv", "Weg [mm];Kraft [N]\n0,0;0,0\n4,0;2,5\n");
+  const std::string sizes = "width: 10, thickness: 2, gauge_length: 40";
+  const Test t = measured_tests(read("{file: lab.csv, " + sizes + "}"))[0];
+  CHECK(t.first[1] == doctest::Approx(1.1));
+  CHECK(t.stress_x[1] == doctest::Approx(0.125));
+  CHECK(t.measure == StressMeasure::nominal);
+  write("lab.yaml", "width: 10\nthickness: 2\ngauge_length: 40\n");
+  CHECK(measured_tests(read("{file: lab.csv}"))[0].stress_x[1] == doctest::Approx(0.125));
+  fs::remove(folder + "/lab.yaml");
+  holds(refusal("{file: lab.csv, thickness: 2, gauge_length: 40}"), "lab.csv:1:10: width: missing, for the column \"Kraft [N]\"");
+  holds(refusal("{file: lab.csv, width: 0, thickness: 2, gauge_length: 40}"), "data[0].width: found 0");
+  holds(refusal("{file: lab.csv, kind: simple_shear, toe: 1, columns: {strain_x: \"Weg [mm]\", stress_x: \"Kraft [N]\"}}"), "toe: found in simple shear");
+  holds(refusal("{file: lab.csv, columns: {strain_x: \"Weg [mm]\", strain_z: b, stress_x: \"Kraft [N]\"}}"), "kind: biaxial, equibiaxial or pure_shear");
 }
