@@ -57,12 +57,15 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
 ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
                              const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r, double motion) {
   ContactDefect defect;
-  double largest = 0;
+  double largest = 0, moved = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];
     largest = std::max(largest, r[i].norm());
     motion = std::max(motion, (u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0)).norm());
+    moved = std::max(moved, u.segment<3>(3 * node).norm());
   }
+  // where the indenter rests, all movement of the increment is rounding of displacements that are there: no scale for slip
+  motion = std::max(motion, 1e-2 * moved);
   const double tiny = std::numeric_limits<double>::min();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];

@@ -51,7 +51,8 @@ void Statics::begin(double t) {
   t_ = t, supported_ = K_current_ = factor_serves_ = again_ = false;
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
-  if (const double last = now_.t - before_.t; last > 0) extrapolate(std::min((t - now_.t) / last, 2.0));
+  const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0;  // then the last movement does not go on
+  if (const double last = now_.t - before_.t; last > 0 && !rests) extrapolate(std::min((t - now_.t) / last, 2.0));
   slip_from_touch();
 }
 
