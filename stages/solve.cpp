@@ -10,6 +10,7 @@
 #include "mesh/quality.hpp"
 #include "run/accuracy.hpp"
 #include "run/continued.hpp"
+#include "run/contact_watch.hpp"
 #include "run/dry_run.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/error_estimate.hpp"
@@ -111,6 +112,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   if (jump.degrees > 1e-3)
     job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
             jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
+  std::optional<ContactWatch> contact_watch;
+  if (!whole.contacts.empty()) contact_watch.emplace(mesh, whole, job.where);
   const std::unique_ptr<HomogeneousScene> point = at_a_point ? HomogeneousScene::find(mesh, whole, config) : nullptr;
   if (point) job.say("homogeneous: one hexahedron stands for {} cells", mesh.n_cells());
   const std::optional<ReducedScene> part = point ? std::nullopt : ReducedScene::find(config.symmetry, mesh, whole, job.where);
@@ -151,6 +154,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     statics.restore(state(*saved), &earlier);
     increment = saved->scalars.at("next_increment");
     watch.resume(*saved);
+    if (contact_watch) contact_watch->resume(*saved);
     if (const auto found = saved->scalars.find("shear_stiffness_min"); found != saved->scalars.end() && found->second < 0)
       last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), saved->t);
@@ -192,6 +196,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
           record = *balanced;
           found.residual = std::max(found.residual, record.residual * report.reference);
         }
+        if (contact_watch) contact_watch->look(record);
         result.look(t, statics.accepted().u, found);
         if (auto refused = result.refusal()) {
           refused->hint += fmt::format("; kept: the {} steps before in {}.part", file.n_steps(), job.output);
@@ -209,6 +214,10 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   if (!job.quiet)
     for (const auto& lines : {watch.warnings(), result.warnings()})
       for (const std::string& line : lines) job.say("warning: {}", line);
+  if (contact_watch && path.complete) {
+    contact_watch->finish();
+    for (const std::string& line : contact_watch->warnings()) job.say("warning: {}", line);
+  }
   if (!unstable.empty())
     throw Failure(Exit::not_converged,
                   Error{{}, "", unstable, "a stable state (on_unstable: stop)",
@@ -240,15 +249,21 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
                                           "turning, one beside it, where contact does not: that begins anew")});
   std::vector<Summary> errors;
   if (config.estimate.value_or(EstimateBy::none) != EstimateBy::none) errors = say_errors(job, config, material, whole, mesh, last);
+  std::vector<Summary> said = errors;  // of the result as a whole
+  if (contact_watch)
+    for (const Summary& s : contact_watch->summary()) said.push_back(s);
   // the processor's time before this function is that of loading the program
-  file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt, errors);
+  file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt, said);
   progress.finished(path, statics, files);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
   if (!scene.contacts.empty()) summary.push_back({"force", last.force_ind.norm(), "N"});
+  for (const RigidContact& contact : scene.contacts)
+    if (const auto found = last.scalars.find("force_" + contact.name); found != last.scalars.end())
+      summary.push_back({"force_" + contact.name, found->second, "N"});
   if (rung) summary.push_back({"accuracy", rung->rung.error, "percent"});
   if (part && !mesh.section) summary.push_back({"symmetry", static_cast<double>(mesh.n_cells()) / body.mesh().n_cells(), "-"});
   if (point) summary.push_back({"homogeneous", static_cast<double>(mesh.n_cells()), "-"});
-  summary.insert(summary.end(), errors.begin(), errors.end());
+  summary.insert(summary.end(), said.begin(), said.end());
   summary.push_back({"fibre_jump", jump.degrees, "deg"});
   if (config.stability != StabilityCheck::off)
     for (const Summary& s : watch.summary()) summary.push_back(s);

@@ -232,8 +232,14 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
         sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
     for (int n : whole.contacts[c].nodes) middle += header.mesh.X[n] / static_cast<double>(whole.contacts[c].nodes.size());
-    const std::string& set = config.contacts.at(law.name).on;
-    name_set(set);
+    std::string set = config.contacts.at(law.name).on;
+    if (set.empty()) {  // what the indenter can reach
+      set = "contact_" + law.name;
+      while (header.mesh.node_sets.count(set)) set += "_";
+      deck.mesh.node_sets[set] = law.nodes;
+    } else {
+      name_set(set);
+    }
     deck.contacts.push_back(contact_of(deck.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path));
   }
 

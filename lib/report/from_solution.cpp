@@ -92,6 +92,18 @@ void judge_errors(const Say& say, const std::vector<Summary>& summary, double fo
     say(Level::note, "how much cells and increments change the result is not known: `estimate` or `accuracy` in the solve config tells it");
 }
 
+void judge_resolution(const Say& say, const std::vector<Summary>& summary) {
+  const auto value = [&](const char* name) {
+    const auto found = std::find_if(summary.begin(), summary.end(), [&](const Summary& s) { return s.name == name; });
+    return found == summary.end() ? 0 : found->value;
+  };
+  if (value("contact_warnings") > 0)
+    say(Level::warning, fmt::format("contact is not resolved by the cells, or an indenter missed the body (langer-solve said where, {:g} "
+                                    "warnings): between nodes an indenter is up to {:.3g} mm inside the body, {:.0f} % of what it is "
+                                    "pressed in",
+                                    value("contact_warnings"), value("penetration_between_nodes"), 100 * value("penetration_share")));
+}
+
 void judge(const Say& say, const History& history) {
   const double residual = std::abs(largest(history, "residual")), iterations = largest(history, "iterations");
   say(Level::good, fmt::format("equilibrium in all {} steps: largest relative residual {:.1e}, at most {:g} iterations",
@@ -154,6 +166,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources, const R
     judge(say, history);
     const auto forces = indenter_forces(solution, group, history);
     judge_contact(say, forces, history);
+    judge_resolution(say, solution.summary());
     judge_errors(say, solution.summary(), forces.empty() ? 0 : forces.begin()->second.last, *percent_of(config.accuracy));
     for (const auto& [name, values] : history) {
       if (name == "t" || name == "next_increment" || name.starts_with("weakest")) continue;

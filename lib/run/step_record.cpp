@@ -93,7 +93,7 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
       for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
   record.u_ind = indenter_displacement(contacts[0], state.t);
-  record.force_ind = -defects[0].force;
+  for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "contact/surface_check.hpp"
 #include "geometry/read_surface.hpp"
 #include "scene/section.hpp"
 
@@ -109,6 +110,19 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
     if (scene.fibres[e].empty()) scene.fibres[e] = fibre_directions(scene.materials[mesh.body[e]], mesh.frames[e]);
 }
 
+// Candidates of an indenter without a set: what it can reach of the boundary, less what supports hold against it.
+std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, const std::vector<Prescribed>& prescribed) {
+  double moves = 0;
+  std::vector<Vec3> held(mesh.X.size(), Vec3::Zero());
+  for (const Prescribed& p : prescribed) held[p.dof / 3][p.dof % 3] = 1, moves = std::max(moves, std::abs(p.value));
+  std::vector<int> nodes = SurfaceCheck(mesh).reached(contact, moves);
+  std::erase_if(nodes, [&](int n) {
+    const Vec3 normal = shape_at(contact.shape, mesh.X[n]).normal;
+    return held[n].cwiseProduct(normal).squaredNorm() > 0.5;
+  });
+  return nodes;
+}
+
 }  // namespace
 
 int Scene::families() const {
@@ -164,7 +178,7 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
   }
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
-    RigidContact rigid{name, contact.rigid, contact.friction, composer.nodes(contact.on, key + ".on"), {}};
+    RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
     if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
       SurfaceFile file = read_surface(facets->file.path);
       for (Vec3& p : file.points) p = facets->scale * p + vec(facets->move);
@@ -174,6 +188,10 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
       rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
       scene.stops.push_back(w.t);
     }
+    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, prescribed) : composer.nodes(contact.on, key + ".on");
+    if (rigid.nodes.empty() && contact.on.empty())
+      composer.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
+                                 "a way that brings it to a node that may move", "look at its place and at how far it goes"});
     for (int node : rigid.nodes)
       if (const double g = shape_at(rigid.shape, mesh.X[node]).gap; g < -1e-9) {
         const Vec3& X = mesh.X[node];

@@ -72,7 +72,7 @@ struct ContactConfig {
   double friction = 0;
   std::vector<WaypointConfig> motion;
   static void fields(auto& v) {
-    v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter", required);
+    v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{"Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
