@@ -1,5 +1,5 @@
 // CalculiX; laws: calculix_material. Cells are C3D20R, those of hex8 with a node in the middle of each edge: its own eight-node
-// cells lock near incompressibility (C3D8) or soften by a third and more (C3D8R, C3D8I). hex27 lose the middles of facets and
+// cells lock near incompressibility (C3D8) or carry errors of their own of a quarter and more (C3D8R, C3D8I). hex27 lose the middles of facets and
 // cells. The sphere is a layer of hexahedra all of whose nodes are led along the path.
 #include <algorithm>
 

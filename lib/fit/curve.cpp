@@ -6,7 +6,7 @@ namespace {
 
 Curve curve_of(const Test& test) {
   Curve curve{{}, test.stress_x, test.measure};
-  for (double stretch : test.first) curve.strain.push_back(stretch - 1);
+  for (double stretch : test.first) curve.strain.push_back(engineering_strain(stretch));
   return curve;
 }
 

@@ -244,10 +244,10 @@ void shift_to_toe(Test& test, double toe, const std::string& file) {
 }
 
 void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
-  const double at_rest = test.kind == TestKind::simple_shear ? 0 : 1;
   std::size_t n = 0;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    if (along[i] - at_rest < from || along[i] - at_rest > to) continue;
+    const double strain = test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
+    if (strain < from || strain > to) continue;
     for (auto* list : {&test.first, &test.second, &test.stress_x, &test.stress_z})
       if (!list->empty()) (*list)[n] = (*list)[i];
     ++n;
@@ -353,6 +353,11 @@ std::vector<Test> parse_tests(const std::string& text, const std::string& shown_
 
 std::vector<Test> read_tests(const std::string& path, const TestFormat& format) {
   return parse_tests(text_of_table(path), path, format);
+}
+
+double engineering_strain(double stretch) {
+  constexpr double digits = 1e15;
+  return std::abs(stretch) < 8 ? std::round((stretch - 1) * digits) / digits : stretch - 1;
 }
 
 double largest_stress(const Test& test) {

@@ -57,5 +57,7 @@ std::vector<Test> read_tests(const std::string& path, const TestFormat& format);
 std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name, const TestFormat& format);
 
 double largest_stress(const Test& test);
+// lambda - 1 as it was written: digits beyond those that a stretch holds are rounding
+double engineering_strain(double stretch);
 
 }  // namespace langer

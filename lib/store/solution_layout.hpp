@@ -36,14 +36,16 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"J_min", "-", "smallest det F over all Gauss points; 1 at rest"},
     {"energy", "N mm", "stored in the body, 0 at rest"},
     {"u_ind", "mm", "displacement of the first indenter: x, y, z"},
-    {"force_ind", "N", "of the body on the first indenter: x, y, z"},
+    {"force_ind", "N", "of the body on the indenter, of several their sum: x, y, z"},
     {"force_*_x", "N", "of the body on that indenter, positive along +x"},
     {"force_*_y", "N", "of the body on that indenter, positive along +y"},
     {"force_*_z", "N", "of the body on that indenter, positive along +z"},
+    {"force_*", "N", "of several: of the body on that indenter, against its displacement; positive where the body resists"},
     {"contact_open", "-", "number of candidates that do not touch"},
     {"contact_stick", "-", "number of candidates that stick"},
     {"contact_slip", "-", "number of candidates that slip"},
     {"penetration", "mm", "greatest depth of a node inside an indenter, or gap where there is a reaction; never negative"},
+    {"penetration_between_nodes", "mm", "greatest depth of any point of the body's boundary inside an indenter; never negative"},
     {"cone", "-", "greatest of |r_t| - friction r_n and of -r_n, over the largest reaction; never negative"},
     {"complementarity", "-", "what is left of the contact law, over the largest reaction times motion; never negative"},
     {"negative_eigenvalues", "-", "of the constrained tangent; more than 0: unstable; -1: singular to the last digit"},
@@ -71,7 +73,7 @@ constexpr const HistoryLine* line_of(std::string_view name) {
     const std::string_view pattern = line.name;
     const std::size_t star = pattern.find('*');
     if (star == pattern.npos ? name == pattern
-                             : name.size() > pattern.size() && name.starts_with(pattern.substr(0, star)) && name.ends_with(pattern.substr(star + 1)))
+                             : name.size() >= pattern.size() && name.starts_with(pattern.substr(0, star)) && name.ends_with(pattern.substr(star + 1)))
       return &line;
   }
   return nullptr;

@@ -60,7 +60,7 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
     }
   record.strain_min = low, record.strain_max = high;
   const FittedTest& first = record.tests.front();
-  for (double x : first.first) record.strain.push_back(first.kind == "simple_shear" ? x : x - 1);
+  for (double x : first.first) record.strain.push_back(first.kind == "simple_shear" ? x : engineering_strain(x));
   record.stress = first.stress_x, record.model = first.model_x;
   return record;
 }

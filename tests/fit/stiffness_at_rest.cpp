@@ -85,7 +85,7 @@ TEST_CASE("the least modulus is the standard error of a neo-Hookean modulus alon
   const FitResult found = fit(problem, few);
   // covariance = s^2 (J^T J)^-1, and mu = 2 a1
   const double s = std::sqrt(2 * found.best.cost / static_cast<double>(found.best.r.size() - 1));
-  CHECK(least_shear_modulus(problem, s) == doctest::Approx(2 * std::sqrt(found.covariance(0, 0))).epsilon(1e-5));
+  CHECK(least_shear_modulus(problem, s) == doctest::Approx(2 * std::sqrt(covariance(found.best)(0, 0))).epsilon(1e-5));
 }
 
 TEST_CASE("every law of the matrix gets stiffness at rest by one of its numbers") {

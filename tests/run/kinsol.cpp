@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -56,10 +57,15 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
       CAPTURE(static_cast<int>(strategy));
       how.solver = KinsolOptions{.strategy = strategy, .relative = 1e-10};
       const std::vector<StepRecord> found = solved(mesh, scene, part, how).steps;
-      REQUIRE(found.size() == expected.size());
+      // with a tangent of before the remainder's modulus of hex27 follows round by round: increments may have to be shorter
+      const bool follows = scene.formulation == Formulation::linear_dilatation && strategy >= KinsolStrategy::picard;
+      if (!follows) REQUIRE(found.size() == expected.size());
       double most = 0;
-      for (std::size_t k = 0; k < found.size(); ++k)
-        for (std::size_t i = 0; i < found[k].u.size(); ++i) most = std::max(most, (found[k].u[i] - expected[k].u[i]).norm());
+      for (const StepRecord& step : expected) {
+        const auto same = std::find_if(found.begin(), found.end(), [&](const StepRecord& s) { return std::abs(s.t - step.t) < 1e-12; });
+        REQUIRE(same != found.end());
+        for (std::size_t i = 0; i < step.u.size(); ++i) most = std::max(most, (same->u[i] - step.u[i]).norm());
+      }
       CHECK(most <= 1e-8 * size);
       MESSAGE(name << ": u differs by " << most / size << " of its largest");
     }

@@ -46,7 +46,13 @@ expect_said("fit/material.h5: ")
 file(WRITE ${folder}/text.h5 "not HDF5 at all\n")
 run(3 ${post} text.h5)
 expect_said("text.h5: ")
-run(3 ${BIN}/langer-gather table/gather.yaml --curves mesh/mesh.h5 --curves alpha_000/solve/solution.h5 -o table/sweep.h5)
+file(WRITE ${folder}/lift.yaml "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.1}}}
+supports: [{on: bottom, hold: [x, y, z]}]
+loads: [{on: top, displacement: {y: 0.01}}]
+path: {steps: 1}
+")
+run(0 ${BIN}/langer-solve lift.yaml --mesh mesh/mesh.h5 -o lift.h5)
+run(3 ${BIN}/langer-gather table/gather.yaml --curves mesh/mesh.h5 --curves lift.h5 -o table/sweep.h5)
 expect_said("nothing to gather")
 run(2 ${BIN}/langer-gather table/gather.yaml --curves alpha_000/post/curves.h5 -o table/sweep.h5)
 expect_said("found 2 members; expected one for each of the 1 files given")
