@@ -210,7 +210,7 @@ DecimalSign decimal_sign(const CsvTable& table) {
 }
 
 std::string hint_for_cells(const CsvTable& table, std::size_t found, char separator) {
-  if (separator == ',' && found == 2 * table.header.cells.size())
+  if (separator == ',' && table.header.cells.size() > 1 && found == 2 * table.header.cells.size())
     return "decimal commas need another separator of columns: semicolons or tabs, or quoted cells";
   return "";
 }

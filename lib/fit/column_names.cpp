@@ -23,7 +23,7 @@ const std::map<std::string, Word>& words() {
   const auto by = [](StrainMeasure measure) { return Word{Of::deformation, false, measure}; };
   const auto in = [](StressMeasure measure) { return Word{Of::stress, false, {}, measure}; };
   static const std::map<std::string, Word> known{
-      {"strain", deformation}, {"dehnung", deformation}, {"deformation", deformation}, {"d\xC3\xA9""formation", deformation},
+      {"strain", deformation}, {"tensile_strain", deformation}, {"dehnung", deformation}, {"deformation", deformation}, {"d\xC3\xA9""formation", deformation},
       {"engineering_strain", by(engineering)}, {"eng_strain", by(engineering)}, {"nominal_strain", by(engineering)},
       {"technische_dehnung", by(engineering)}, {"true_strain", by(log)}, {"log_strain", by(log)}, {"logarithmic_strain", by(log)},
       {"hencky_strain", by(log)}, {"wahre_dehnung", by(log)}, {"green_strain", by(green_lagrange)},
@@ -32,7 +32,7 @@ const std::map<std::string, Word>& words() {
       {"extension", elongation}, {"elongation", elongation}, {"displacement", elongation}, {"crosshead", elongation},
       {"crosshead_displacement", elongation}, {"weg", elongation}, {"standardweg", elongation}, {"traversenweg", elongation},
       {"verl\xC3\xA4ngerung", elongation}, {"allongement", elongation}, {"d\xC3\xA9placement", elongation}, {"deplacement", elongation},
-      {"stress", any_stress}, {"spannung", any_stress}, {"contrainte", any_stress},
+      {"stress", any_stress}, {"tensile_stress", any_stress}, {"spannung", any_stress}, {"contrainte", any_stress},
       {"cauchy_stress", in(cauchy)}, {"true_stress", in(cauchy)}, {"wahre_spannung", in(cauchy)}, {"nominal_stress", in(nominal)},
       {"engineering_stress", in(nominal)}, {"eng_stress", in(nominal)}, {"technische_spannung", in(nominal)},
       {"first_piola_stress", in(nominal)}, {"pk1_stress", in(nominal)}, {"second_piola_stress", in(second_piola)},
