@@ -116,7 +116,7 @@ std::vector<std::string> fit_results(const FitRecord& record) {
     const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
     const std::string known = on_bound                                ? "on its bound"
-                              : std::isnan(p.standard_error) && turns ? "at an angle of symmetry, or not determined: see its profile"
+                              : std::isnan(p.standard_error) && p.unit == unit::deg ? "at an angle of symmetry, or not determined: see its profile"
                               : std::isnan(p.standard_error)          ? "not determined by this curve"
                                                              : fmt::format("standard error {:.2g}", p.standard_error);
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
