@@ -2,7 +2,7 @@
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
 #include "fit/doubts.hpp"
-#include "fit/second_answer.hpp"
+#include "fit/cross_check.hpp"
 #include "export/cards.hpp"
 #include "study/fit_report.hpp"
 #include "study/long_work.hpp"
@@ -41,7 +41,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.say("warning: {}", line);
   if (config.check == SecondAnswer::nlopt) {
-    const Comparison second = second_answer(problem, found.best, static_cast<unsigned>(config.seed));
+    const Comparison second = cross_check(problem, found.best, static_cast<unsigned>(config.seed));
     job.say("{}{}", second.agrees ? "" : "warning: ", second.text);
   }
   record.study.range = fitted_range(found.material, problem.tests);

@@ -22,7 +22,7 @@
 #include "run/stability_watch.hpp"
 #include "run/step_record.hpp"
 #include "scene/symmetry.hpp"
-#include "solve/free_motions.hpp"
+#include "solve/zero_energy_modes.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "stage.hpp"
@@ -135,7 +135,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, with_steps_hash(job.identity, job.config)),
                       within_tolerance(config));
   Progress progress(job.quiet, job.verbose, body, scene);
-  const std::string held_by_contact = free_motions(mesh, mesh.section ? scene.dofs : whole.dofs);
+  const std::string held_by_contact = zero_energy_modes(mesh, mesh.section ? scene.dofs : whole.dofs);
   if (!held_by_contact.empty() && scene.contacts.empty())
     throw Failure(Exit::config, Error{job.where("supports"), "supports", held_by_contact, "a body that is held, or contacts", ""});
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);

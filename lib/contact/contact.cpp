@@ -35,15 +35,15 @@ LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Ve
   const Vec3 v = out.frame.transpose() * ((x - x0) - (c - c0));
   out.q = Vec3(shape.gap, v[1], v[2]);
   const auto tangents = out.frame.rightCols<2>();
-  const Eigen::Matrix2d bend = tangents.transpose() * shape.bend * tangents;
-  // d(t.v) = (1 - v_n bend) d_t, since dt = -(t.dn) n
+  const Eigen::Matrix2d curvature = tangents.transpose() * shape.curvature * tangents;
+  // d(t.v) = (1 - v_n curvature) d_t, since dt = -(t.dn) n
   out.T = Mat3::Identity();
-  out.T.bottomRightCorner<2, 2>() -= v[0] * bend;
-  // dn = bend d, dt = -(t.dn) n:   d(frame r) = r_n bend d - n (r_t.bend d)
+  out.T.bottomRightCorner<2, 2>() -= v[0] * curvature;
+  // dn = curvature d, dt = -(t.dn) n:   d(frame r) = r_n curvature d - n (r_t.curvature d)
   const Vec3 r_local = out.frame.transpose() * r;
   out.D.setZero();
-  out.D.topRightCorner<1, 2>() = -r_local.tail<2>().transpose() * bend;
-  out.D.bottomRightCorner<2, 2>() = r_local[0] * bend;
+  out.D.topRightCorner<1, 2>() = -r_local.tail<2>().transpose() * curvature;
+  out.D.bottomRightCorner<2, 2>() = r_local[0] * curvature;
   return out;
 }
 
@@ -83,7 +83,7 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
     const Vec3 x_t = v - v.dot(n) * n;
     // a sphere of 1e5 mm knows its gap to 1e-11 mm: what is below the rounding of the positions is no gap
-    const double curved = shape.bend.norm(), far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
+    const double curved = shape.curvature.norm(), far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
     const double seen = std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far ? g : 0;
     const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});

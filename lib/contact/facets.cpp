@@ -106,9 +106,9 @@ ShapePoint Facets::at(const Vec3& x) const {
   p.normal = away / distance;
   p.gap = near.sign * distance - rounding;
   if (near.feature == 2)
-    p.bend = tangent_projection(p.normal) / (near.sign * distance);
+    p.curvature = tangent_projection(p.normal) / (near.sign * distance);
   else if (near.feature == 1)
-    p.bend = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) / (near.sign * distance);
+    p.curvature = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) / (near.sign * distance);
   return p;
 }
 

@@ -39,12 +39,12 @@ struct Cylinder {
     }
     const double s = std::max(side, 0.0), e = std::max(end, 0.0), distance = std::hypot(s, e);
     const Vec3 n = (s * outward - e * a) / distance;
-    Mat3 bend = around(a, outward, s / distance, rho);
+    Mat3 curvature = around(a, outward, s / distance, rho);
     if (s > 0 && e > 0) {  // on the rounded edge: curved along the meridian too
       const Vec3 meridian = (e * outward + s * a) / distance;
-      bend += meridian * meridian.transpose() / distance;
+      curvature += meridian * meridian.transpose() / distance;
     }
-    return {distance - edge, n, bend};
+    return {distance - edge, n, curvature};
   }
 
  private:
@@ -74,7 +74,7 @@ struct Ellipsoid {
     // shape operator S of the surface at c, carried to the surface of constant gap: S (1 + gap S)^-1
     const Mat3 P = tangent_projection(p.normal);
     const Mat3 S = P * Mat3((2 * h.cwiseProduct(h).cwiseInverse()).asDiagonal()) * P / slope.norm();
-    p.bend = S * inverse(Mat3::Identity() + p.gap * S);
+    p.curvature = S * inverse(Mat3::Identity() + p.gap * S);
     return p;
   }
 

@@ -1,7 +1,7 @@
 // What contact needs to know of a rigid shape at a point x of space.
 //   gap     signed distance, > 0 outside [mm]
 //   normal  gradient of the gap: from the shape to the body
-//   bend    dn/dx (3,3), symmetric, bend n = 0: curvature of the surface of constant gap through x [1/mm]
+//   curvature  dn/dx (3,3), symmetric, curvature n = 0: curvature of the surface of constant gap through x [1/mm]
 #pragma once
 
 #include "tensor/types.hpp"
@@ -11,7 +11,7 @@ namespace langer {
 struct ShapePoint {
   double gap = 0;
   Vec3 normal = Vec3::UnitY();
-  Mat3 bend = Mat3::Zero();
+  Mat3 curvature = Mat3::Zero();
 };
 
 inline Mat3 tangent_projection(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }

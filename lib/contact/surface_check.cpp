@@ -36,8 +36,8 @@ std::vector<std::array<int, 4>> edge_pieces(const std::vector<int>& n) {
 }
 
 double radius_of(const ShapePoint& p) {
-  const double bend = p.bend.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-  return bend > 0 ? std::max(0.0, 1 / bend - p.gap) : std::numeric_limits<double>::infinity();
+  const double curvature = p.curvature.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return curvature > 0 ? std::max(0.0, 1 / curvature - p.gap) : std::numeric_limits<double>::infinity();
 }
 
 // a point inside of a shape that has an end everywhere

@@ -54,7 +54,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
     std::visit(
         [&]<class Law>(const Law& t) {
           if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<P> e = t(where_it_exists(t, I1_bar));
+            const Energy<P> e = t(nan_outside_domain(t, I1_bar));
             out.W += e.W, dW += e.dW, ddW += e.ddW;
           }
         },
@@ -77,7 +77,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
     const double along = 1 - 3 * fibre.kappa;
     for (int p = 0; p < 6; ++p) h[p] = fibre.kappa * b[p] + along * m * a[voigt_i[p]] * a[voigt_j[p]];
     const P I4_bar = h[0] + h[1] + h[2], I4 = I4_bar / m;
-    const Energy<P> e = fibre.hgo(where_it_exists(fibre.hgo, I4_bar));
+    const Energy<P> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
     // the same threshold as the scalar law
     const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
     const P test =

@@ -68,7 +68,7 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
     std::visit(
         [&]<class Law>(const Law& t) {
           if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<P> e = t(where_it_exists(t, I1_bar));
+            const Energy<P> e = t(nan_outside_domain(t, I1_bar));
             dW += e.dW, ddW += e.ddW;
           }
         },
@@ -85,7 +85,7 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
     for (int p = 0; p < 6; ++p)
       term.h[p] = fibre.kappa * matrix.h[p] + (1 - 3 * fibre.kappa) * m * f[voigt_i[p]] * f[voigt_j[p]];
     const P I4_bar = term.h[0] + term.h[1] + term.h[2];
-    const Energy<P> e = fibre.hgo(where_it_exists(fibre.hgo, I4_bar));
+    const Energy<P> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
     const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
     const P test = fibre.tension_switch == FibreSwitch::off  ? P(1.0)
                    : fibre.tension_switch == FibreSwitch::I4 ? I4_bar / m - from

@@ -80,7 +80,7 @@ void Acoustic::add(const MatrixTerm& term, double I1_bar, double I2_bar) {
         const auto of_I1 = [&](const Energy<double>& e) { two_dW1_ += 2 * e.dW, four_ddW1_ += 4 * e.ddW; };
         const auto of_I2 = [&](const Energy<double>& e) { two_dW2_ += 2 * e.dW, four_ddW2_ += 4 * e.ddW; };
         if constexpr (law.of == Invariant::I1_bar)
-          of_I1(law(where_it_exists(law, I1_bar)));
+          of_I1(law(nan_outside_domain(law, I1_bar)));
         else if constexpr (law.of == Invariant::I2_bar)
           of_I2(law(I2_bar));
         else if constexpr (law.of == Invariant::I1_bar_and_I2_bar)
@@ -107,7 +107,7 @@ Acoustic::Acoustic(const Material& material, const Mat3& F, std::span<const Vec3
     const Vec3 f = FT_.transpose() * a[k];
     const double I = fibre.kappa * I1_bar + (1 - 3 * fibre.kappa) * f.squaredNorm();
     if (slack(fibre.tension_switch, I * root * root, I)) continue;
-    const Energy<double> e = fibre.hgo(where_it_exists(fibre.hgo, I));
+    const Energy<double> e = fibre.hgo(nan_outside_domain(fibre.hgo, I));
     families_.push_back({fibre.kappa, 2 * e.dW, 4 * e.ddW, f});
     f_.push_back(f);
     finite_ = finite_ && std::isfinite(e.dW) && std::isfinite(e.ddW);

@@ -24,7 +24,7 @@ constexpr double largest_stretch = 1e20;
 inline bool possible_stretch(double lambda) { return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch); }
 
 template <class Law>
-double where_it_exists(const Law& law, double invariant) {
+double nan_outside_domain(const Law& law, double invariant) {
   if constexpr (requires { exists(law, invariant); })
     return exists(law, invariant) ? invariant : std::numeric_limits<double>::quiet_NaN();
   else
@@ -32,9 +32,9 @@ double where_it_exists(const Law& law, double invariant) {
 }
 
 template <class Law>
-Packet where_it_exists(const Law& law, Packet invariant) {
+Packet nan_outside_domain(const Law& law, Packet invariant) {
   if constexpr (requires { exists(law, 0.0); })
-    for (int i = 0; i < Packet::lanes; ++i) invariant.set(i, where_it_exists(law, invariant[i]));
+    for (int i = 0; i < Packet::lanes; ++i) invariant.set(i, nan_outside_domain(law, invariant[i]));
   return invariant;
 }
 

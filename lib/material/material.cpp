@@ -90,7 +90,7 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
     std::visit(
         [&]<class Law>(const Law& law) {
           if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<double> e = law(where_it_exists(law, v.m * v.I1));
+            const Energy<double> e = law(nan_outside_domain(law, v.m * v.I1));
             r.W += e.W;
             M.head<3>().array() += e.dW;
             square(e.ddW, dlinear_bar_dC(v, identity6()));
@@ -121,7 +121,7 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
     const Vec6 aa = fibre_tensor(fibre, a[k]);
     const double I4_bar = linear_bar(v, aa);
     if (slack(fibre.tension_switch, I4_bar / v.m, I4_bar)) continue;
-    const Energy<double> e = fibre.hgo(where_it_exists(fibre.hgo, I4_bar));
+    const Energy<double> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
     r.W += e.W;
     M += e.dW * aa;
     square(e.ddW, dlinear_bar_dC(v, aa));

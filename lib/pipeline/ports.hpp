@@ -22,7 +22,7 @@ struct StageSpec {
   const char* sentence;  // first line of --help
   std::vector<Port> inputs;
   const char* output;  // name of the main output file in the node's folder
-  bool foretells = false;  // knows --dry-run
+  bool forecasts = false;  // knows --dry-run
   const char* exports = "";  // knows --export, which says this
 
   const Port* port(const std::string& name) const;

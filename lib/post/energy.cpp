@@ -55,20 +55,20 @@ std::vector<PathSums> EnergyPath::sums() const {
     const Interval& here = intervals_[k];
     const double slope = (here.end - here.begin) / here.dt;
     // second divided differences with the states before and after
-    double bend = 0;
+    double curvature = 0;
     int neighbours = 0;
     if (here.goes_on) {
       const Interval& before = intervals_[k - 1];
-      bend += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
+      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
     }
     if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
       const Interval& after = intervals_[k + 1];
-      bend += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
+      curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
     }
-    if (neighbours > 0) bend /= neighbours;
+    if (neighbours > 0) curvature /= neighbours;
     PathSums& sum = all[k + 1];
     sum.path = all[k].path + here.way;
-    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * bend;
+    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature;
     sum.dissipated = all[k].dissipated + here.dissipated;
     largest = std::max(largest, std::abs(sum.work));
     if (largest > 0) sum.balance = (sum.work - stored_[k + 1] - sum.dissipated) / largest;

@@ -62,7 +62,7 @@ bool LinearSolver::factorize(const std::vector<double>& values) {
   const NoNestedThreads guard;
   std::copy(values.begin(), values.end(), static_cast<double*>(s.A->x));
   s.indefinite = false;
-  s.props.clear();
+  s.springs.clear();
   return s.cholesky();
 }
 
@@ -86,10 +86,10 @@ VecX LinearSolver::solve(const VecX& b) const {
     return x;
   }
   x = s.whole(b);
-  if (s.props.empty()) return x;
-  VecX at(s.props.size());
-  for (std::size_t i = 0; i < s.props.size(); ++i) at[i] = x[s.props[i]];
-  return x + s.prop_moves * s.prop_share.solve(at);
+  if (s.springs.empty()) return x;
+  VecX at(s.springs.size());
+  for (std::size_t i = 0; i < s.springs.size(); ++i) at[i] = x[s.springs[i]];
+  return x + s.spring_moves * s.spring_share.solve(at);
 }
 
 LinearSolver::Half LinearSolver::start(const VecX& b) const {
@@ -173,14 +173,14 @@ MatX LinearSolver::compliance(const MatX& B) const {
     MatX W = MatX::Zero(B.cols(), B.cols());
     W.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose());
     W = MatX(W.selfadjointView<Eigen::Lower>());
-    if (s.props.empty()) return W;
-    MatX moves(B.cols(), s.props.size());  // of the contacts by the props
-    for (std::size_t k = 0; k < s.props.size(); ++k) {
+    if (s.springs.empty()) return W;
+    MatX moves(B.cols(), s.springs.size());  // of the contacts by the springs
+    for (std::size_t k = 0; k < s.springs.size(); ++k) {
       VecX picked(s.last.size());
-      for (std::size_t i = 0; i < s.last.size(); ++i) picked[i] = s.prop_moves(s.last[i], k);
+      for (std::size_t i = 0; i < s.last.size(); ++i) picked[i] = s.spring_moves(s.last[i], k);
       moves.col(k) = B.transpose() * picked;
     }
-    W += moves * s.prop_share.solve(MatX(moves.transpose()));
+    W += moves * s.spring_share.solve(MatX(moves.transpose()));
     return 0.5 * (W + W.transpose());
   }
   MatX W(B.cols(), B.cols());
@@ -197,7 +197,7 @@ MatX LinearSolver::compliance(const MatX& B) const {
 
 std::optional<MatX> LinearSolver::schur() const {
   const State& s = *state_;
-  if (!s.trailing || s.indefinite || !s.props.empty()) return std::nullopt;
+  if (!s.trailing || s.indefinite || !s.springs.empty()) return std::nullopt;
   const MatX& L = s.trailing_factor();
   MatX ordered = MatX::Zero(L.rows(), L.rows());
   ordered.selfadjointView<Eigen::Lower>().rankUpdate(L);

@@ -23,9 +23,9 @@ class LinearSolver {
   bool factorize(const std::vector<double>& values);
   // By UMFPACK, whatever the signs; false where K is singular.
   bool factorize_indefinite(const std::vector<double>& values);
-  // By CHOLMOD with props: springs on a few rows, found where Cholesky stops, at least one for each negative eigenvalue. They
+  // By CHOLMOD with springs: springs on a few rows, found where Cholesky stops, at least one for each negative eigenvalue. They
   // are taken out again exactly in solve() and compliance() (Woodbury). False where `most` of them are not enough.
-  bool factorize_propped(const std::vector<double>& values, int most = 40);
+  bool factorize_with_springs(const std::vector<double>& values, int most = 40);
   VecX solve(const VecX& b) const;
 
   // The same in two halves, for a b whose part on the rows of `last` is known only after x has been seen there:

@@ -1,4 +1,4 @@
-// Tangents that are not positive definite: with props, by UMFPACK, and how many directions give way.
+// Tangents that are not positive definite: with springs, by UMFPACK, and how many directions give way.
 #include <algorithm>
 #include <new>
 
@@ -6,47 +6,47 @@
 
 namespace langer {
 
-bool LinearSolver::factorize_propped(const std::vector<double>& values, int most) {
+bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int most) {
   State& s = *state_;
   const NoNestedThreads guard;
   const int* column_start = static_cast<int*>(s.A->p);
   double* x = static_cast<double*>(s.A->x);
   std::copy(values.begin(), values.end(), x);
   s.indefinite = false;
-  s.props.clear();
+  s.springs.clear();
   double mean = 0;  // a column starts with its diagonal
   for (std::size_t row = 0; row < s.A->nrow; ++row) mean += std::abs(values[column_start[row]]) / static_cast<double>(s.A->nrow);
   std::vector<double> stiffness;
   for (int attempt = 0; !s.cholesky(); ++attempt) {
     const int row = static_cast<int*>(s.L->Perm)[s.L->minor];
     if (attempt == most) {
-      s.props.clear();
+      s.springs.clear();
       return false;
     }
-    // after an earlier pivot near zero a later one may be as low as any number: then its prop is made stiffer
-    const auto known = std::find(s.props.begin(), s.props.end(), row);
+    // after an earlier pivot near zero a later one may be as low as any number: then its spring is made stiffer
+    const auto known = std::find(s.springs.begin(), s.springs.end(), row);
     double more = 100 * std::max(mean, std::abs(values[column_start[row]]));
-    if (known == s.props.end()) {
-      s.props.push_back(row), stiffness.push_back(more);
+    if (known == s.springs.end()) {
+      s.springs.push_back(row), stiffness.push_back(more);
     } else {
-      double& k = stiffness[static_cast<std::size_t>(known - s.props.begin())];
+      double& k = stiffness[static_cast<std::size_t>(known - s.springs.begin())];
       more = 9 * k, k += more;
     }
     x[column_start[row]] += more;
   }
-  const int q = static_cast<int>(s.props.size());
+  const int q = static_cast<int>(s.springs.size());
   if (q == 0) return true;
   // (K + E k E^T - E k E^T)^-1 = Z + Z E (1/k - E^T Z E)^-1 E^T Z
   MatX share = MatX::Zero(q, q);
-  s.prop_moves.resize(s.A->nrow, q);
-  for (int i = 0; i < q; ++i) s.prop_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.props[i]));
+  s.spring_moves.resize(s.A->nrow, q);
+  for (int i = 0; i < q; ++i) s.spring_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.springs[i]));
   for (int i = 0; i < q; ++i) {
     share(i, i) = 1 / stiffness[i];
-    for (int j = 0; j < q; ++j) share(i, j) -= s.prop_moves(s.props[i], j);
+    for (int j = 0; j < q; ++j) share(i, j) -= s.spring_moves(s.springs[i], j);
   }
-  s.prop_share.compute(share);
-  if (s.prop_share.rcond() > 1e-14) return true;
-  s.props.clear();
+  s.spring_share.compute(share);
+  if (s.spring_share.rcond() > 1e-14) return true;
+  s.springs.clear();
   return false;
 }
 

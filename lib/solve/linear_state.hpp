@@ -42,9 +42,9 @@ struct LinearSolver::State {
   void* symbolic = nullptr;
   void* numeric = nullptr;
   bool indefinite = false;
-  std::vector<int> props;  // rows with springs in the factor; empty in most
-  MatX prop_moves;         // (n, props): K^-1 of a unit force on each prop, springs included
-  Eigen::PartialPivLU<MatX> prop_share;
+  std::vector<int> springs;  // rows with springs in the factor; empty in most
+  MatX spring_moves;         // (n, springs): K^-1 of a unit force on each spring, springs included
+  Eigen::PartialPivLU<MatX> spring_share;
 
   ~State() {
     if (numeric) umfpack_di_free_numeric(&numeric);
@@ -57,10 +57,10 @@ struct LinearSolver::State {
   void analyse();
   void order_last();
   bool cholesky();  // of A as it is
-  VecX whole(const VecX& b) const;  // by the CHOLMOD factor, props included
+  VecX whole(const VecX& b) const;  // by the CHOLMOD factor, springs included
   bool factorize_indefinite();
   const MatX& trailing_factor() const;
-  bool halves() const { return trailing && !indefinite && props.empty(); }
+  bool halves() const { return trailing && !indefinite && springs.empty(); }
   VecX through(int system, const VecX& b) const;
 };
 

@@ -33,7 +33,7 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
         out[node].held.push_back(frame.col(1)), out[node].held.push_back(frame.col(2));
       } else {
         const Mat3 along = Mat3::Identity() - shape.normal * shape.normal.transpose();
-        out[node].turning += std::max(0.0, state.r[k][i].dot(shape.normal)) * along * shape.bend * along;
+        out[node].turning += std::max(0.0, state.r[k][i].dot(shape.normal)) * along * shape.curvature * along;
       }
     }
   }
@@ -53,10 +53,10 @@ MatX left_of(const NodeContact& contact, const bool* is_free) {
   return svd.matrixU().rightCols(3 - rank);
 }
 
-Signature signs(const MatX& M, bool neutral_too) {
+Signature signs(const MatX& M, bool zero_energy_too) {
   constexpr int largest = 1500;  // of a dense eigenvalue problem that is waited for
   if (M.rows() == 0) return {};
-  if (Eigen::LLT<MatX>(M).info() == Eigen::Success && (!neutral_too || M.rows() > largest)) return {};
+  if (Eigen::LLT<MatX>(M).info() == Eigen::Success && (!zero_energy_too || M.rows() > largest)) return {};
   const VecX e = Eigen::SelfAdjointEigenSolver<MatX>(M, Eigen::EigenvaluesOnly).eigenvalues();
   const double small = 1e-8 * e.cwiseAbs().maxCoeff();
   return {static_cast<int>((e.array() < -small).count()), static_cast<int>((e.array().abs() <= small).count())};

@@ -6,7 +6,7 @@
 #include "base/stopwatch.hpp"
 #include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
-#include "solve/free_motions.hpp"
+#include "solve/zero_energy_modes.hpp"
 
 namespace langer {
 
@@ -27,7 +27,7 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
     const Stopwatch watch(cost_.analysis);
     linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
   }
-  if (!last_.empty() && !free_motions(equilibrium_.mesh(), dofs).empty()) {
+  if (!last_.empty() && !zero_energy_modes(equilibrium_.mesh(), dofs).empty()) {
     // of the order of what the body opposes to a movement of one node: the weak resistance of contact to a free motion stays visible
     double mu = 0;
     const int n_cells = equilibrium_.mesh().n_cells();
@@ -168,7 +168,7 @@ bool Statics::slips_away() const {
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
 // K by Cholesky; where it is not positive definite, K with springs on the candidates, which contact_forces() takes out
-// again exactly; where that is not either, with props in the body, or without contact as it is by UMFPACK.
+// again exactly; where that is not either, with stabilisation springs in the body, or without contact as it is by UMFPACK.
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
   ++cost_.factorizations;
@@ -187,10 +187,10 @@ bool Statics::factorize() {
       for (int row : last_) K[pattern.column_start[row]] += gamma_;
       if (linear_->factorize(K)) return supported_ = true;
       if (spring < 1000 * diagonal) continue;
-      // The body itself gives way. In a few directions props help; where they are many, the increment was too long: K there
+      // The body itself gives way. In a few directions stabilisation springs help; where they are many, the increment was too long: K there
       // says nothing, and the same point comes within reach by shorter ones.
       factor_ = Factor::indefinite, ++n_unstable_;
-      return supported_ = linear_->factorize_propped(K);
+      return supported_ = linear_->factorize_with_springs(K);
     }
   }
   ++n_unstable_;
@@ -222,7 +222,7 @@ std::optional<VecX> Statics::correction() {
   need_tangent();
   again_ = false;
   if (!factorize()) return std::nullopt;
-  // springs and props hide what the body does; pressures of Gauss points are none of the mixed equations
+  // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
   factor_serves_ = factor_ == Factor::whole && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   VecX rhs = free_residual();

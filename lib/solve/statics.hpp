@@ -27,9 +27,9 @@ struct BodyState {
 // movements of the free dofs that keep closed contacts closed and sticking ones where they are. Slipping ones may glide; what
 // friction adds there is not symmetric and left out. Imposed displacements and the indenter stand still.
 //   negative  directions in which the body gives way: the equilibrium is unstable; -1: the tangent is singular to the last digit
-//   neutral   directions that nothing resists (below 1e-8 of the stiffest); counted with contact only
+//   zero_energy   directions that nothing resists (below 1e-8 of the stiffest); counted with contact only
 struct Signature {
-  int negative = 0, neutral = 0;
+  int negative = 0, zero_energy = 0;
 };
 
 struct StaticsOptions {

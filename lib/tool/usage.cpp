@@ -100,7 +100,7 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
                          p.takes_yaml ? "h5 yaml yml" : "h5", {}, p.required});
   u.options.push_back({"-o,--output", "FILE", fmt::format("main output, for example {}; side files stand beside it", stage.output), std::string(stage.output).substr(std::string(stage.output).rfind('.') + 1), {}, true});
   u.options.push_back({"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
-  u.options.push_back({"--dry-run", "", stage.foretells ? "check all, say which parts the scene has, memory and time; write nothing"
+  u.options.push_back({"--dry-run", "", stage.forecasts ? "check all, say which parts the scene has, memory and time; write nothing"
                                                        : "check config and inputs, say what would be made; write nothing", "", {}});
   if (*stage.exports) u.options.push_back({"--export", "FILE", stage.exports, "inp feb", {}});
   u.options.push_back({"--json", "", "print the results as one JSON object on stdout", "", {}});

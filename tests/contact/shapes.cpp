@@ -1,4 +1,4 @@
-// Every indenter: the normal is the gradient of the gap, the bend is the gradient of the normal, the gap is a distance.
+// Every indenter: the normal is the gradient of the gap, the curvature is the gradient of the normal, the gap is a distance.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<std::pair<const char*, Indenter>> shapes() {
 
 }  // namespace
 
-TEST_CASE("normal and bend are the first and second derivatives of the gap") {
+TEST_CASE("normal and curvature are the first and second derivatives of the gap") {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> u(-6, 6);
   for (const auto& [name, shape] : shapes()) {
@@ -60,13 +60,13 @@ TEST_CASE("normal and bend are the first and second derivatives of the gap") {
       for (int j = 0; j < 3; ++j) {
         const ShapePoint a = shape_at(shape, x + h * Vec3::Unit(j)), b = shape_at(shape, x - h * Vec3::Unit(j));
         gradient[j] = (a.gap - b.gap) / (2 * h), slope.col(j) = (a.normal - b.normal) / (2 * h);
-        smooth = smooth && (a.bend - p.bend).norm() < 1e-3 && (b.bend - p.bend).norm() < 1e-3;
+        smooth = smooth && (a.curvature - p.curvature).norm() < 1e-3 && (b.curvature - p.curvature).norm() < 1e-3;
       }
       CHECK(p.normal.norm() == doctest::Approx(1).epsilon(1e-12));
       CHECK((gradient - p.normal).norm() < 1e-8);
       if (!smooth) continue;
-      CHECK((slope - p.bend).norm() < 1e-5);
-      CHECK((p.bend * p.normal).norm() < 1e-10);
+      CHECK((slope - p.curvature).norm() < 1e-5);
+      CHECK((p.curvature * p.normal).norm() < 1e-10);
       ++checked;
     }
     CHECK(checked > 100);
@@ -77,7 +77,7 @@ TEST_CASE("an ellipsoid of equal axes is a sphere, its poles are where they shou
   const Indenter ball = Ellipsoid{{2, 2, 2}, {0, 1, 0}}, sphere = Sphere{2, {0, 1, 0}}, egg = Ellipsoid{{3, 1.5, 2}, {0, 5, 0}};
   for (const Vec3& x : {Vec3(3, 0, 1), Vec3(0.3, -1.2, 0.4), Vec3(0, -3, 0)}) {
     CHECK(shape_at(ball, x).gap == doctest::Approx(shape_at(sphere, x).gap).epsilon(1e-10));
-    CHECK((shape_at(ball, x).bend - shape_at(sphere, x).bend).norm() < 1e-8);
+    CHECK((shape_at(ball, x).curvature - shape_at(sphere, x).curvature).norm() < 1e-8);
   }
   CHECK(shape_at(egg, Vec3(0, 3, 0)).gap == doctest::Approx(0.5).epsilon(1e-10));
   CHECK(shape_at(egg, Vec3(4, 5, 0)).gap == doctest::Approx(1).epsilon(1e-10));

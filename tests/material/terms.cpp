@@ -127,18 +127,18 @@ TEST_CASE("laws meet where one is a special case of another") {
 
 TEST_CASE("an exponential of a fibre that leaves the range of forces is no number, alone and eight at once, and changes nothing else") {
   const HgoFibre fibre{0.1, 1000};  // exp(300) at I4_bar = 1.5477
-  for (double I4 : {0.5, 1., 1.21, 1.547}) CHECK(where_it_exists(fibre, I4) == I4);
-  for (double I4 : {1.548, 2., 1e200}) CHECK(std::isnan(fibre(where_it_exists(fibre, I4)).ddW));
+  for (double I4 : {0.5, 1., 1.21, 1.547}) CHECK(nan_outside_domain(fibre, I4) == I4);
+  for (double I4 : {1.548, 2., 1e200}) CHECK(std::isnan(fibre(nan_outside_domain(fibre, I4)).ddW));
   Packet all(1.2);
   all.set(3, 2), all.set(5, -1);
-  const Energy<Packet> e = fibre(where_it_exists(fibre, all));
+  const Energy<Packet> e = fibre(nan_outside_domain(fibre, all));
   for (int i = 0; i < Packet::lanes; ++i) CHECK(std::isnan(e.W[i]) == (i == 3 || i == 5));
 }
 
 TEST_CASE("beyond its limit Gent's law has no energy, and says so") {
   for (double I1 : {3 + 12.001, 20., 1e3}) {
     const Gent law{0.3, 12};
-    const Energy<double> e = law(where_it_exists(law, I1));
+    const Energy<double> e = law(nan_outside_domain(law, I1));
     CHECK(std::isnan(e.W));
     CHECK(std::isnan(e.dW));
     CHECK(std::isnan(e.ddW));

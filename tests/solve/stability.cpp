@@ -160,7 +160,7 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
               for (int j = 0; j < 3; ++j)
                 for (int k = 0; k < 3; ++k)
                   K(dofs.equation[3 * node + j], dofs.equation[3 * node + k]) -=
-                      statics.accepted().r[0][i].dot(shape.normal) * shape.bend(j, k);
+                      statics.accepted().r[0][i].dot(shape.normal) * shape.curvature(j, k);
           }
           for (int c = 0; c < kept; ++c) {
             VecX z = VecX::Zero(dofs.n_free());

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/dofs.hpp"
-#include "solve/free_motions.hpp"
+#include "solve/zero_energy_modes.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
@@ -15,7 +15,7 @@ TEST_CASE("extremes: motions that supports leave free are counted, and the last 
   Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4));
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets["y_min"]) held.push_back({3 * i + 1, 0});
-  const auto words = [&] { return free_motions(mesh, number_dofs(mesh.n_nodes(), held).dofs); };
+  const auto words = [&] { return zero_energy_modes(mesh, number_dofs(mesh.n_nodes(), held).dofs); };
   CHECK(words() == "the supports leave the body 3 rigid motions (2 along, 1 about an axis)");
   int middle = -1;
   for (int i : mesh.node_sets["y_min"])

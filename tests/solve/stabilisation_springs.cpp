@@ -10,7 +10,7 @@
 
 using namespace langer;
 
-TEST_CASE("props: an indefinite matrix solved by Cholesky and a few springs taken out again") {
+TEST_CASE("springs: an indefinite matrix solved by Cholesky and a few springs taken out again") {
   const Mesh mesh = test::block(test::even(0, 1, 3), test::even(0, 1.3, 3), test::even(0, 0.8, 3));  // no two alike
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
@@ -36,7 +36,7 @@ TEST_CASE("props: an indefinite matrix solved by Cholesky and a few springs take
     const double shift = negative == 0 ? 0 : 0.5 * (e[negative - 1] + e[negative]);
     for (int c = 0; c < p.n; ++c) values[p.column_start[c]] -= shift;
     CHECK(linear.factorize(values) == (negative == 0));
-    REQUIRE(linear.factorize_propped(values));
+    REQUIRE(linear.factorize_with_springs(values));
     const MatX K = dense(values);
     CHECK((K * linear.solve(b) - b).norm() < 1e-9 * b.norm());
     const MatX B = MatX::Identity(static_cast<Eigen::Index>(last.size()), 5);
@@ -47,5 +47,5 @@ TEST_CASE("props: an indefinite matrix solved by Cholesky and a few springs take
   }
   std::vector<double> values = body.K();
   for (double& v : values) v = -v;
-  CHECK_FALSE(linear.factorize_propped(values, 5));
+  CHECK_FALSE(linear.factorize_with_springs(values, 5));
 }

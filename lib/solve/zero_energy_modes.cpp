@@ -1,4 +1,4 @@
-#include "solve/free_motions.hpp"
+#include "solve/zero_energy_modes.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace langer {
 
-std::string free_motions(const Mesh& mesh, const Dofs& dofs) {
+std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& X : mesh.X) centre += X / mesh.n_nodes();
   double size = 0;

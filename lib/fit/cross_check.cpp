@@ -1,4 +1,4 @@
-#include "fit/second_answer.hpp"
+#include "fit/cross_check.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ double objective(const std::vector<double>& x, std::vector<double>& gradient, vo
 
 }  // namespace
 
-Comparison second_answer(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed, int evaluations) {
+Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed, int evaluations) {
   Objective f;
   f.q = least_squares_problem(problem);
   f.scale = 0.5 * f.q.size * f.q.size;

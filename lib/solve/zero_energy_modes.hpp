@@ -9,6 +9,6 @@
 
 namespace langer {
 
-std::string free_motions(const Mesh& mesh, const Dofs& dofs);  // in words; empty where the body is held
+std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs);  // in words; empty where the body is held
 
 }  // namespace langer

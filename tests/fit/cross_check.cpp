@@ -1,5 +1,5 @@
 // A second answer by another library: it agrees with an optimum and tells of one that is none.
-#include "fit/second_answer.hpp"
+#include "fit/cross_check.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,13 +23,13 @@ TEST_CASE("NLopt agrees with an optimum, on a bound or not, and finds what a sto
         {test}};
     const FitResult f = fit(problem, {.starts = 3});
     REQUIRE(f.best.converged);
-    const Comparison same = second_answer(problem, f.best, 1);
+    const Comparison same = cross_check(problem, f.best, 1);
     CAPTURE(same.text);
     CHECK(same.agrees);
     CHECK(same.cost == doctest::Approx(f.best.cost).epsilon(1e-4));
     LeastSquaresResult stopped = f.best;
     stopped.cost *= 1.01;
-    const Comparison lower = second_answer(problem, stopped, 1);
+    const Comparison lower = cross_check(problem, stopped, 1);
     CHECK(!lower.agrees);
     CHECK(lower.text.starts_with("NLopt finds a lower cost"));
   }

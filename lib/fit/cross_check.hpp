@@ -16,6 +16,6 @@ struct Comparison {
   std::string text;     // what to tell
 };
 
-Comparison second_answer(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed, int evaluations = 20000);
+Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed, int evaluations = 20000);
 
 }  // namespace langer
