@@ -1,15 +1,15 @@
 // langer-fit: parameters of a law from measured tests.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
-#include "fit/doubts.hpp"
-#include "fit/cross_check.hpp"
 #include "export/cards.hpp"
+#include "fit/cross_check.hpp"
+#include "fit/doubts.hpp"
+#include "stage.hpp"
+#include "store/curves_file.hpp"
+#include "store/seal.hpp"
 #include "study/fit_report.hpp"
 #include "study/long_work.hpp"
 #include "study/study_files.hpp"
-#include "store/curves_file.hpp"
-#include "stage.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 namespace {
@@ -53,7 +53,8 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   }
   write_text_file(job.beside("fit.csv"), fit_csv(record));
   if (config.study && config.study->figures && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
-    for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), job.beside(""))) job.say("{}", line);
+    for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), job.beside("")))
+      job.say("{}", line);
   for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
   return read_summary(job.output);

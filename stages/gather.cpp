@@ -2,13 +2,13 @@
 // figures and maps of all members.
 #include "sweep/gather.hpp"
 #include "plot/gnuplot.hpp"
-#include "sweep/design_tables.hpp"
-#include "sweep/gather_config.hpp"
 #include "plot/pictures.hpp"
-#include "sweep/sweep_file.hpp"
 #include "stage.hpp"
 #include "store/material_file.hpp"
 #include "store/seal.hpp"
+#include "sweep/design_tables.hpp"
+#include "sweep/gather_config.hpp"
+#include "sweep/sweep_file.hpp"
 
 namespace langer {
 namespace {
@@ -27,10 +27,9 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
     }
     if (found.size() == i + 1) continue;
     const std::string key = "maps." + name, near = nearest(name, known);
-    throw Failure(Exit::config,
-                  Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
-                        known.empty() ? "a file with maps: post has the key `maps`" : "one of " + list_words(known),
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
+                                      known.empty() ? "a file with maps: post has the key `maps`" : "one of " + list_words(known),
+                                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   return found;
 }
@@ -47,10 +46,8 @@ Curves curves_in(const std::string& file) {
   for (double s : fit->stress) largest = std::max(largest, std::abs(s));
   std::vector<double> error;
   for (std::size_t i = 0; i < fit->model.size(); ++i) error.push_back(100 * (fit->model[i] - fit->stress[i]) / largest);
-  curves.columns = {{"strain", "-", fit->strain},
-                    {"measured", "MPa", fit->stress},
-                    {"model", "MPa", fit->model},
-                    {"error", "percent", error}};
+  curves.columns = {
+      {"strain", "-", fit->strain}, {"measured", "MPa", fit->stress}, {"model", "MPa", fit->model}, {"error", "percent", error}};
   return curves;
 }
 
@@ -72,8 +69,7 @@ SweepColumn differences(const Job<GatherConfig>& job, const Members& members, co
 }
 
 // The effects of a design on each column, with the values of its points as columns of the table.
-std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design, Sweep& sweep,
-                                          Pictures& pictures) {
+std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design, Sweep& sweep, Pictures& pictures) {
   const std::vector<VecX> points = design_points(design);
   if (sweep.members.size() != points.size())
     throw Failure(Exit::config, Error{job.where("axes[0].design"), "axes[0].design",

@@ -58,7 +58,8 @@ int manual(const Given& given) {
     if (u.program == given.places[0]) return put_out(man_text(u)), 0;
     known.push_back(u.program);
   }
-  throw Failure(Exit::config, Error{{}, "", fmt::format("there is no program \"{}\"", given.places[0]), "one of " + list_words(known), ""});
+  throw Failure(Exit::config,
+                Error{{}, "", fmt::format("there is no program \"{}\"", given.places[0]), "one of " + list_words(known), ""});
 }
 
 int command(const Usage& usage, const std::string& name, int argc, char** argv) {
@@ -85,7 +86,11 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
   }
   const bool several = name == "show" || name == "check";
   if (const std::size_t most = name == "new" ? 2 : required; !several && given.places.size() > most)
-    throw Failure(Exit::config, Error{{usage.program}, "", fmt::format("found {} words", given.places.size()), fmt::format("{} at most", most), usage.program + " --help"});
+    throw Failure(Exit::config, Error{{usage.program},
+                                      "",
+                                      fmt::format("found {} words", given.places.size()),
+                                      fmt::format("{} at most", most),
+                                      usage.program + " --help"});
   if (name == "show") return show_files(given);
   if (name == "new") return new_project(given);
   if (name == "check") return check_files(given);
@@ -107,7 +112,10 @@ int langer_program(int argc, char** argv) {
     if (word == names.back()) return command(usage, word, argc - 1, argv + 1);
   }
   const std::string near = nearest(word, names);
-  throw Failure(Exit::config, Error{{"langer"}, "", fmt::format("there is no command \"{}\"", word), "one of " + list_words(names),
+  throw Failure(Exit::config, Error{{"langer"},
+                                    "",
+                                    fmt::format("there is no command \"{}\"", word),
+                                    "one of " + list_words(names),
                                     near.empty() ? "langer --help" : fmt::format("did you mean \"{}\"?", near)});
 }
 

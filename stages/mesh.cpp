@@ -20,7 +20,8 @@ void spare_input(const Job<MeshConfig>& job) {
   std::error_code unreadable;
   for (const MeshFormat format : job.config.exports)
     if (const std::string path = beside(job.output, format); from && std::filesystem::equivalent(path, from->file.path, unreadable))
-      throw Failure(Exit::config, Error{job.where("export"), "export", path + " is the file that geometry names", "another name of the output", ""});
+      throw Failure(Exit::config, Error{job.where("export"), "export", path + " is the file that geometry names",
+                                        "another name of the output", ""});
 }
 
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
@@ -33,8 +34,7 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
           quality.longest_edge, quality.largest_aspect, quality.least_scaled_jacobian);
   for (const auto& [name, nodes] : mesh.node_sets) {
     const auto facets = mesh.facet_sets.find(name);
-    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(),
-            facets == mesh.facet_sets.end() ? 0 : facets->second.size());
+    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(), facets == mesh.facet_sets.end() ? 0 : facets->second.size());
   }
   const std::vector<Summary> summary{{"nodes", static_cast<double>(mesh.n_nodes()), "-"},
                                      {"cells", static_cast<double>(mesh.n_cells()), "-"},

@@ -20,14 +20,16 @@ int main(int argc, char** argv) {
     int code = 0;
     if (!parsed(app, plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
-    const PlanReport report = dry_run ? check_pipeline(pipeline, folder) : plan(pipeline, folder, bin, command_line(argc, argv), slurm);
+    const PlanReport report =
+        dry_run ? check_pipeline(pipeline, folder) : plan(pipeline, folder, bin, command_line(argc, argv), slurm);
     if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
     if (quiet) return 0;
     for (const std::string& doubt : report.doubts) say_line("plan: warning: {}", doubt);
     if (dry_run)
       say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder, report.nodes, report.steps);
     else
-      say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder, report.nodes, report.steps, report.changed);
+      say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder, report.nodes, report.steps,
+               report.changed);
     if (slurm && !dry_run) say_line("plan: to send it to Slurm: {}/slurm/submit [options of sbatch]", report.folder);
     return 0;
   });

@@ -3,8 +3,8 @@
 //   langer-post --solution solution.h5 --export scene.inp --export scene.feb
 #include <set>
 
-#include "material/ellipticity.hpp"
 #include "export/export_scene.hpp"
+#include "material/ellipticity.hpp"
 #include "plot/pictures.hpp"
 #include "run/post_config.hpp"
 #include "run/post_files.hpp"
@@ -59,17 +59,16 @@ struct Table {
     if (row >= 0) return row;
     const double furthest = *std::max_element(u_ind.begin(), u_ind.end());
     refuse(job,
-           {{key, step,
-             fmt::format("a row from 0 to {}, or t=0 to t={}, or u_ind=0 to u_ind={}", t.size() - 1, t.back(), furthest), ""}});
+           {{key, step, fmt::format("a row from 0 to {}, or t=0 to t={}, or u_ind=0 to u_ind={}", t.size() - 1, t.back(), furthest),
+             ""}});
   }
   int exact_row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
     const int found = row(job, key, step);
     if (!is_exact(*parse_step(step), found, t, u_ind))
-      refuse(job,
-             {{key, step, "a state of the solution",
-               fmt::format("the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
-                           "where it is wanted",
-                           t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
+      refuse(job, {{key, step, "a state of the solution",
+                    fmt::format("the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
+                                "where it is wanted",
+                                t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
     return found;
   }
 };
@@ -133,7 +132,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     if (choice.field == Quantity::fibre_stretch && choice.family > body.n_families())
       complaints.push_back({key + ".family", "a fibre family that the material lacks", "another field", ""});
     for (std::size_t i = 0; i < choice.points.size(); ++i)
-      if (const auto set = header.mesh.node_sets.find(choice.points[i]); set == header.mesh.node_sets.end() || set->second.size() != 1)
+      if (const auto set = header.mesh.node_sets.find(choice.points[i]);
+          set == header.mesh.node_sets.end() || set->second.size() != 1)
         complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i], "an observation point of the mesh", ""});
   }
   if (!complaints.empty()) refuse(job, complaints);
@@ -199,8 +199,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const Summary& s : solution.reader.summary()) curves.summary.push_back(s);  // its errors
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
-          csv_file.filename().string(), snapshots.size(),
-          config.figures.size() + config.maps.size() + renders.size());
+          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size());
   return curves.summary;
 }
 
@@ -226,7 +225,9 @@ int export_scene(int argc, char** argv) {
     need_file(solution);
     for (const std::string& file : files)
       if (const auto ending = std::filesystem::path(file).extension(); ending != ".inp" && ending != ".feb")
-        throw Failure(Exit::config, Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
+        throw Failure(
+            Exit::config,
+            Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
     const Deck deck = deck_of(SolutionReader(solution), solution);
     for (const std::string& file : files) {
       const bool calculix = std::filesystem::path(file).extension() == ".inp";

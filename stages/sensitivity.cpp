@@ -2,13 +2,13 @@
 //   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
 #include <memory>
 
+#include "run/step_record.hpp"
+#include "stage.hpp"
+#include "store/seal.hpp"
 #include "study/long_work.hpp"
 #include "study/ranking.hpp"
 #include "study/sensitivity_tables.hpp"
-#include "run/step_record.hpp"
 #include "study/study_files.hpp"
-#include "stage.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 namespace {
@@ -81,8 +81,8 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
     value[j] = n.value, lower[j] = n.lower, upper[j] = n.upper;
   }
-  const CurveMaker stress = stress_of(config, material, chosen.keys, fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(),
-                                     record.strain);
+  const CurveMaker stress = stress_of(config, material, chosen.keys,
+                                      fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(), record.strain);
   VecX curve;
   if (stress()(value, curve)) {
     record.curve.assign(curve.data(), curve.data() + curve.size());

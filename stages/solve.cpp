@@ -9,22 +9,22 @@
 #include "base/stopwatch.hpp"
 #include "mesh/quality.hpp"
 #include "run/accuracy.hpp"
-#include "run/continued.hpp"
 #include "run/contact_watch.hpp"
+#include "run/continued.hpp"
 #include "run/dry_run.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/error_estimate.hpp"
 #include "run/homogeneous.hpp"
-#include "scene/make_mesh.hpp"
 #include "run/progress.hpp"
 #include "run/result_watch.hpp"
-#include "scene/scene.hpp"
 #include "run/stability_watch.hpp"
 #include "run/step_record.hpp"
+#include "scene/make_mesh.hpp"
+#include "scene/scene.hpp"
 #include "scene/symmetry.hpp"
-#include "solve/zero_energy_modes.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
+#include "solve/zero_energy_modes.hpp"
 #include "stage.hpp"
 #include "store/mesh_file.hpp"
 #include "store/solution_file.hpp"
@@ -44,8 +44,8 @@ void refuse_bad(const Mesh& mesh, const std::string& file) {
            "a positive Jacobian everywhere");
   if (const auto pair = coincident_nodes(mesh, 1e-9 * q.shortest_edge)) {
     const Vec3& X = mesh.X[static_cast<std::size_t>((*pair)[0])];
-    refuse(fmt::format("nodes {} and {} are both at ({:.6g}, {:.6g}, {:.6g}) mm: the body is torn there", (*pair)[0], (*pair)[1], X[0],
-                       X[1], X[2]),
+    refuse(fmt::format("nodes {} and {} are both at ({:.6g}, {:.6g}, {:.6g}) mm: the body is torn there", (*pair)[0], (*pair)[1],
+                       X[0], X[1], X[2]),
            "each place once");
   }
 }
@@ -80,9 +80,9 @@ std::vector<Summary> say_errors(const Job<SolveConfig>& job, const SolveConfig& 
     summary.push_back({e.of.name + "_error", e.total(), e.of.unit});
     summary.push_back({e.of.name + "_error_cells", e.cells, e.of.unit});
     if (e.has_limit) {
-      job.say("{} {:.4g} {} +- {:.2g} % (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}", e.of.name,
-              e.of.value, e.of.unit, whole * e.total(), whole * e.cells, whole * e.increments, whole * e.scatter, whole * e.solver,
-              e.limit());
+      job.say("{} {:.4g} {} +- {:.2g} % (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}",
+              e.of.name, e.of.value, e.of.unit, whole * e.total(), whole * e.cells, whole * e.increments, whole * e.scatter,
+              whole * e.solver, e.limit());
       summary.push_back({e.of.name + "_limit", e.limit(), e.of.unit});
       summary.push_back({e.of.name + "_error_increments", e.increments, e.of.unit});
       summary.push_back({e.of.name + "_error_scatter", e.scatter, e.of.unit});
@@ -110,8 +110,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     if (at_rest(m) == AtRest::unstable) job.say("warning: a law is {}", at_rest_in_words(m));
   const FibreJump jump = whole.families() > 0 ? largest_jump(mesh, [&](int e) { return whole.fibres_of(mesh, e); }) : FibreJump{};
   if (jump.degrees > 1e-3)
-    job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
-            jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
+    job.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm", jump.degrees,
+            jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   std::optional<ContactWatch> contact_watch;
   if (!whole.contacts.empty()) contact_watch.emplace(mesh, whole, job.where);
   const std::unique_ptr<HomogeneousScene> point = at_a_point ? HomogeneousScene::find(mesh, whole, config) : nullptr;
@@ -129,8 +129,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   options.threads = config.blas_threads;
   Statics statics(body, scene.contacts, options);
   if (job.dry_run)
-    return dry_run(config, scene, body, statics, config.estimate == EstimateBy::second_rung ? estimate_seconds(config, material, job.where) : 0,
-                   job.quiet);
+    return dry_run(config, scene, body, statics,
+                   config.estimate == EstimateBy::second_rung ? estimate_seconds(config, material, job.where) : 0, job.quiet);
   need_memory(statics, config.threads);
   SolutionWriter file(job.output, header_of(mesh, whole.formulation, whole, with_steps_hash(job.identity, job.config)),
                       within_tolerance(config));
@@ -141,7 +141,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   if (!held_by_contact.empty()) job.say("{}: only contact holds it", held_by_contact);
   StabilityWatch watch(job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   ResultWatch result(body);
-  std::string unstable;  // what ended the path, where it was that
+  std::string unstable;   // what ended the path, where it was that
   std::string last_said;  // of the last state's stability
 
   double files = 0;  // CPU seconds
@@ -158,7 +158,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     if (const auto found = saved->scalars.find("shear_stiffness_min"); found != saved->scalars.end() && found->second < 0)
       last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), saved->t);
-    if (std::any_of(file.earlier().begin(), file.earlier().end(), [&](const EarlierRun& run) { return run.config != job.identity.config; }))
+    if (std::any_of(file.earlier().begin(), file.earlier().end(),
+                    [&](const EarlierRun& run) { return run.config != job.identity.config; }))
       job.say("these steps were made with other settings: /provenance/earlier of the result holds them");
     last = *saved;
   }
@@ -219,41 +220,43 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     for (const std::string& line : contact_watch->warnings()) job.say("warning: {}", line);
   }
   if (!unstable.empty())
-    throw Failure(Exit::not_converged,
-                  Error{{}, "", unstable, "a stable state (on_unstable: stop)",
-                        fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", file.n_steps(), job.output)});
+    throw Failure(Exit::not_converged, Error{{},
+                                             "",
+                                             unstable,
+                                             "a stable state (on_unstable: stop)",
+                                             fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on",
+                                                         file.n_steps(), job.output)});
   if (!path.complete && interrupted())
-    throw Failure(exit_code_of(interrupted()),
-                  Error{{},
-                        "",
-                        fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()), path.t,
-                                    file.n_steps()),
-                        "",
-                        fmt::format("kept: {}.part (the next run continues from there)", job.output)});
+    throw Failure(exit_code_of(interrupted()), Error{{},
+                                                     "",
+                                                     fmt::format("stopped by {} at t = {:.6g} after {} steps",
+                                                                 signal_name(interrupted()), path.t, file.n_steps()),
+                                                     "",
+                                                     fmt::format("kept: {}.part (the next run continues from there)", job.output)});
   if (!path.complete)
     throw Failure(
         Exit::not_converged,
         Error{
             {},
             "",
-            fmt::format("stopped at t = {:.6g} after {} steps: {}{}; smallest increment reached", path.t, file.n_steps(),
-                        path.why,
+            fmt::format("stopped at t = {:.6g} after {} steps: {}{}; smallest increment reached", path.t, file.n_steps(), path.why,
                         (statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : "") +
                             (last_said.empty() ? "" : "; at the last state " + last_said) +
                             (held_by_contact.empty() ? "" : "; " + held_by_contact)),
             "",
-            fmt::format(
-                "kept: {} steps in {}.part ({}", file.n_steps(), job.output,
-                held_by_contact.empty() ? "the next run continues from there); try path.smallest or solver.newton.iterations"
-                                        : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
-                                          "turning, one beside it, where contact does not: that begins anew")});
+            fmt::format("kept: {} steps in {}.part ({}", file.n_steps(), job.output,
+                        held_by_contact.empty()
+                            ? "the next run continues from there); try path.smallest or solver.newton.iterations"
+                            : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
+                              "turning, one beside it, where contact does not: that begins anew")});
   std::vector<Summary> errors;
   if (config.estimate.value_or(EstimateBy::none) != EstimateBy::none) errors = say_errors(job, config, material, whole, mesh, last);
   std::vector<Summary> said = errors;  // of the result as a whole
   if (contact_watch)
     for (const Summary& s : contact_watch->summary()) said.push_back(s);
   // the processor's time before this function is that of loading the program
-  file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt, said);
+  file.finish(from_the_start ? std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}) : std::nullopt,
+              said);
   progress.finished(path, statics, files);
   std::vector<Summary> summary = summary_of(file.n_steps(), path, statics);
   if (!scene.contacts.empty()) summary.push_back({"force", last.force_ind.norm(), "N"});
@@ -272,7 +275,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
 
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const SolveConfig& config = job.config;
-  if (auto summary = solve_by(job, config.homogeneous == Homogeneous::automatic && config.stability == StabilityCheck::off)) return *summary;
+  if (auto summary = solve_by(job, config.homogeneous == Homogeneous::automatic && config.stability == StabilityCheck::off))
+    return *summary;
   job.say("homogeneous: the mesh no longer balances, and is solved from there on");
   return *solve_by(job, false);
 }

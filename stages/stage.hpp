@@ -78,14 +78,16 @@ class RunLog {
   void open(const std::string& path, const std::string& command, bool goes_on) {
     need_own_log(path);
     said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
-    if (!said::log) throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+    if (!said::log)
+      throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
     fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
     std::fflush(said::log);
   }
   // read by the table of a run's times (pipeline/run_state.hpp)
   static void end(int code) {
     if (said::log)
-      fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
+      fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(), cpu_seconds(),
+                 1e-6 * peak_bytes());
   }
 };
 
@@ -140,7 +142,8 @@ inline bool parsed(CLI::App& app, const Usage& usage, int argc, char** argv, int
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     known.push_back(name);
-    if (name.rfind("-", 0) == 0 && !usage.find(name)) throw std::logic_error("the option " + name + " is not in the table of usage");
+    if (name.rfind("-", 0) == 0 && !usage.find(name))
+      throw std::logic_error("the option " + name + " is not in the table of usage");
   }
   for (int i = 1; i < argc; ++i)
     if (const std::string a = argv[i]; a == "--help" || a == "-h") {
@@ -159,7 +162,8 @@ inline bool parsed(CLI::App& app, const Usage& usage, int argc, char** argv, int
     for (const std::string& extra : app.remaining())
       if (extra.rfind("-", 0) == 0) {
         const std::string near = nearest(extra, known);
-        say_error(fmt::format("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?"));
+        say_error(
+            fmt::format("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?"));
       }
     say_error(fmt::format("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name()));
     code = static_cast<int>(Exit::config);
@@ -192,11 +196,13 @@ inline void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
 }
 
 // --dry-run of the stages that cannot foretell more
-inline void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output, const InputFiles& inputs) {
+inline void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output,
+                        const InputFiles& inputs) {
   say_line("{}: dry run, nothing is computed or written", spec.name);
   const auto line = [](const std::string& part, const std::string& says) { say_line("  {:<14}{}", part, says); };
   for (const auto& [port, files] : inputs) line(port, fmt::format("{}", fmt::join(files, ", ")));
-  for (const ConfigPart& p : parts) line(p.key, p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
+  for (const ConfigPart& p : parts)
+    line(p.key, p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
   line("makes", output.empty() ? std::string(spec.output) : output);
 }
 

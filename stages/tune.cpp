@@ -2,14 +2,14 @@
 // rung, also as trade.csv; the front of each quantity as picture and CSV; the cheapest rung for each error wanted.
 #include <cmath>
 
-#include "sweep/gather.hpp"
 #include "plot/gnuplot.hpp"
-#include "sweep/trade.hpp"
 #include "plot/pictures.hpp"
-#include "sweep/sweep_file.hpp"
-#include "sweep/tune_config.hpp"
 #include "stage.hpp"
 #include "store/seal.hpp"
+#include "sweep/gather.hpp"
+#include "sweep/sweep_file.hpp"
+#include "sweep/trade.hpp"
+#include "sweep/tune_config.hpp"
 
 namespace langer {
 namespace {
@@ -80,7 +80,9 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
           const std::vector<double>& cpu, const std::vector<double>& error, const std::vector<int>& front) {
   const std::string name = "error_" + quantity;
   std::string all = "rung,cpu_s,error_percent\n", best = all;
-  const auto line = [&](std::size_t i) { return fmt::format("{},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], error[i]); };
+  const auto line = [&](std::size_t i) {
+    return fmt::format("{},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], error[i]);
+  };
   for (std::size_t i = 0; i < cpu.size(); ++i)
     if (std::isfinite(cpu[i]) && error[i] > 0) all += line(i);
   for (int i : front)
@@ -119,10 +121,10 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     for (std::size_t i : reference.no_rungs) as_rung[i] = NAN;
     const std::vector<int> front = pareto_front(cpu, as_rung);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
-            job.config.reference.member.empty() ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
-                                                          reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order)
-                                                                                    : ", no order seen")
-                                            : "");
+            job.config.reference.member.empty()
+                ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
+                              reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order) : ", no order seen")
+                : "");
     std::vector<double> on_front(cpu.size(), 0);
     for (int i : front) on_front[static_cast<std::size_t>(i)] = 1;
     sweep.columns.push_back({column.name + "_error", "percent", error});
@@ -136,8 +138,8 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
       }
       const auto k = static_cast<std::size_t>(i);
       job.say("  {:g} %: {} ({:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]), error[k], cpu[k], memory[k]);
-      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(column.name), wanted, csv_cell(name_of(ladder.members[k])), error[k], cpu[k],
-                            memory[k]);
+      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(column.name), wanted,
+                            csv_cell(name_of(ladder.members[k])), error[k], cpu[k], memory[k]);
     }
     draw(job, pictures, column.name, ladder, cpu, as_rung, front);
     summary.push_back({column.name + "_reference", right, column.unit});

@@ -20,7 +20,8 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vec
   dofs.tie = std::move(tie);
   for (std::size_t i = 0; i < dofs.tie.size(); ++i)
     for (int k = 0; k < 3; ++k)
-      if (dofs.tie[i].of != static_cast<int>(i) || dofs.tie[i].T(k, k) == 0) dofs.equation[3 * i + static_cast<std::size_t>(k)] = -1;
+      if (dofs.tie[i].of != static_cast<int>(i) || dofs.tie[i].T(k, k) == 0)
+        dofs.equation[3 * i + static_cast<std::size_t>(k)] = -1;
   for (const Prescribed& p : dofs.prescribed) dofs.equation[p.dof] = -1;
   for (int i = 0; i < dofs.n; ++i)
     if (dofs.equation[i] == 0) {

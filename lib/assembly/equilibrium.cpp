@@ -98,8 +98,7 @@ ElementNodes Equilibrium::element_displacements(const VecX& u, int e) const {
   if (tied_.empty() || !tied_[e]) return element_values(mesh_, e, u);
   const auto nodes = mesh_.cell(e);
   ElementNodes q(n_nodes_, 3);
-  for (int a = 0; a < n_nodes_; ++a)
-    q.row(a) = (dofs_.tie[nodes[a]].T * u.segment<3>(3 * dofs_.node(nodes[a]))).transpose();
+  for (int a = 0; a < n_nodes_; ++a) q.row(a) = (dofs_.tie[nodes[a]].T * u.segment<3>(3 * dofs_.node(nodes[a]))).transpose();
   return q;
 }
 
@@ -210,8 +209,7 @@ void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
   }
 }
 
-void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent,
-                      const VecX* du_prescribed) {
+void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   const double kappa = material(block.cells[0]).volume.quadratic.bulk_modulus();
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];

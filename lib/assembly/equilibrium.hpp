@@ -60,7 +60,7 @@ class Equilibrium {
  private:
   double bulk_modulus(int e) const { return material(e).volume.quadratic.bulk_modulus(); }
   double modal_share(int e) const { return 1 - local_[e] / bulk_modulus(e); }  // of kappa: what is not left to `local`
-  void follow_pressures();  // local_ from p_
+  void follow_pressures();                                                     // local_ from p_
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];
@@ -85,8 +85,8 @@ class Equilibrium {
   Kernel kernel_;
   std::vector<Block> blocks_;
   // K is not cleared as a whole: whoever comes first to a block of two nodes writes it
-  std::vector<char> begins_;  // by element and pair of nodes, as pattern_.blocks()
-  std::vector<int> cleared_;  // positions to which a scattered element comes first
+  std::vector<char> begins_;                     // by element and pair of nodes, as pattern_.blocks()
+  std::vector<int> cleared_;                     // positions to which a scattered element comes first
   std::vector<PacketGeometry> packet_geometry_;  // per block
   std::vector<std::vector<PacketFibre>> packet_fibres_;
   std::vector<ElementGeometry> geometry_;
@@ -96,7 +96,7 @@ class Equilibrium {
   std::vector<double> J_minus_1_;  // same shape
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
   std::vector<double> dJ_du_kept_;
-  std::vector<double> local_;      // by cell: modulus of what its modes leave of J - 1 [MPa]
+  std::vector<double> local_;  // by cell: modulus of what its modes leave of J - 1 [MPa]
   VecX f_, K_du_;
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;

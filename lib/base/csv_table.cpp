@@ -81,7 +81,8 @@ struct Line {
 
 std::vector<Line> lines_of(const std::string& text, const std::string& name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    throw Failure(Exit::input, {{name, 1, 1}, "", "found text in UTF-16", "UTF-8", "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
+    throw Failure(Exit::input,
+                  {{name, 1, 1}, "", "found text in UTF-16", "UTF-8", "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
   std::vector<Line> lines;
   const char end = text.find('\n') == std::string::npos && text.find('\r') != std::string::npos ? '\r' : '\n';
   std::istringstream in(text);
@@ -107,7 +108,8 @@ CsvRow commented_row(const Line& line, char separator) {  // what stands behind 
 }
 
 bool all_numbers(const CsvRow& row) {
-  return !row.cells.empty() && std::all_of(row.cells.begin(), row.cells.end(), [](const CsvCell& c) { return digits_of(c.text).number; });
+  return !row.cells.empty() &&
+         std::all_of(row.cells.begin(), row.cells.end(), [](const CsvCell& c) { return digits_of(c.text).number; });
 }
 
 std::optional<char> told_separator(const std::vector<Line>& lines) {
@@ -129,13 +131,15 @@ std::optional<Beginning> known_beginning(const std::vector<Line>& lines, const s
   for (char separator : separators)
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (!lines[i].comment)
-        if (CsvRow row = row_of(lines[i], separator); reading.is_header(row.cells)) return Beginning{std::move(row), i + 1, separator};
+        if (CsvRow row = row_of(lines[i], separator); reading.is_header(row.cells))
+          return Beginning{std::move(row), i + 1, separator};
   // a comment among those before the first numbers
   std::size_t first = 0;
   while (first < lines.size() && lines[first].comment) ++first;
   for (char separator : separators)
     for (std::size_t i = first; i-- > 0 && first < lines.size() && all_numbers(row_of(lines[first], separator));)
-      if (CsvRow row = commented_row(lines[i], separator); reading.is_header(row.cells)) return Beginning{std::move(row), first, separator};
+      if (CsvRow row = commented_row(lines[i], separator); reading.is_header(row.cells))
+        return Beginning{std::move(row), first, separator};
   return std::nullopt;
 }
 
@@ -254,9 +258,45 @@ std::optional<double> CsvTable::number(const CsvCell& cell) const {
 }
 
 bool is_unit(const std::string& text) {
-  static const std::set<std::string> known{"-", "1", "%", "percent", "Pa", "kPa", "MPa", "GPa", "N", "mN", "kN", "m", "mm", "cm", "um",
-                                           "\xC2\xB5m", "\xB5m", "s", "sec", "min", "h", "Hz", "mm/mm", "m/m", "mm/s", "mm/min", "%/s", "1/s",
-                                           "N/mm2", "N/mm^2", "N/mm\xC2\xB2", "N/mm\xB2", "deg", "\xC2\xB0", "\xC2\xB0""C", "J", "mJ", "N/mm"};
+  static const std::set<std::string> known{"-",
+                                           "1",
+                                           "%",
+                                           "percent",
+                                           "Pa",
+                                           "kPa",
+                                           "MPa",
+                                           "GPa",
+                                           "N",
+                                           "mN",
+                                           "kN",
+                                           "m",
+                                           "mm",
+                                           "cm",
+                                           "um",
+                                           "\xC2\xB5m",
+                                           "\xB5m",
+                                           "s",
+                                           "sec",
+                                           "min",
+                                           "h",
+                                           "Hz",
+                                           "mm/mm",
+                                           "m/m",
+                                           "mm/s",
+                                           "mm/min",
+                                           "%/s",
+                                           "1/s",
+                                           "N/mm2",
+                                           "N/mm^2",
+                                           "N/mm\xC2\xB2",
+                                           "N/mm\xB2",
+                                           "deg",
+                                           "\xC2\xB0",
+                                           "\xC2\xB0"
+                                           "C",
+                                           "J",
+                                           "mJ",
+                                           "N/mm"};
   std::string inner = trimmed(text);
   if (inner.size() > 2 && ((inner.front() == '(' && inner.back() == ')') || (inner.front() == '[' && inner.back() == ']')))
     inner = trimmed(inner.substr(1, inner.size() - 2));

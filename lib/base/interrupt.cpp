@@ -18,7 +18,8 @@ void on_signal(int signal) {
   clock_gettime(CLOCK_MONOTONIC, &now);
   if (signal_seen != 0) {
     // one wish may come twice, from the terminal or scheduler and from make
-    const double later = static_cast<double>(now.tv_sec - seen_at.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - seen_at.tv_nsec);
+    const double later =
+        static_cast<double>(now.tv_sec - seen_at.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - seen_at.tv_nsec);
     if (later < 0.2) return;
   }
   if (signal_seen != 0 || places_to_stop == 0) {

@@ -31,12 +31,12 @@ std::string flat(const Tree& t) {
 std::string json_of(const Tree& t, int indent) {
   constexpr std::size_t widest = 100;
   const std::string one = flat(t);
-  if (one.size() + static_cast<std::size_t>(indent) <= widest || (t.kind != Tree::Kind::map && t.kind != Tree::Kind::list)) return one;
+  if (one.size() + static_cast<std::size_t>(indent) <= widest || (t.kind != Tree::Kind::map && t.kind != Tree::Kind::list))
+    return one;
   const std::string margin(static_cast<std::size_t>(indent) + 2, ' ');
   std::string s;
   for (const Tree& item : t.list) s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
-  for (const auto& [key, value] : t.map)
-    s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
+  for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
   const std::string end(static_cast<std::size_t>(indent), ' ');
   return t.kind == Tree::Kind::map ? "{\n" + s + "\n" + end + "}" : "[\n" + s + "\n" + end + "]";
 }

@@ -46,7 +46,7 @@ inline Tree type(const std::string& name) { return object({{"type", word(name)}}
 inline Tree types(const std::vector<std::string>& names) { return object({{"type", words(names)}}); }
 inline Tree reference(const std::string& name) { return object({{"$ref", word("#/definitions/" + name)}}); }
 
-Tree included();                       // what `include` may hold
+Tree included();  // what `include` may hold
 Tree number(const Member& m, bool whole);
 Tree described(Tree schema, const Member& m);  // with its meaning and unit
 void refuse_others(Tree& object);
@@ -98,7 +98,8 @@ bool asks_within() {
   else {
     bool any = asks<T>();
     T object{};
-    for_each_line(object, [&](const Member&, const auto& value) { any = any || asks_within<std::remove_cvref_t<decltype(value)>>(); });
+    for_each_line(object,
+                  [&](const Member&, const auto& value) { any = any || asks_within<std::remove_cvref_t<decltype(value)>>(); });
     return any;
   }
 }
@@ -166,8 +167,10 @@ template <class T>
 Tree of(const Member& m, bool whole, Definitions& definitions) {
   if constexpr (is_optional<T>) {
     Tree t = of<typename T::value_type>(m, whole, definitions);
-    if constexpr (Listed<typename T::value_type>) return t;
-    else return object({{"anyOf", list({std::move(t), type("null")})}});
+    if constexpr (Listed<typename T::value_type>)
+      return t;
+    else
+      return object({{"anyOf", list({std::move(t), type("null")})}});
   } else if constexpr (std::is_same_v<T, bool>)
     return type("boolean");
   else if constexpr (is_whole_number<T> || std::is_floating_point_v<T>)
@@ -199,9 +202,10 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
       for (const char* end : {"minItems", "maxItems"}) t.map.push_back({end, plain_tree(std::to_string(std::tuple_size_v<T>))});
     return t;
   } else if constexpr (is_named_things<T>) {
-    Tree t = object({{"type", word("object")},
-                     {"properties", object({{"include", included()}})},
-                     {"patternProperties", object({{"^(?!include$)[A-Za-z0-9_+-]+$", of<typename T::mapped_type>(m, whole, definitions)}})}});
+    Tree t = object(
+        {{"type", word("object")},
+         {"properties", object({{"include", included()}})},
+         {"patternProperties", object({{"^(?!include$)[A-Za-z0-9_+-]+$", of<typename T::mapped_type>(m, whole, definitions)}})}});
     refuse_others(t);
     return t;
   } else

@@ -76,11 +76,11 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
   double x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large or too small for a double");
-  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s))
-    return wrong(number_hint(tree, m));
+  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s)) return wrong(number_hint(tree, m));
   if (!std::isfinite(x)) return wrong("numbers must be finite");
   if (!within(x, m.range)) return wrong(m.hint);
-  if (std::string_view(m.unit) == unit::mm && !is_length(x, m)) return wrong("lengths and positions are at most 1e9 mm, lengths at least 1e-9 mm");
+  if (std::string_view(m.unit) == unit::mm && !is_length(x, m))
+    return wrong("lengths and positions are at most 1e9 mm, lengths at least 1e-9 mm");
   out = x;
 }
 
@@ -94,8 +94,7 @@ long long read_whole(const Tree& tree, const std::string& path, const Member& m,
   long long x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large for a whole number");
-  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s))
-    return wrong(number_hint(tree, m));
+  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s)) return wrong(number_hint(tree, m));
   if (!within(static_cast<double>(x), m.range)) return wrong(m.hint);
   if (x < low || x > high) return wrong("too large for a whole number");
   return x;

@@ -46,9 +46,8 @@ std::vector<PathStep> split_path(const std::string& path) {
 namespace {
 
 bool lies_under_others(const Tree& one, const std::vector<Tree::Entry>& all) {
-  return std::any_of(all.begin(), all.end(), [&](const Tree::Entry& e) {
-    return std::countr_zero(e.value.layers) < std::countr_zero(one.layers);
-  });
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Tree::Entry& e) { return std::countr_zero(e.value.layers) < std::countr_zero(one.layers); });
 }
 
 }  // namespace

@@ -28,9 +28,8 @@ namespace {
 
 bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool plain_letters(const std::string& s) {
-  return std::all_of(s.begin(), s.end(), [](char c) {
-    return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-';
-  });
+  return std::all_of(s.begin(), s.end(),
+                     [](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-'; });
 }
 
 // Texts that any YAML reader takes for a text when they stand without quotes.

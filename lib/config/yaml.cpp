@@ -80,8 +80,7 @@ class Builder : public YAML::EventHandler {
     t.place = place(mark);
     add(std::move(t), 0);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
     begin(Tree::Kind::list, mark, tag, anchor);
   }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
@@ -96,7 +95,7 @@ class Builder : public YAML::EventHandler {
     YAML::anchor_t anchor;
     std::string key;  // of a map: the key whose value comes next
     Place key_place;
-    bool has_key = false, drop = false;  // drop: the key was refused, its value is read and forgotten
+    bool has_key = false, drop = false;               // drop: the key was refused, its value is read and forgotten
     std::unordered_map<std::string, int> lines = {};  // where each key of a map stands
   };
   std::string file_, base_;
@@ -112,8 +111,7 @@ class Builder : public YAML::EventHandler {
   }
   void check_size(const YAML::Mark& mark) {
     if (n_parts_ > most_parts)
-      refuse(place(mark),
-             fmt::format("more than {} parts, aliases and includes counted as often as they are used", most_parts));
+      refuse(place(mark), fmt::format("more than {} parts, aliases and includes counted as often as they are used", most_parts));
   }
   void refuse_depth(const YAML::Mark& mark) { refuse(place(mark), fmt::format("nested more than {} levels deep", deepest)); }
 
@@ -133,19 +131,18 @@ class Builder : public YAML::EventHandler {
     map.has_key = true;
     map.drop = false;
     if (const auto [first, is_new] = map.lines.emplace(key, map.key_place.line); !is_new) {
-      errors.push_back({map.key_place, "", fmt::format("the key \"{}\" was already given at line {}", key, first->second),
-                        "each key once", ""});
+      errors.push_back(
+          {map.key_place, "", fmt::format("the key \"{}\" was already given at line {}", key, first->second), "each key once", ""});
       map.drop = true;
     } else if (key == "<<") {
-      errors.push_back({map.key_place, "", "found a merge key \"<<\"", "\"include: file\"",
-                        "keys beside `include` win over the included ones"});
+      errors.push_back(
+          {map.key_place, "", "found a merge key \"<<\"", "\"include: file\"", "keys beside `include` win over the included ones"});
       map.drop = true;
     }
   }
   void begin(Tree::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     check_tag(tag, mark);
-    if (expects_key())
-      refuse(place(mark), kind == Tree::Kind::list ? "found a list as a key" : "found a map as a key", "a name");
+    if (expects_key()) refuse(place(mark), kind == Tree::Kind::list ? "found a list as a key" : "found a map as a key", "a name");
     if (open_.size() + 1 > deepest) refuse_depth(mark);
     open_.push_back({made(kind, mark), anchor, "", {}, false, false});
   }
@@ -181,12 +178,10 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
     builder.root.base = base;
     parser.HandleNextDocument(builder);
     const Tree first = builder.root;
-    if (parser.HandleNextDocument(builder))
-      refuse(builder.root.place, "found a second document", "one YAML document in a file");
+    if (parser.HandleNextDocument(builder)) refuse(builder.root.place, "found a second document", "one YAML document in a file");
     builder.root = first;
   } catch (const YAML::Exception& e) {
-    refuse({file, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1},
-           "this is not YAML: " + e.msg);
+    refuse({file, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1}, "this is not YAML: " + e.msg);
   }
   if (!builder.errors.empty()) throw Failure(Exit::config, builder.errors);
   return std::move(builder.root);
@@ -284,8 +279,7 @@ Tree load(const std::string& path, Reading& reading) {
   if (fs::is_directory(path, ec)) throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw Failure(Exit::input,
-                  Error{{path, 0, 0}, "", fs::exists(path, ec) ? "cannot be read" : "there is no such file", "", ""});
+    throw Failure(Exit::input, Error{{path, 0, 0}, "", fs::exists(path, ec) ? "cannot be read" : "there is no such file", "", ""});
   std::string text(largest_file + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));

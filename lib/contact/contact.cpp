@@ -54,8 +54,8 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
   return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
 }
 
-ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
-                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r, double motion) {
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
+                             const Vec3& c0, const std::vector<Vec3>& r, double motion) {
   ContactDefect defect;
   double largest = 0, moved = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {

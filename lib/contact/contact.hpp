@@ -58,7 +58,7 @@ struct ContactDefect {
 };
 // u, u0: (3 n) displacements now and at the start of the increment; r: one per candidate;
 // motion: what moves the scene in this increment [mm], for the relative measure where nothing slips
-ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
-                             const Vec3& c, const Vec3& c0, const std::vector<Vec3>& r, double motion);
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
+                             const Vec3& c0, const std::vector<Vec3>& r, double motion);
 
 }  // namespace langer

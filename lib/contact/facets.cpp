@@ -25,8 +25,7 @@ OnTriangle nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return {a + d1 / (d1 - d3) * ab, 1, ab.normalized()};
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, 1, ac.normalized()};
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 1, (c - b).normalized()};
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 1, (c - b).normalized()};
   const double sum = va + vb + vc;
   return {a + vb / sum * ab + vc / sum * ac, 0, {}};
 }
@@ -43,8 +42,8 @@ TriangleTree::TriangleTree(Triangles triangles) : t_(std::move(triangles)), orde
 }
 
 int TriangleTree::build(int first, int last) {
-  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity()),
-          first, last};
+  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity()), first,
+          last};
   for (int i = first; i < last; ++i)
     for (int p : t_.corners[order_[i]]) box.low = box.low.cwiseMin(t_.points[p]), box.high = box.high.cwiseMax(t_.points[p]);
   const int index = static_cast<int>(boxes_.size());

@@ -157,8 +157,7 @@ bool newton_step(const LocalProblem& problem, const VecX& rho, VecX& r) {
 // put each reaction on its cone exactly
 void snap(const LocalProblem& problem, VecX& r) {
   for (int i = 0; i < problem.n_contacts(); ++i)
-    r.segment<3>(3 * i) =
-        project_on_cone(problem.mu[i] == 0 ? Vec3(r[3 * i], 0, 0) : Vec3(r.segment<3>(3 * i)), problem.mu[i]).r;
+    r.segment<3>(3 * i) = project_on_cone(problem.mu[i] == 0 ? Vec3(r[3 * i], 0, 0) : Vec3(r.segment<3>(3 * i)), problem.mu[i]).r;
 }
 
 // Sweeps and Newton steps in turn, until the natural map is small or the budget is spent; r gets the best seen.

@@ -59,8 +59,7 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
   const auto scale = [&](const VecX& at) {
     return std::max(
         {(p.b + p.A * at).lpNorm<Eigen::Infinity>(),
-         rho.cwiseProduct(VecX::NullaryExpr(rho.size(), [&](Eigen::Index i) { return std::abs(p.q[3 * i]); })).maxCoeff() *
-             1e-3,
+         rho.cwiseProduct(VecX::NullaryExpr(rho.size(), [&](Eigen::Index i) { return std::abs(p.q[3 * i]); })).maxCoeff() * 1e-3,
          1e-300});
   };
   Function now = evaluate(p, rho, s, &Jacobian);

@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "mesh/reference.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 #include "mesh/select.hpp"
 

@@ -21,15 +21,15 @@ struct SurfaceLook {
   };
   double distance = std::numeric_limits<double>::infinity();  // from the boundary; negative inside
   Vec3 nearest = Vec3::Zero();
-  Spot node;           // deepest node that is no candidate
-  Spot facet;          // deepest point of any facet
-  Spot unresolved;     // the same, deepest relative to a, or to the indenter's half width if that is less
+  Spot node;        // deepest node that is no candidate
+  Spot facet;       // deepest point of any facet
+  Spot unresolved;  // the same, deepest relative to a, or to the indenter's half width if that is less
   double unresolved_ratio = 0;
   double spacing = std::numeric_limits<double>::infinity();  // shortest distance a of what touches or is entered
-  bool swallowed = false;  // nothing touches or is entered, and the indenter is inside the body
-  int touching = 0;        // candidates with a reaction
+  bool swallowed = false;                                    // nothing touches or is entered, and the indenter is inside the body
+  int touching = 0;                                          // candidates with a reaction
   bool whole_facet = false;  // all nodes of some facet, or of a part of it between neighbouring nodes, touch
-  double pressed = 0;      // how much further than the rest the boundary is pushed along the indenter's force
+  double pressed = 0;        // how much further than the rest the boundary is pushed along the indenter's force
 };
 
 // Half the width of a shape that has an end everywhere, infinite without.
@@ -47,8 +47,8 @@ class SurfaceCheck {
 
  private:
   struct Patch {
-    std::vector<int> nodes;   // of a facet, or of its edge in z = 0
-    bool axis = false;        // of an axisymmetric section: no surface
+    std::vector<int> nodes;  // of a facet, or of its edge in z = 0
+    bool axis = false;       // of an axisymmetric section: no surface
   };
   struct Deepest {
     double gap;

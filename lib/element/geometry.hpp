@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
-#include "mesh/reference.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -27,7 +27,7 @@ struct ElementGeometry {
 
 using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;  // one row per node
 
-ElementNodes element_nodes(const Mesh& mesh, int e);  // reference positions
+ElementNodes element_nodes(const Mesh& mesh, int e);                  // reference positions
 ElementNodes element_values(const Mesh& mesh, int e, const VecX& u);  // of a field with three components per node
 ElementGeometry element_geometry(const ElementNodes& X);
 

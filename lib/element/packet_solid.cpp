@@ -72,8 +72,7 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
     const Fibre& fibre = material.fibres[k];
     if (fibre.hgo.c1 == 0) continue;
     P a[3], h[6];
-    for (int i = 0; i < 3; ++i)
-      a[i] = F[3 * i] * fibres[k].a[0] + F[3 * i + 1] * fibres[k].a[1] + F[3 * i + 2] * fibres[k].a[2];
+    for (int i = 0; i < 3; ++i) a[i] = F[3 * i] * fibres[k].a[0] + F[3 * i + 1] * fibres[k].a[1] + F[3 * i + 2] * fibres[k].a[2];
     const double along = 1 - 3 * fibre.kappa;
     for (int p = 0; p < 6; ++p) h[p] = fibre.kappa * b[p] + along * m * a[voigt_i[p]] * a[voigt_j[p]];
     const P I4_bar = h[0] + h[1] + h[2], I4 = I4_bar / m;
@@ -116,7 +115,7 @@ void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
 // times w. The sum stays in registers.
 template <int n, int n_gauss>
 void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6], P* K) {
-  P cB[n_gauss][3][6];       // columns of c B_b
+  P cB[n_gauss][3][6];        // columns of c B_b
   P diagonal[n_gauss][3][3];  // of entry (j, j), against g_a: from c B_b and s g_b
   for (int q = 0; q < n_gauss; ++q) {
     const P* gb = g[q][b];
@@ -285,7 +284,9 @@ void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet*
   for (int q = 0; q < geometry.n_gauss; ++q) {
     P H[9];
     const P* dN = &geometry.dN_dX[q * 3 * geometry.n_nodes];
-    (geometry.n_nodes == 8 ? displacement_gradient<8> : geometry.n_nodes == 15 ? displacement_gradient<15> : displacement_gradient<27>)(dN, u, H);
+    (geometry.n_nodes == 8    ? displacement_gradient<8>
+     : geometry.n_nodes == 15 ? displacement_gradient<15>
+                              : displacement_gradient<27>)(dN, u, H);
     J_minus_1[q] = dilatation(H);
   }
 }

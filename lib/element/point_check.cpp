@@ -82,8 +82,7 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
     Term& term = out[n++];
     P f[3];
     for (int i = 0; i < 3; ++i) f[i] = F[3 * i] * a[k][0] + F[3 * i + 1] * a[k][1] + F[3 * i + 2] * a[k][2];
-    for (int p = 0; p < 6; ++p)
-      term.h[p] = fibre.kappa * matrix.h[p] + (1 - 3 * fibre.kappa) * m * f[voigt_i[p]] * f[voigt_j[p]];
+    for (int p = 0; p < 6; ++p) term.h[p] = fibre.kappa * matrix.h[p] + (1 - 3 * fibre.kappa) * m * f[voigt_i[p]] * f[voigt_j[p]];
     const P I4_bar = term.h[0] + term.h[1] + term.h[2];
     const Energy<P> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
     const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
@@ -135,7 +134,8 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
       largest = P(size.v > largest.v ? size.v : largest.v);
       least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
     }
-    for (int l = 0; l < P::lanes && first + l < n_gauss; ++l) out.stiffness[first + l] = without_rounding(least[l], largest[l]) / J[l];
+    for (int l = 0; l < P::lanes && first + l < n_gauss; ++l)
+      out.stiffness[first + l] = without_rounding(least[l], largest[l]) / J[l];
   }
 }
 

@@ -36,17 +36,17 @@ double local_modulus(const ElementGeometry& geometry, const double* p);
 Formulation usual_formulation(CellType type);
 
 struct SolidElement {
-  VecX f;                           // [N]; dof 3 a + i: node a, direction i
-  MatX K;                           // [N/mm], filled only with a tangent
-  double W = 0;                     // stored energy [N mm]
-  double J_min = 0;                 // smallest det F over the Gauss points
-  std::vector<double> J_minus_1;    // t_k, or J - 1 at each Gauss point
-  std::vector<VecX> dJ_du;          // gradients of those
+  VecX f;                         // [N]; dof 3 a + i: node a, direction i
+  MatX K;                         // [N/mm], filled only with a tangent
+  double W = 0;                   // stored energy [N mm]
+  double J_min = 0;               // smallest det F over the Gauss points
+  std::vector<double> J_minus_1;  // t_k, or J - 1 at each Gauss point
+  std::vector<VecX> dJ_du;        // gradients of those
 };
 
 // local: modulus of what the modes leave of J - 1
-bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry, std::span<const Vec3> a,
-           const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out);
+bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
+           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out);
 
 // State at a Gauss point, for results.
 struct GaussState {

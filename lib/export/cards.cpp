@@ -71,8 +71,7 @@ std::pair<std::string, std::string> beyond_holzapfel(const Material& m) {
   if (!alike(m.fibres)) return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
   if (m.fibres[0].hgo.c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
   for (const Fibre& f : m.fibres)
-    if (f.tension_switch != FibreSwitch::I4_bar)
-      return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
+    if (f.tension_switch != FibreSwitch::I4_bar) return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
   return {};
 }
 
@@ -204,8 +203,7 @@ Card ansys(const Material& m) {
 
 Card febio(const Material& m) {
   const ForeignLaw law = febio_material(m, fibre_directions(m), 1, "langer");
-  if (law.text.empty())
-    return {"FEBio", "febio.xml", fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
+  if (law.text.empty()) return {"FEBio", "febio.xml", fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
   return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
 }
 

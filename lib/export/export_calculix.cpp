@@ -141,9 +141,9 @@ class Writer {
       if (!group.fibres.empty()) {
         const FibreFrame frame = fibre_frame(group.fibres);
         in_frame = frame.in_frame;
-        sections += fmt::format(
-            "*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n", g + 1,
-            frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+        sections +=
+            fmt::format("*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+                        g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
         section += fmt::format(", ORIENTATION=FIBRES{}", g + 1);
       }
       sections += section + "\n";
@@ -180,8 +180,8 @@ class Writer {
     for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
     s_ += fmt::format("*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
                       name, mu);
-    s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
-                      number + 1, usual_stiffness * mu);
+    s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n", number + 1,
+                      usual_stiffness * mu);
     if (c.law.mu > 0) s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
     s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n", number + 1, slave, master);
   }
@@ -196,9 +196,9 @@ class Writer {
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
-      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n",
-                        std::min({deck_.first, takes, most}), takes, std::min(deck_.smallest, takes),
-                        std::min({deck_.largest, takes, most}));
+      s_ +=
+          fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n", std::min({deck_.first, takes, most}),
+                      takes, std::min(deck_.smallest, takes), std::min({deck_.largest, takes, most}));
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
         if (h.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.value * t);
@@ -206,8 +206,8 @@ class Writer {
       for (const DeckContact& c : deck_.contacts) {
         const Vec3 u = indenter_displacement(c.law, t);
         for (int k = 0; k < 3; ++k) moved += fmt::format("RIGID_{}, {}, {}, {:.12g}\n", c.law.name, k + 1, k + 1, u[k]);
-        asked += fmt::format("*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n",
-                             c.law.name, c.set);
+        asked += fmt::format("*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n", c.law.name,
+                             c.set);
       }
       std::vector<std::string> printed;
       for (const HeldSet& h : deck_.held)

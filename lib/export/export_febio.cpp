@@ -68,8 +68,7 @@ class Writer {
     for (const std::string& line : warnings) s += "<!-- warning: " + comment(line) + " -->\n";
     const std::string head = control();
     s += "<febio_spec version=\"4.0\">\n  <Module type=\"solid\"/>\n" + head + "  <Material>\n" + material_ +
-         "  </Material>\n  <Mesh>\n" + nodes_ + cells_ + sets_ + "  </Mesh>\n  <MeshDomains>\n" + domains_ +
-         "  </MeshDomains>\n";
+         "  </Material>\n  <Mesh>\n" + nodes_ + cells_ + sets_ + "  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n";
     if (!boundary_.empty()) s += "  <Boundary>\n" + boundary_ + "  </Boundary>\n";
     if (!rigid_.empty()) s += "  <Rigid>\n" + rigid_ + "  </Rigid>\n";
     if (!contact_.empty()) s += "  <Contact>\n" + contact_ + "  </Contact>\n";
@@ -113,8 +112,7 @@ class Writer {
 
   void body() {
     nodes_ += "    <Nodes name=\"body\">\n";
-    for (int n = 0; n < mesh_.n_nodes(); ++n)
-      nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
+    for (int n = 0; n < mesh_.n_nodes(); ++n) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
     nodes_ += "    </Nodes>\n";
     next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
     const bool quadratic = mesh_.type == CellType::hex27;
@@ -125,8 +123,7 @@ class Writer {
         cells_ += fmt::format("      <elem id=\"{}\">", e + 1);
         const auto cell = mesh_.cell(e);
         for (std::size_t a = 0; a < cell.size(); ++a)
-          cells_ +=
-              fmt::format("{}{}", a == 0 ? "" : ",", cell[a < 20 ? a : static_cast<std::size_t>(febio_hex27[a - 20])] + 1);
+          cells_ += fmt::format("{}{}", a == 0 ? "" : ",", cell[a < 20 ? a : static_cast<std::size_t>(febio_hex27[a - 20])] + 1);
         cells_ += "</elem>\n";
       }
       cells_ += "    </Elements>\n";
@@ -183,8 +180,7 @@ class Writer {
         id, name, triple(vec(sphere.centre)));
     nodes_ += fmt::format("    <Nodes name=\"{}\">\n", name);
     for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + i, triple(c.cap.inner[i]));
-    for (int i = 0; i < n; ++i)
-      nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + n + i, triple(c.cap.outer[i]));
+    for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + n + i, triple(c.cap.outer[i]));
     nodes_ += "    </Nodes>\n";
     cells_ += fmt::format("    <Elements type=\"hex8\" name=\"{}\">\n", name);
     std::string facets;

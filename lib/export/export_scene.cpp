@@ -27,8 +27,7 @@ Vec3 plain(const Vec3& x) {
 
 const auto nowhere = [](const std::string&) { return Place{}; };
 
-[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found,
-                         const std::string& expected) {
+[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found, const std::string& expected) {
   throw Failure(Exit::config, Error{{path}, key, found, expected, ""});
 }
 
@@ -140,8 +139,8 @@ std::vector<std::string> answers(const SolutionReader& solution, const SolveConf
   const StepRecord last = solution.step(solution.n_steps() - 1);
   const auto answer = [&](const std::string& on, Vec3 force) {
     force = plain(force);
-    lines.push_back(fmt::format("Langer's answer at t = {:g}: force on {} of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t,
-                                on, force[0], force[1], force[2]));
+    lines.push_back(fmt::format("Langer's answer at t = {:g}: force on {} of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t, on,
+                                force[0], force[1], force[2]));
   };
   for (const auto& [name, contact] : last.contacts) {
     Vec3 force = Vec3::Zero();
@@ -227,9 +226,9 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     const RigidContact& law = scene.contacts[c];
     const Sphere& sphere = std::get<Sphere>(law.shape);
     const Vec3 to = plain(indenter_displacement(law, 1));
-    deck.words.push_back(fmt::format(
-        "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}", law.name,
-        sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
+    deck.words.push_back(
+        fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
+                    law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
     for (int n : whole.contacts[c].nodes) middle += header.mesh.X[n] / static_cast<double>(whole.contacts[c].nodes.size());
     std::string set = config.contacts.at(law.name).on;

@@ -49,8 +49,7 @@ struct Matrix {
     const bool yeoh = sum.I1[1] != 0 || sum.I1[2] != 0, mooney = !yeoh || sum.I2[0] != 0;
     if (mooney && (sum.I1[0] != 0 || sum.I2[0] != 0 || solids.empty()))
       solids.push_back({"Mooney-Rivlin", tag("c1", sum.I1[0]) + tag("c2", sum.I2[0])});
-    if (yeoh)
-      solids.push_back({"Yeoh", tag("c1", mooney ? 0 : sum.I1[0]) + tag("c2", 2 * sum.I1[1]) + tag("c3", 3 * sum.I1[2])});
+    if (yeoh) solids.push_back({"Yeoh", tag("c1", mooney ? 0 : sum.I1[0]) + tag("c2", 2 * sum.I1[1]) + tag("c3", 3 * sum.I1[2])});
   }
 
  private:
@@ -73,8 +72,7 @@ struct Matrix {
 
 std::vector<Lacking> lacking_of(const Fibre& f) {
   std::vector<Lacking> list;
-  if (f.hgo.c1 < 0)
-    list.push_back({fmt::format("fibres with c1 = {:g} (it refuses ksi, k1 < 0)", f.hgo.c1), "c1 of 0 or more"});
+  if (f.hgo.c1 < 0) list.push_back({fmt::format("fibres with c1 = {:g} (it refuses ksi, k1 < 0)", f.hgo.c1), "c1 of 0 or more"});
   if (f.tension_switch != FibreSwitch::I4_bar)
     list.push_back({fmt::format("fibres with switch: {}", names(f.tension_switch)[static_cast<std::size_t>(f.tension_switch)]),
                     "switch: I4_bar, which is its own"});
@@ -120,8 +118,7 @@ ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& dir
   std::string remark;
   for (const Solid& s : matrix.solids)
     if (s.type == "Yeoh")
-      remark =
-          "<!-- Yeoh: its stress lacks the factor i of c_i (I1 - 3)^i, so c2 and c3 are written twice and three times -->\n";
+      remark = "<!-- Yeoh: its stress lacks the factor i of c_i (I1 - 3)^i, so c2 and c3 are written twice and three times -->\n";
   const auto whole = [&](const std::string& type, const std::string& body) {
     return fmt::format("{}<material id=\"{}\" name=\"{}\" type=\"{}\">\n  {}\n{}</material>\n", remark, id, name, type, volume,
                        body);

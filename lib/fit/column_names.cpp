@@ -19,40 +19,84 @@ struct Word {
 const std::map<std::string, Word>& words() {
   using enum StrainMeasure;
   using enum StressMeasure;
-  const Word deformation{Of::deformation}, elongation{Of::deformation, true}, any_stress{Of::stress}, force{Of::stress, false, {}, nominal};
+  const Word deformation{Of::deformation}, elongation{Of::deformation, true}, any_stress{Of::stress},
+      force{Of::stress, false, {}, nominal};
   const auto by = [](StrainMeasure measure) { return Word{Of::deformation, false, measure}; };
   const auto in = [](StressMeasure measure) { return Word{Of::stress, false, {}, measure}; };
   static const std::map<std::string, Word> known{
-      {"strain", deformation}, {"tensile_strain", deformation}, {"dehnung", deformation}, {"deformation", deformation}, {"d\xC3\xA9""formation", deformation},
-      {"engineering_strain", by(engineering)}, {"eng_strain", by(engineering)}, {"nominal_strain", by(engineering)},
-      {"technische_dehnung", by(engineering)}, {"true_strain", by(log)}, {"log_strain", by(log)}, {"logarithmic_strain", by(log)},
-      {"hencky_strain", by(log)}, {"wahre_dehnung", by(log)}, {"green_strain", by(green_lagrange)},
-      {"green_lagrange_strain", by(green_lagrange)}, {"stretch", by(stretch)}, {"stretch_ratio", by(stretch)}, {"lambda", by(stretch)},
+      {"strain", deformation},
+      {"tensile_strain", deformation},
+      {"dehnung", deformation},
+      {"deformation", deformation},
+      {"d\xC3\xA9"
+       "formation",
+       deformation},
+      {"engineering_strain", by(engineering)},
+      {"eng_strain", by(engineering)},
+      {"nominal_strain", by(engineering)},
+      {"technische_dehnung", by(engineering)},
+      {"true_strain", by(log)},
+      {"log_strain", by(log)},
+      {"logarithmic_strain", by(log)},
+      {"hencky_strain", by(log)},
+      {"wahre_dehnung", by(log)},
+      {"green_strain", by(green_lagrange)},
+      {"green_lagrange_strain", by(green_lagrange)},
+      {"stretch", by(stretch)},
+      {"stretch_ratio", by(stretch)},
+      {"lambda", by(stretch)},
       {"streckung", by(stretch)},
-      {"extension", elongation}, {"elongation", elongation}, {"displacement", elongation}, {"crosshead", elongation},
-      {"crosshead_displacement", elongation}, {"weg", elongation}, {"standardweg", elongation}, {"traversenweg", elongation},
-      {"verl\xC3\xA4ngerung", elongation}, {"allongement", elongation}, {"d\xC3\xA9placement", elongation}, {"deplacement", elongation},
-      {"stress", any_stress}, {"tensile_stress", any_stress}, {"spannung", any_stress}, {"contrainte", any_stress},
-      {"cauchy_stress", in(cauchy)}, {"true_stress", in(cauchy)}, {"wahre_spannung", in(cauchy)}, {"nominal_stress", in(nominal)},
-      {"engineering_stress", in(nominal)}, {"eng_stress", in(nominal)}, {"technische_spannung", in(nominal)},
-      {"first_piola_stress", in(nominal)}, {"pk1_stress", in(nominal)}, {"second_piola_stress", in(second_piola)},
+      {"extension", elongation},
+      {"elongation", elongation},
+      {"displacement", elongation},
+      {"crosshead", elongation},
+      {"crosshead_displacement", elongation},
+      {"weg", elongation},
+      {"standardweg", elongation},
+      {"traversenweg", elongation},
+      {"verl\xC3\xA4ngerung", elongation},
+      {"allongement", elongation},
+      {"d\xC3\xA9placement", elongation},
+      {"deplacement", elongation},
+      {"stress", any_stress},
+      {"tensile_stress", any_stress},
+      {"spannung", any_stress},
+      {"contrainte", any_stress},
+      {"cauchy_stress", in(cauchy)},
+      {"true_stress", in(cauchy)},
+      {"wahre_spannung", in(cauchy)},
+      {"nominal_stress", in(nominal)},
+      {"engineering_stress", in(nominal)},
+      {"eng_stress", in(nominal)},
+      {"technische_spannung", in(nominal)},
+      {"first_piola_stress", in(nominal)},
+      {"pk1_stress", in(nominal)},
+      {"second_piola_stress", in(second_piola)},
       {"pk2_stress", in(second_piola)},
-      {"force", force}, {"load", force}, {"kraft", force}, {"standardkraft", force}, {"pr\xC3\xBC""fkraft", force},
+      {"force", force},
+      {"load", force},
+      {"kraft", force},
+      {"standardkraft", force},
+      {"pr\xC3\xBC"
+       "fkraft",
+       force},
   };
   return known;
 }
 
 const std::map<std::string, StressUnit>& stress_units() {
   using enum StressUnit;
-  static const std::map<std::string, StressUnit> known{{"MPa", MPa}, {"N/mm2", MPa}, {"N/mm^2", MPa}, {"N/mm\xC2\xB2", MPa}, {"N/mm\xB2", MPa},
-                                                       {"kPa", kPa}, {"Pa", Pa},     {"N", N},        {"mN", mN},            {"kN", kN}};
+  static const std::map<std::string, StressUnit> known{{"MPa", MPa},      {"N/mm2", MPa}, {"N/mm^2", MPa}, {"N/mm\xC2\xB2", MPa},
+                                                       {"N/mm\xB2", MPa}, {"kPa", kPa},   {"Pa", Pa},      {"N", N},
+                                                       {"mN", mN},        {"kN", kN}};
   return known;
 }
 
 const std::map<std::string, StrainUnit>& strain_units() {
   using enum StrainUnit;
-  static const std::map<std::string, StrainUnit> known{{"-", fraction}, {"1", fraction}, {"mm/mm", fraction}, {"m/m", fraction}, {"%", percent},
-                                                       {"percent", percent}, {"mm", mm}, {"um", um}, {"\xC2\xB5m", um}, {"\xB5m", um}};
+  static const std::map<std::string, StrainUnit> known{
+      {"-", fraction},      {"1", fraction}, {"mm/mm", fraction}, {"m/m", fraction}, {"%", percent},
+      {"percent", percent}, {"mm", mm},      {"um", um},          {"\xC2\xB5m", um}, {"\xB5m", um}};
   return known;
 }
 
@@ -62,7 +106,8 @@ std::string trimmed(const std::string& text) {
 }
 
 std::string without_brackets(const std::string& unit) {
-  const bool in_brackets = unit.size() > 2 && ((unit.front() == '(' && unit.back() == ')') || (unit.front() == '[' && unit.back() == ']'));
+  const bool in_brackets =
+      unit.size() > 2 && ((unit.front() == '(' && unit.back() == ')') || (unit.front() == '[' && unit.back() == ']'));
   return trimmed(in_brackets ? unit.substr(1, unit.size() - 2) : unit);
 }
 
@@ -72,7 +117,8 @@ std::pair<std::string, std::string> split_unit(const std::string& name) {
     if (const std::size_t open = name.rfind(name.back() == ')' ? '(' : '['); open != std::string::npos && open > 0)
       return {trimmed(name.substr(0, open)), without_brackets(name.substr(open))};
   for (const char* between : {" / ", " in "})
-    if (const std::size_t at = name.rfind(between); at != std::string::npos) return {trimmed(name.substr(0, at)), trimmed(name.substr(at + std::string(between).size()))};
+    if (const std::size_t at = name.rfind(between); at != std::string::npos)
+      return {trimmed(name.substr(0, at)), trimmed(name.substr(at + std::string(between).size()))};
   if (const std::size_t at = name.find_last_of("_ "); at != std::string::npos && at > 0) {
     const std::string end = name.substr(at + 1);
     if (stress_units().count(end) || (strain_units().count(end) && end != "1")) return {trimmed(name.substr(0, at)), end};
@@ -81,7 +127,8 @@ std::pair<std::string, std::string> split_unit(const std::string& name) {
 }
 
 std::string plain(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
   for (char& c : name)
     if (c == ' ' || c == '-') c = '_';
   return name;

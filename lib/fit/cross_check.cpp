@@ -24,8 +24,7 @@ struct Objective {
     MatX J;
     const bool exists = q.residual(p, r) && r.allFinite() && (gradient.empty() || jacobian(q, p, J));
     const double f = exists ? 0.5 * r.squaredNorm() / scale : 1e6;
-    for (std::size_t i = 0; i < gradient.size(); ++i)
-      gradient[i] = exists ? J.col(static_cast<Eigen::Index>(i)).dot(r) / scale : 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = exists ? J.col(static_cast<Eigen::Index>(i)).dot(r) / scale : 0;
     if (exists && f < lowest) lowest = f, best = p;
     return f;
   }
@@ -80,11 +79,10 @@ Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& firs
     apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) / std::max(std::abs(first.p[i]), f.q.typical[i]));
   const std::string same = apart < 1e-2 ? fmt::format("parameters within {:.0e} of themselves", apart)
                                         : "with other parameters, between which these tests do not decide";
-  c.text = c.agrees ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
-           : higher < 0
-               ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
-               : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no second answer here", c.cost,
-                             first.cost);
+  c.text = c.agrees     ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
+           : higher < 0 ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
+                        : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no second answer here", c.cost,
+                                      first.cost);
   return c;
 }
 

@@ -21,6 +21,8 @@ Test test_of(const Curve& curve, const std::string& name) {
 
 Curve read_curve(const std::string& path) { return curve_of(read_tests(path, {}).front()); }
 
-Curve parse_curve(const std::string& text, const std::string& shown_name) { return curve_of(parse_tests(text, shown_name, {}).front()); }
+Curve parse_curve(const std::string& text, const std::string& shown_name) {
+  return curve_of(parse_tests(text, shown_name, {}).front());
+}
 
 }  // namespace langer

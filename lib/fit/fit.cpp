@@ -134,7 +134,8 @@ FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   q.r2 = spread > 0 ? 1 - error.squaredNorm() / spread : std::numeric_limits<double>::quiet_NaN();
   q.mean_error_percent = q.max_error_percent = std::numeric_limits<double>::quiet_NaN();
   if (largest > 0)
-    q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest, q.max_error_percent = 100 * error.cwiseAbs().maxCoeff() / largest;
+    q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest,
+    q.max_error_percent = 100 * error.cwiseAbs().maxCoeff() / largest;
   return q;
 }
 

@@ -51,8 +51,8 @@ struct FitResult {
   std::vector<bool> symmetric;  // angles of symmetry (periodic.hpp): no first effect
   std::vector<bool> left_out;   // of the covariance: those, and parameters on a bound
   MatX columns;                 // Jacobian, with the second derivative of angles of symmetry
-  MatX starts;      // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
-  VecX model;       // of each value [MPa]; empty if no start has a model
+  MatX starts;                  // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
+  VecX model;                   // of each value [MPa]; empty if no start has a model
   FitQuality quality;
   std::vector<FitQuality> of_test;  // r2 and errors
 };

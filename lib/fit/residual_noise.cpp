@@ -213,7 +213,8 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   for (Eigen::Index a = 0; a < k; ++a)
     for (Eigen::Index b = 0; b < k; ++b)
       if (undetermined[a] < 1e-6 && undetermined[b] < 1e-6)
-        cov(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) = 0.5 * (all(a, b) + all(b, a)) / (norms[a] * norms[b]);
+        cov(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) =
+            0.5 * (all(a, b) + all(b, a)) / (norms[a] * norms[b]);
   return cov;
 }
 

@@ -17,7 +17,7 @@ namespace langer {
 struct ResidualNoise {
   std::vector<Eigen::Index> curves;  // values of each, in the order of the residuals
   double deviation = 0, rho = 0;
-  double white = 0;      // further standard deviation, from value to value: noise that is believed in beyond what the residuals show
+  double white = 0;  // further standard deviation, from value to value: noise that is believed in beyond what the residuals show
   double effective = 0;  // independent values that say as much of a mean: sum over curves of n / (1 + 2 sum_k (1 - k/n) rho^k)
   double freedom = std::numeric_limits<double>::infinity();  // degrees of freedom behind `deviation`
   // what the same residuals say of the deviation at a smaller and a larger rho, and how well rho is known

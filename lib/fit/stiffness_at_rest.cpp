@@ -65,13 +65,16 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
 std::string in_words(const StiffnessAtRest& s) {
   const std::string reach = std::isfinite(s.allowed) ? fmt::format("allow up to {:.3g} MPa (95 %)", s.allowed) : "allow any";
   const std::string cost = s.taken > s.allowed * (1 + 1e-9)
-                               ? fmt::format("more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
-                                             "the tests near rest",
-                                             s.error_before, s.error_after)
+                               ? fmt::format(
+                                     "more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
+                                     "the tests near rest",
+                                     s.error_before, s.error_after)
                                : fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before, s.error_after);
   return fmt::format(
-      "the tests do not tell the shear modulus at rest: they put it at {:.3g} MPa and {}; taken: {:.3g} MPa, the least that tests with a "
-      "noise of {:.3g} MPa can tell from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains hang on it",
+      "the tests do not tell the shear modulus at rest: they put it at {:.3g} MPa and {}; taken: {:.3g} MPa, the least that tests "
+      "with a "
+      "noise of {:.3g} MPa can tell from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains "
+      "hang on it",
       s.fitted, reach, s.taken, s.noise, cost);
 }
 

@@ -41,7 +41,8 @@ struct Reading {
       errors.push_back({{table.name, line, column}, std::move(key), std::move(found), std::move(expected), std::move(hint)});
   }
   void say_of_column(std::size_t column, std::string key, std::string found, std::string expected, std::string hint = "") {
-    say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found), std::move(expected), std::move(hint));
+    say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found), std::move(expected),
+        std::move(hint));
   }
   void note(std::size_t column, const std::string& text) {
     notes.push_back(fmt::format("{}:{}:{}: {}", table.name, table.header.line, table.header.cells[column].column, text));
@@ -78,8 +79,8 @@ struct Reading {
       const bool deformation = m.of == ColumnMeaning::Of::deformation;
       std::string& slot = deformation ? format.strain_x : format.stress_x;
       if (!slot.empty())
-        say_of_column(i, "columns", fmt::format("a second column of {}: \"{}\"", deformation ? "deformation" : "stress", name(i)), expected,
-                      "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}");
+        say_of_column(i, "columns", fmt::format("a second column of {}: \"{}\"", deformation ? "deformation" : "stress", name(i)),
+                      expected, "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}");
       slot = name(i);
     }
     if (errors.empty() && (format.strain_x.empty() || format.stress_x.empty()))
@@ -110,10 +111,11 @@ struct Reading {
     const ColumnMeaning m = meaning(column);
     const std::optional<StressUnit> unit = agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
     if (!unit)
-      return say_of_column(column, "stress_unit",
-                           m.foreign_unit.empty() ? "no unit for the column \"" + name(column) + "\""
-                                                  : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
-                           "stress_unit, or a name that ends in _MPa, _kPa or _Pa", "of a force: N, mN or kN, with width and thickness");
+      return say_of_column(
+          column, "stress_unit",
+          m.foreign_unit.empty() ? "no unit for the column \"" + name(column) + "\""
+                                 : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
+          "stress_unit, or a name that ends in _MPa, _kPa or _Pa", "of a force: N, mN or kN, with width and thickness");
     axis.stress_factor = per_unit_of_stress[static_cast<std::size_t>(*unit)];
     std::optional<StressMeasure> told = m.stress;
     if (is_force(*unit)) {
@@ -121,14 +123,18 @@ struct Reading {
       axis.stress_factor /= size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
       told = StressMeasure::nominal;
     }
-    const auto measure = agreed(format.stress, told, column, "stress", is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
+    const auto measure =
+        agreed(format.stress, told, column, "stress", is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
     if (measure) {
       format.like.measure = *measure;
     } else if (found_by_name) {
-      say_of_column(column, "stress", "not told for the column \"" + name(column) + "\"", "stress: cauchy (true) or nominal (force over the area at rest)",
+      say_of_column(column, "stress", "not told for the column \"" + name(column) + "\"",
+                    "stress: cauchy (true) or nominal (force over the area at rest)",
                     "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
     } else if (format.like.measure == StressMeasure::cauchy) {
-      note(column, fmt::format("the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force over the area at rest)", name(column)));
+      note(column, fmt::format("the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force "
+                               "over the area at rest)",
+                               name(column)));
       format.stress = StressMeasure::cauchy;  // once
     }
   }
@@ -144,7 +150,8 @@ struct Reading {
                                            : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
                     "strain_unit: fraction, percent, mm or um, or a name that ends in it");
     axis.strain_factor = per_unit_of_strain[static_cast<std::size_t>(unit.value_or(StrainUnit::fraction))];
-    if (unit && is_length(*unit)) axis.strain_factor /= size(length, column, length_key, "the length at rest between grips or marks in mm");
+    if (unit && is_length(*unit))
+      axis.strain_factor /= size(length, column, length_key, "the length at rest between grips or marks in mm");
     const std::optional<StrainMeasure> measure = agreed(format.strain, m.strain, column, "strain", "measure");
     if (unit && is_length(*unit) && measure && *measure > StrainMeasure::stretch)
       say_of_column(column, "strain", word(*measure) + " for lengths", "engineering (an elongation) or stretch (a length)");
@@ -153,7 +160,8 @@ struct Reading {
 
   // nobody told: the first value does, or is asked about
   StrainMeasure measure_by_values(const AxisColumns& axis, std::size_t column, const ColumnMeaning& m) {
-    const auto row = std::find_if(table.rows.begin(), table.rows.end(), [&](const CsvRow& r) { return chosen(r) && table.number(r.cells[column]); });
+    const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const CsvRow& r) { return chosen(r) && table.number(r.cells[column]); });
     if (row == table.rows.end()) return StrainMeasure::engineering;  // said where the numbers are read
     const double first = axis.strain_factor * *table.number(row->cells[column]);
     const bool documented = name(column) == "strain" || name(column) == "strain_percent";
@@ -167,9 +175,13 @@ struct Reading {
           "the name stretch if it is one", "or strain: stretch, or strain: engineering, in the item of `data`");
     } else if (std::abs(first) <= near || m.lengths) {
       if (!documented && !m.lengths)
-        note(column, fmt::format("the measure of \"{}\" is not told: taken as engineering strain; say strain: engineering, log or green_lagrange", name(column)));
+        note(column,
+             fmt::format(
+                 "the measure of \"{}\" is not told: taken as engineering strain; say strain: engineering, log or green_lagrange",
+                 name(column)));
     } else if (!documented) {
-      say(row->line, row->cells[column].column, "strain", fmt::format("a column \"{}\" that starts at {:g}, neither 0 nor 1", name(column), first),
+      say(row->line, row->cells[column].column, "strain",
+          fmt::format("a column \"{}\" that starts at {:g}, neither 0 nor 1", name(column), first),
           "strain: engineering, stretch, log or green_lagrange", "in the item of `data`");
     }
     return StrainMeasure::engineering;
@@ -179,7 +191,8 @@ struct Reading {
     const CsvCell& cell = row.cells[column];
     const auto x = table.number(cell);
     if (x && std::isfinite(*x)) return *x;
-    const bool decimals = !x && cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos && cell.text.find_first_of(".,") != std::string::npos;
+    const bool decimals = !x && cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos &&
+                          cell.text.find_first_of(".,") != std::string::npos;
     say(row.line, cell.column, "", cell.text.empty() ? "found nothing" : "found " + cell.text, "a finite number",
         decimals ? fmt::format("decimal {}s are read here, and none that part thousands", word(table.decimal)) : "");
     return 0;
@@ -202,7 +215,9 @@ struct Reading {
   bool chosen(const CsvRow& row) const {
     return std::all_of(where.begin(), where.end(), [&](const auto& w) { return row.cells[w.first].text == w.second; });
   }
-  bool is_empty(const CsvRow& row, const AxisColumns& axis) const { return row.cells[axis.strain].text.empty() && row.cells[axis.stress].text.empty(); }
+  bool is_empty(const CsvRow& row, const AxisColumns& axis) const {
+    return row.cells[axis.strain].text.empty() && row.cells[axis.stress].text.empty();
+  }
 
   std::vector<std::pair<std::size_t, std::string>> where;
   bool found_by_name = false;
@@ -223,7 +238,9 @@ void shift_to_toe(Test& test, double toe, const std::string& file) {
   };
   std::size_t k = 0;
   while (k < test.points() && test.stress_x[k] < toe) ++k;
-  if (k == test.points()) throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe, test.name.empty() ? "the test" : test.name), "less");
+  if (k == test.points())
+    throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe, test.name.empty() ? "the test" : test.name),
+                "less");
   const auto at_toe = [&](const std::vector<double>& l) {
     if (k == 0) return l[0];
     const double s = (toe - test.stress_x[k - 1]) / (test.stress_x[k] - test.stress_x[k - 1]);
@@ -340,7 +357,8 @@ std::vector<Test> parse_tests(const std::string& text, const std::string& shown_
     const auto has = [&](const std::string& name) {
       return name.empty() || std::any_of(cells.begin(), cells.end(), [&](const CsvCell& c) { return c.text == name; });
     };
-    if (!format.strain_x.empty()) return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) && has(format.stress_z);
+    if (!format.strain_x.empty())
+      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) && has(format.stress_z);
     bool deformation = false, stress = false;
     for (const CsvCell& cell : cells) {
       const ColumnMeaning m = column_meaning(cell.text);

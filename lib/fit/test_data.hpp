@@ -48,12 +48,13 @@ struct TestFormat {
   std::map<std::string, std::string> where;        // only rows with these texts in these columns
   std::string split;                               // a column: one test per text in it
   double strain_from = -1e300, strain_to = 1e300;  // of lambda_x - 1 (simple shear: g), after the shift by `toe`
-  std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z;  // at rest [mm]; z: for force and elongation along z
+  std::optional<double> width, thickness, gauge_length, width_z,
+      gauge_length_z;         // at rest [mm]; z: for force and elongation along z
   std::optional<double> toe;  // the stretch at which the stress along x first reaches this is the new rest [MPa]
 };
 
-std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);        // throws Failure(input)
-std::vector<Test> read_tests(const std::string& path, const TestFormat& format);    // throws Failure(input)
+std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);      // throws Failure(input)
+std::vector<Test> read_tests(const std::string& path, const TestFormat& format);  // throws Failure(input)
 std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name, const TestFormat& format);
 
 double largest_stress(const Test& test);

@@ -27,8 +27,7 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
     const std::string axis(1, "xyz"[i]);
     const Moved moved = through(lines[i], demands, axis, fmt::format("geometry.block.divisions[{}]", i));
     if (moved.furthest > 1e-9 * b.size[i])
-      notes.push_back(
-          fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through the points", axis, moved.furthest));
+      notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through the points", axis, moved.furthest));
     lines[i] = moved.lines;
   }
   return lines;

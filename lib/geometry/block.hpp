@@ -47,8 +47,7 @@ struct Core {
   int cells = 2;
   static void fields(auto& v) {
     v(&Core::half_width, "half_width", unit::mm, "half the side of the square under the indenter", required, positive);
-    v(&Core::cells, "cells", unit::none, "cells along its side; even, so that the centre is a node", required,
-      between(2, 1000));
+    v(&Core::cells, "cells", unit::none, "cells along its side; even, so that the centre is a node", required, between(2, 1000));
   }
 };
 
@@ -98,7 +97,8 @@ struct IndentedBlock {
     v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
     v(&IndentedBlock::radius, "radius", unit::mm, "of the indenter", required, positive);
     v(&IndentedBlock::depth, "depth", unit::mm, "how deep it is pressed, at most", required, positive);
-    v(&IndentedBlock::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact", between(0.02, 1));
+    v(&IndentedBlock::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact",
+      between(0.02, 1));
   }
   double contact_radius() const;  // of a sphere, where it cuts the undeformed surface [mm]
   Block block() const;
@@ -113,8 +113,10 @@ struct FromFile {
   double scale = 1;
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
-      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) or .inp of Abaqus or CalculiX; or a solid "
-      "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...", required);
+      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) "
+      "or .inp of Abaqus or CalculiX; or a solid "
+      "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...",
+      required);
     v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step or .stl is meshed with, about", positive);
     v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
   }

@@ -46,17 +46,23 @@ std::vector<Complaint> FromFile::complaints() const {
     if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
     return {};
   }
-  return {{"path", "found \"" + file.path + "\"", "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
+  return {{"path", "found \"" + file.path + "\"",
+           "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
 Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
   const std::string& path = from.file.path;
   const std::string kind = kind_of(path);
-  Mesh mesh = kind == "msh" ? read_msh(path, notes) : kind == "inp" ? read_inp(path, notes) : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  Mesh mesh = kind == "msh"   ? read_msh(path, notes)
+              : kind == "inp" ? read_inp(path, notes)
+                              : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
   if (mesh.type != cells)
-    throw Failure(Exit::config, Error{{}, "cells", fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
-                                      fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path), ""});
+    throw Failure(Exit::config, Error{{},
+                                      "cells",
+                                      fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
+                                      fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path),
+                                      ""});
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);

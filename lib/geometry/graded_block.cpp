@@ -56,8 +56,7 @@ Plan plan_of(const GradedBlock& b) {
     Loop loop;
     for (int s = 0; s < 4; ++s) {
       const auto &from = corner[s], &to = corner[(s + 1) % 4];
-      for (int i = 0; i < n; ++i)
-        loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
+      for (int i = 0; i < n; ++i) loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
     }
     return loop;
   };
@@ -116,8 +115,7 @@ Plan plan_of(const GradedBlock& b) {
 
 std::vector<double> layer_heights(const GradedBlock& b) {
   const double low = b.origin[1], high = low + b.size[1];
-  return b.top ? lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge")
-               : even_lines(low, high, b.layers);
+  return b.top ? lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge") : even_lines(low, high, b.layers);
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ namespace langer {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
-                         const std::string& hint) {
+[[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
   throw Failure(Exit::config, Error{{}, key, found, expected, hint});
 }
 
@@ -37,11 +36,9 @@ std::vector<double> refined(double length, int n, double edge, double within, co
   const int fine = 0.5 * within / n < 0.5 * edge ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n) : n, m = n - fine;
   const double rest = length - fine * edge, most = rest * (1 + 1e-9), least = rest * (1 - 1e-9);
   if (growing(edge, 1, m, most) > most)
-    refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge",
-           "");
+    refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge", "");
   if (growing(edge, largest_growth, m, least) < least)
-    refuse(key,
-           fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge, largest_growth, length),
+    refuse(key, fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge, largest_growth, length),
            "more divisions or a larger edge", "");
   double low = 1, high = largest_growth;
   for (int i = 0; i < 200; ++i) (growing(edge, 0.5 * (low + high), m, rest) > rest ? high : low) = 0.5 * (low + high);
@@ -116,8 +113,8 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands, con
   std::vector<Pin> pins{{0, lines.front(), ""}};
   for (const Demand& d : demands) {
     if (d.at < lines.front() - tolerance || d.at > lines.back() + tolerance)
-      refuse(d.by, fmt::format("{} = {} is outside the block", axis, d.at),
-             fmt::format("{} to {}", lines.front(), lines.back()), "");
+      refuse(d.by, fmt::format("{} = {} is outside the block", axis, d.at), fmt::format("{} to {}", lines.front(), lines.back()),
+             "");
     if (std::abs(d.at - pins.back().at) <= tolerance || std::abs(d.at - lines.back()) <= tolerance) continue;
     // the nearest line inside the block; the sides stay where they are
     int nearest = 1;

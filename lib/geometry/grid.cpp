@@ -12,7 +12,8 @@ Mesh extruded(const Plan& plan, const std::vector<double>& heights) {
   for (int k = 0; k + 1 < static_cast<int>(heights.size()); ++k)
     for (const auto& [a, b, c, d] : plan.cells) {
       const int low = k * per_layer, high = low + per_layer;
-      for (int node : {low + a, low + b, high + b, high + a, low + d, low + c, high + c, high + d}) mesh.connectivity.push_back(node);
+      for (int node : {low + a, low + b, high + b, high + a, low + d, low + c, high + c, high + d})
+        mesh.connectivity.push_back(node);
     }
   return mesh;
 }

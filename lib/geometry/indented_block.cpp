@@ -57,11 +57,13 @@ Block IndentedBlock::block() const {
   for (int i : {0, 2}) {
     const double half = 0.5 * size[i], even = std::min(covered * a, half);
     const int fine = std::max(1, bounded(std::round(even / cell)));
-    const int coarse = half > even ? std::max(growing_cells(0.65, edge, half / even, 6.8), needed_cells(half - fine * cell, cell)) : 0;
+    const int coarse =
+        half > even ? std::max(growing_cells(0.65, edge, half / even, 6.8), needed_cells(half - fine * cell, cell)) : 0;
     b.divisions[i] = 2 * std::min(fine + coarse, bounded(std::ceil(half / cell - 1e-9)));  // no more than even cells would be
   }
   b.centre = TowardsCentre{std::min(cell, std::min(size[0] / b.divisions[0], size[2] / b.divisions[2])), covered * a};
-  b.divisions[1] = std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3), 1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
+  b.divisions[1] =
+      std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3), 1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
   b.top = TowardsTop{std::min(1.6 * cell, size[1] / b.divisions[1])};
   if (longer != 1) {
     const std::array<int, 3> n = divided({b.divisions[0] / 2, b.divisions[1], b.divisions[2] / 2}, longer);
@@ -88,6 +90,8 @@ Mesh mesh_of(const IndentedBlock& block, const Points& points, std::vector<std::
   return mesh_of(block.block(), points, notes);
 }
 
-std::vector<Complaint> contradictions(const IndentedBlock& block, const Points& points) { return contradictions(block.block(), points); }
+std::vector<Complaint> contradictions(const IndentedBlock& block, const Points& points) {
+  return contradictions(block.block(), points);
+}
 
 }  // namespace langer

@@ -46,7 +46,8 @@ struct Card {
 
 class Reader {
  public:
-  Reader(const std::string& text, const std::string& name, std::vector<std::string>& notes) : in_(text), name_(name), notes_(notes) {}
+  Reader(const std::string& text, const std::string& name, std::vector<std::string>& notes)
+      : in_(text), name_(name), notes_(notes) {}
 
   Mesh read() {
     for (std::string line; next(line);) {
@@ -68,7 +69,7 @@ class Reader {
   Card card_;
   std::map<long long, Vec3> nodes_;
   std::map<long long, std::pair<std::array<long long, 8>, int>> cells_;  // with the line
-  std::vector<long long> element_;  // as far as it is read
+  std::vector<long long> element_;                                       // as far as it is read
   int element_line_ = 0;
   struct Range {
     long long first, last, step;
@@ -89,7 +90,8 @@ class Reader {
   std::set<std::string> left_out_;
   int instances_ = 0, parts_ = 0;
 
-  [[noreturn]] void refuse(int line, const std::string& found, const std::string& expected = "", const std::string& hint = "") const {
+  [[noreturn]] void refuse(int line, const std::string& found, const std::string& expected = "",
+                           const std::string& hint = "") const {
     throw Failure(Exit::input, Error{{name_, line, line ? 1 : 0}, "", found, expected, hint});
   }
 
@@ -110,11 +112,13 @@ class Reader {
   }
   double real(std::string text) const {
     if (text.empty()) return 0;  // as in Abaqus
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
     const char* begin = text.data() + (text[0] == '+');
     double x = 0;
     const auto [end, error] = std::from_chars(begin, text.data() + text.size(), x);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x)) refuse(line_, "found \"" + text + "\"", "a number");
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x))
+      refuse(line_, "found \"" + text + "\"", "a number");
     return x;
   }
   static bool is_number(const std::string& text) {
@@ -134,7 +138,8 @@ class Reader {
     card_.word = cells.empty() ? "" : upper(cells[0]);
     for (std::size_t i = 1; i < cells.size(); ++i) {
       const std::size_t equals = cells[i].find('=');
-      card_.parameters[upper(trimmed(cells[i].substr(0, equals)))] = equals == std::string::npos ? "" : trimmed(cells[i].substr(equals + 1));
+      card_.parameters[upper(trimmed(cells[i].substr(0, equals)))] =
+          equals == std::string::npos ? "" : trimmed(cells[i].substr(equals + 1));
     }
     static const std::set<std::string> made_by_rule{"NGEN", "NFILL", "NCOPY", "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM", "NMAP"};
     if (made_by_rule.count(card_.word)) refuse(first, "found *" + card_.word, "all nodes and elements written out in this file");
@@ -148,7 +153,8 @@ class Reader {
         left_out_.insert("elements " + type);
         card_.word = "";
       } else if (const std::string set = card_.value("ELSET"); !set.empty())
-        if (const std::string key = named(element_sets_, set); std::find(element_bodies_.begin(), element_bodies_.end(), key) == element_bodies_.end())
+        if (const std::string key = named(element_sets_, set);
+            std::find(element_bodies_.begin(), element_bodies_.end(), key) == element_bodies_.end())
           element_bodies_.push_back(key);
     } else if (card_.word == "NSET" || card_.word == "ELSET") {
       if (card_.value(card_.word).empty()) refuse(first, "*" + card_.word + " without a name", card_.word + "=name");
@@ -160,7 +166,8 @@ class Reader {
       const std::string key = upper(card_.value("ELSET"));
       if (std::find(bodies_.begin(), bodies_.end(), key) == bodies_.end()) bodies_.push_back(key);
     } else if (card_.word != "NODE" && card_.word != "INSTANCE") {
-      static const std::set<std::string> nothing{"HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
+      static const std::set<std::string> nothing{"HEADING",      "PART",         "END PART", "ASSEMBLY",
+                                                 "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
       if (!nothing.count(card_.word)) left_out_.insert("*" + card_.word);
     }
   }
@@ -198,7 +205,8 @@ class Reader {
   void end_element() {
     if (element_.empty()) return;
     if (element_.size() != 9)
-      refuse(element_line_, fmt::format("an element of {} nodes", element_.size() - 1), "8 nodes, on one line or on lines ending with a comma");
+      refuse(element_line_, fmt::format("an element of {} nodes", element_.size() - 1),
+             "8 nodes, on one line or on lines ending with a comma");
     std::array<long long, 8> nodes;
     std::copy(element_.begin() + 1, element_.end(), nodes.begin());
     if (!cells_.try_emplace(element_[0], std::pair(nodes, element_line_)).second)
@@ -211,7 +219,8 @@ class Reader {
     Named& set = sets[upper(name)];
     if (card_.parameters.count("GENERATE")) {
       if (cells.size() < 2) refuse(line_, "one number", "first, last, step");
-      const long long first = whole(cells[0]), last = whole(cells[1]), step = cells.size() > 2 && !cells[2].empty() ? whole(cells[2]) : 1;
+      const long long first = whole(cells[0]), last = whole(cells[1]),
+                      step = cells.size() > 2 && !cells[2].empty() ? whole(cells[2]) : 1;
       if (step <= 0 || first < 0 || last < first) refuse(line_, "a range that does not ascend", "first, last, step");
       set.members.push_back({first, last, step});
       return;
@@ -251,7 +260,8 @@ class Reader {
       return;
     }
     const std::string side = cells.size() > 1 ? upper(cells[1]) : "";
-    if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6') refuse(line_, "found the side \"" + side + "\"", "S1 to S6");
+    if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6')
+      refuse(line_, "found the side \"" + side + "\"", "S1 to S6");
     surfaces_[key].second.push_back({cells[0], side[1] - '1', line_});
   }
 
@@ -277,7 +287,9 @@ class Reader {
       mesh.bodies.push_back(set->second.name);
       for (int cell : there(set->second, cell_at)) {
         if (mesh.body[cell] >= 0)
-          refuse(0, fmt::format("the {}. element belongs to \"{}\" and to \"{}\"", cell + 1, mesh.bodies[mesh.body[cell]], mesh.bodies[body]),
+          refuse(0,
+                 fmt::format("the {}. element belongs to \"{}\" and to \"{}\"", cell + 1, mesh.bodies[mesh.body[cell]],
+                             mesh.bodies[body]),
                  "one body for each element");
         mesh.body[cell] = body;
       }
@@ -319,7 +331,8 @@ class Reader {
 
 std::string quoted_name(const std::string& name) {
   if (name.find_first_of("\",\n\r*=") != std::string::npos)
-    throw Failure(Exit::config, Error{{}, "export", "the name \"" + name + "\" cannot stand in an .inp file", "names without , \" * and =", ""});
+    throw Failure(Exit::config,
+                  Error{{}, "export", "the name \"" + name + "\" cannot stand in an .inp file", "names without , \" * and =", ""});
   return name.find(' ') == std::string::npos ? name : "\"" + name + "\"";
 }
 
@@ -351,7 +364,8 @@ std::string inp_text(const Mesh& mesh) {
   }
   for (const auto& [name, nodes] : mesh.node_sets) {
     s += fmt::format("*NSET, NSET={}\n", quoted_name(name));
-    for (std::size_t i = 0; i < nodes.size(); ++i) s += fmt::format("{},{}", nodes[i] + 1, i % 16 == 15 || i + 1 == nodes.size() ? "\n" : " ");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      s += fmt::format("{},{}", nodes[i] + 1, i % 16 == 15 || i + 1 == nodes.size() ? "\n" : " ");
   }
   for (const auto& [name, facets] : mesh.facet_sets) {
     s += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted_name(name));

@@ -95,7 +95,9 @@ class MshReader {
     for (const Elements& of : group.elements)
       for (std::size_t tag : of.tags) {
         int& body_of = mesh_.body[cell_at_.at(tag)];
-        if (body_of >= 0) refuse(fmt::format("cell {} belongs to \"{}\" and to \"{}\"", tag, mesh_.bodies[body_of], group.name), "one physical volume for each cell");
+        if (body_of >= 0)
+          refuse(fmt::format("cell {} belongs to \"{}\" and to \"{}\"", tag, mesh_.bodies[body_of], group.name),
+                 "one physical volume for each cell");
         body_of = body;
       }
   }
@@ -123,7 +125,8 @@ class MshReader {
         facets.push_back(facet->second);
       }
     }
-    std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return std::pair(a.cell, a.local) < std::pair(b.cell, b.local); });
+    std::sort(facets.begin(), facets.end(),
+              [](const Facet& a, const Facet& b) { return std::pair(a.cell, a.local) < std::pair(b.cell, b.local); });
     if (facets.empty())
       notes_.push_back("left out, as it has no faces: surface " + group.name);
     else
@@ -175,7 +178,8 @@ std::string msh_text(const Mesh& mesh) {
   std::map<std::pair<int, std::string>, int> groups;  // dimension and name: tag
   const auto group = [&](int dim, const std::string& name) {
     if (name.find_first_of("\"\n") != std::string::npos)
-      throw Failure(Exit::config, Error{{}, "", "found the name '" + name + "'", "a name without quotes, as .msh has them around it", ""});
+      throw Failure(Exit::config,
+                    Error{{}, "", "found the name '" + name + "'", "a name without quotes, as .msh has them around it", ""});
     return groups.try_emplace({dim, name}, static_cast<int>(groups.size()) + 1).first->second;
   };
   std::map<std::pair<int, int>, std::set<std::string>> sets_of_facet;
@@ -209,8 +213,8 @@ std::string msh_text(const Mesh& mesh) {
   for (const int dim : {0, 2}) {
     int entity = 0;
     for (const auto& [sets, part] : parts[static_cast<std::size_t>(dim)]) {
-      fmt::format_to(out, "{} {} {} {}{}\n", ++entity, dim == 0 ? "0 0 0" : "0 0 0 0 0 0", part.groups.size(), fmt::join(part.groups, " "),
-                     dim == 0 ? "" : " 0");
+      fmt::format_to(out, "{} {} {} {}{}\n", ++entity, dim == 0 ? "0 0 0" : "0 0 0 0 0 0", part.groups.size(),
+                     fmt::join(part.groups, " "), dim == 0 ? "" : " 0");
       ++n_parts, n_elements += part.elements.size();
     }
   }

@@ -95,7 +95,8 @@ class Points {
 
 SurfaceFile parse_surface(const std::string& bytes, const std::string& shown_name) {
   const auto refuse = [&](int line, const std::string& found) {
-    throw Failure(Exit::input, Error{{shown_name, line, line > 0 ? 1 : 0}, "", found, "an STL file with triangles, normals outwards", ""});
+    throw Failure(Exit::input,
+                  Error{{shown_name, line, line > 0 ? 1 : 0}, "", found, "an STL file with triangles, normals outwards", ""});
   };
   const std::vector<Vec3> corners = is_binary(bytes) ? corners_of_binary(bytes) : corners_of_text(bytes, refuse);
   if (corners.empty()) refuse(0, "no triangles");

@@ -111,6 +111,8 @@ std::vector<Complaint> contradictions(const SectionBox& box, const Points& point
   return complaints_of([&] { lines_along(box, 0, points, notes), lines_along(box, 1, points, notes); });
 }
 
-std::vector<Complaint> contradictions(const IndentedDisc& disc, const Points& points) { return contradictions(disc.section(), points); }
+std::vector<Complaint> contradictions(const IndentedDisc& disc, const Points& points) {
+  return contradictions(disc.section(), points);
+}
 
 }  // namespace langer

@@ -24,15 +24,16 @@ struct SectionBox {
   std::optional<double> thickness;
   std::optional<std::array<int, 2>> instead;  // of `divisions`, graded as they are; not for files
   static void fields(auto& v) {
-    v(&SectionBox::of, "of", unit::none, "a body of revolution about the y axis, x being the radius, or one that does not move along z",
-      required);
+    v(&SectionBox::of, "of", unit::none,
+      "a body of revolution about the y axis, x being the radius, or one that does not move along z", required);
     v(&SectionBox::origin, "origin", unit::mm, "corner with the least coordinates, x and y");
     v(&SectionBox::size, "size", unit::mm, "lengths along x and y", required, between(1e-3, 1e6));
     v(&SectionBox::divisions, "divisions", unit::none, "number of cells along x and y", required, between(1, 1000));
     v(&SectionBox::centre, "centre", unit::none,
       "refinement in x towards the side that is nearest to the axis; of plane strain towards the middle; none: even cells");
     v(&SectionBox::top, "top", unit::none, "refinement towards the top in y; none: even cells");
-    v(&SectionBox::thickness, "thickness", unit::mm, "of plane strain, along z: forces and energies are those of it; none: 1", positive);
+    v(&SectionBox::thickness, "thickness", unit::mm, "of plane strain, along z: forces and energies are those of it; none: 1",
+      positive);
   }
   Box spans() const { return {{origin[0], origin[1], 0}, {size[0], size[1], 0}}; }
   std::vector<Complaint> complaints() const;

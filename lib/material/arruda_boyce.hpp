@@ -15,8 +15,7 @@ struct ArrudaBoyce {
   double mu = 0, locking_stretch = 1;
   static void fields(auto& v) {
     v(&ArrudaBoyce::mu, "mu", unit::MPa, "n k T of the chains: the shear modulus at rest where they are long", required);
-    v(&ArrudaBoyce::locking_stretch, "locking_stretch", unit::none, "stretch at which the chains are straight", required,
-      positive);
+    v(&ArrudaBoyce::locking_stretch, "locking_stretch", unit::none, "stretch at which the chains are straight", required, positive);
   }
   template <class T>
   Energy<T> operator()(T I1_bar) const {

@@ -41,9 +41,10 @@ std::string stiffness_at_rest_cure(const Material& material) {
     *p.value = value;
     if (std::abs(more - shear_modulus(copy)) > 1e-9) keys += (keys.empty() ? "" : " or ") + p.key;
   }
-  return fmt::format("{} other than 0, such that the shear modulus is positive; a fit with bounds: admissible takes the least that its "
-                     "tests can tell",
-                     keys.empty() ? "a matrix term" : keys);
+  return fmt::format(
+      "{} other than 0, such that the shear modulus is positive; a fit with bounds: admissible takes the least that its "
+      "tests can tell",
+      keys.empty() ? "a matrix term" : keys);
 }
 
 }  // namespace langer

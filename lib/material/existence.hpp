@@ -21,7 +21,9 @@ inline bool exists(const Gent& law, double I1_bar) { return !std::isgreaterequal
 
 // a test at such a stretch, whose invariants and their powers are numbers still
 constexpr double largest_stretch = 1e20;
-inline bool possible_stretch(double lambda) { return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch); }
+inline bool possible_stretch(double lambda) {
+  return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch);
+}
 
 template <class Law>
 double nan_outside_domain(const Law& law, double invariant) {

@@ -25,9 +25,8 @@ void collect_member(V& value, const Member& m, const std::string& path, List& li
     bool once = true;
     for (const auto& [name, n] : count) once = once && n == 1;
     for (std::size_t i = 0; i < value.size(); ++i)
-      std::visit(
-          [&](auto& term) { collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term), list); },
-          value[i]);
+      std::visit([&](auto& term) { collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term), list); },
+                 value[i]);
   } else if constexpr (is_choice<V>) {
     std::visit([&](auto& term) { collect(term, path + "." + std::remove_cvref_t<decltype(term)>::key, list); }, value);
   } else if constexpr (is_vector<V>) {

@@ -37,7 +37,9 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
     if (!factor || text.empty() || text[0] != '*') return std::nullopt;
     tie.factor *= *factor, text.remove_prefix(1);
   }
-  const auto of_key = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '[' || c == ']'; };
+  const auto of_key = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '[' || c == ']';
+  };
   const auto end = std::find_if_not(text.begin(), text.end(), of_key);
   tie.of.assign(text.begin(), end);
   text.remove_prefix(tie.of.size());

@@ -60,9 +60,7 @@ struct Pull {
   }
 };
 
-bool small(const Vec2& g, const Vec2& scale, double relative) {
-  return (g.cwiseAbs().array() <= relative * scale.array()).all();
-}
+bool small(const Vec2& g, const Vec2& scale, double relative) { return (g.cwiseAbs().array() <= relative * scale.array()).all(); }
 
 // Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of the stretches by a fifth
 Vec2 step(const Sample& s) {
@@ -110,17 +108,15 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
 Uniaxial uniaxial(const Material& material, double lambda) { return state(material, lambda, false); }
 Uniaxial uniaxial_incompressible(const Material& material, double lambda) { return state(material, lambda, true); }
 
-std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain,
-                                                  StressMeasure measure, Dilatation dilatation) {
+std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain, StressMeasure measure,
+                                                  Dilatation dilatation) {
   std::vector<double> stress;
   stress.reserve(strain.size());
   for (double e : strain) {
     const Uniaxial u = state(material, 1 + e, dilatation == Dilatation::incompressible);
     if (!u.converged) return std::nullopt;
     const double nominal = u.sigma * (1 + u.J_minus_1) / (1 + e);
-    stress.push_back(measure == StressMeasure::cauchy    ? u.sigma
-                     : measure == StressMeasure::nominal ? nominal
-                                                         : nominal / (1 + e));
+    stress.push_back(measure == StressMeasure::cauchy ? u.sigma : measure == StressMeasure::nominal ? nominal : nominal / (1 + e));
   }
   return stress;
 }

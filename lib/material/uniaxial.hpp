@@ -36,7 +36,7 @@ enum class StressMeasure { cauchy, nominal, second_piola };
 constexpr auto names(StressMeasure) { return std::array{"cauchy", "nominal", "second_piola"}; }
 
 // Stresses [MPa] at engineering strains lambda - 1; nothing if one of the states does not exist.
-std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain,
-                                                  StressMeasure measure, Dilatation dilatation);
+std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain, StressMeasure measure,
+                                                  Dilatation dilatation);
 
 }  // namespace langer

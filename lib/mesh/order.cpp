@@ -8,8 +8,8 @@
 #include <numeric>
 #include <optional>
 
-#include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/select.hpp"
 
 namespace langer {
@@ -115,8 +115,7 @@ void number_in_order(Mesh& mesh) {
     centres.push_back(centre);
   }
   std::vector<int> connectivity;
-  for (int e : sorted_by_place(centres, unit))
-    connectivity.insert(connectivity.end(), mesh.cell(e).begin(), mesh.cell(e).end());
+  for (int e : sorted_by_place(centres, unit)) connectivity.insert(connectivity.end(), mesh.cell(e).begin(), mesh.cell(e).end());
   mesh.connectivity = std::move(connectivity);
 }
 

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -91,9 +91,7 @@ std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double clos
   if (mesh.section) return coincident_nodes(as_plate(mesh), closer_than);
   const double edge = 16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
   using Cell = std::array<std::int64_t, 3>;
-  const auto hash = [](const Cell& c) {
-    return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-  };
+  const auto hash = [](const Cell& c) { return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791); };
   std::unordered_multimap<std::size_t, int> nodes_of;
   nodes_of.reserve(static_cast<std::size_t>(mesh.n_nodes()));
   for (int i = 0; i < mesh.n_nodes(); ++i) {
@@ -121,8 +119,8 @@ void refuse_folded(const Quality& q, const std::string& key) {
   if (q.least_jacobian > 0) return;
   throw Failure(Exit::config, Error{{},
                                     key,
-                                    fmt::format("cell {} is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})",
-                                                q.at_cell, q.least_jacobian, q.at[0], q.at[1], q.at[2]),
+                                    fmt::format("cell {} is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})", q.at_cell,
+                                                q.least_jacobian, q.at[0], q.at[1], q.at[2]),
                                     "a positive Jacobian everywhere",
                                     "check sizes and radii; more divisions may help"});
 }

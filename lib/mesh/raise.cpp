@@ -81,7 +81,8 @@ Mesh raised(const Mesh& mesh, CellType to) {
 }
 
 Mesh raised_tetrahedra(const std::vector<Vec3>& X, const std::vector<int>& corners) {
-  return raise(X, corners, 4, CellType::tet15, [](const Vec3& xi) -> VecX { return Eigen::Vector4d(1 - xi.sum(), xi[0], xi[1], xi[2]); });
+  return raise(X, corners, 4, CellType::tet15,
+               [](const Vec3& xi) -> VecX { return Eigen::Vector4d(1 - xi.sum(), xi[0], xi[1], xi[2]); });
 }
 
 Mesh between_nodes(const Mesh& mesh) {

@@ -6,7 +6,7 @@
 
 namespace langer {
 
-Mesh raised(const Mesh& mesh, CellType to);  // of hex8
+Mesh raised(const Mesh& mesh, CellType to);                                           // of hex8
 Mesh raised_tetrahedra(const std::vector<Vec3>& X, const std::vector<int>& corners);  // four for each cell; becomes tet15
 
 // What draws straight-edged cells only sees those between neighbouring nodes: the mesh itself, eight hex8 for each hex27, four for each tet15, one

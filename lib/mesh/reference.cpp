@@ -119,8 +119,8 @@ ReferenceCell tetrahedron() {
   cell.node.push_back(Vec3::Constant(0.25));
 
   const auto add = [&](const Vec3& xi, double weight) { cell.gauss.push_back(xi), cell.weight.push_back(weight / 6); };
-  for (const auto& [a, weight] : {std::pair{0.31088591926330060980, 0.11268792571801585080},
-                                  {0.092735250310891226402, 0.073493043116361949544}})
+  for (const auto& [a, weight] :
+       {std::pair{0.31088591926330060980, 0.11268792571801585080}, {0.092735250310891226402, 0.073493043116361949544}})
     for (const Vec3& x : corner) add(Vec3::Constant(a) + (1 - 4 * a) * x, weight);
   constexpr double a = 0.045503704125649649492;
   for (const auto& [i, j] : Tet15::edge) add(Vec3::Constant(a) + (0.5 - 2 * a) * (corner[i] + corner[j]), 0.042546020777081466438);

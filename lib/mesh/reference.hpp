@@ -31,8 +31,7 @@ struct Hex8 {
 
   static Shape shape(const Vec3& xi) {
     Shape N;
-    for (int a = 0; a < 8; ++a)
-      N[a] = 0.125 * (1 + corner[a][0] * xi[0]) * (1 + corner[a][1] * xi[1]) * (1 + corner[a][2] * xi[2]);
+    for (int a = 0; a < 8; ++a) N[a] = 0.125 * (1 + corner[a][0] * xi[0]) * (1 + corner[a][1] * xi[1]) * (1 + corner[a][2] * xi[2]);
     return N;
   }
 
@@ -56,12 +55,12 @@ struct Hex27 {
   static constexpr int n_nodes = 27;
   static constexpr int n_gauss = 27;
   static constexpr int n_dofs = 81;
-  static constexpr double node[27][3] = {
-      {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1},  // corners
-      {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},                                                  // edges: bottom,
-      {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},                                                   // top,
-      {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},                                                   // upright
-      {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},   {0, 0, -1},  {0, 0, 1}, {0, 0, 0}};
+  static constexpr double node[27][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+                                         {-1, 1, 1},                                          // corners
+                                         {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},  // edges: bottom,
+                                         {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},   // top,
+                                         {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},   // upright
+                                         {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},   {0, 0, -1},  {0, 0, 1},  {0, 0, 0}};
 
   using Shape = Eigen::Matrix<double, 27, 1>;
   using Gradient = Eigen::Matrix<double, 27, 3>;
@@ -109,13 +108,13 @@ struct ReferenceCell {
   std::vector<Gradients> dN;  // dN_a/dxi_k there
   VecX (*shape)(const Vec3& xi);
   Gradients (*gradient)(const Vec3& xi);
-  std::vector<std::array<int, 2>> edge;     // its corners
-  std::vector<std::vector<int>> facet;      // nodes: the corners counter-clockwise from outside, then middles of edges in that
-                                            // order, then the middle
+  std::vector<std::array<int, 2>> edge;  // its corners
+  std::vector<std::vector<int>> facet;   // nodes: the corners counter-clockwise from outside, then middles of edges in that
+                                         // order, then the middle
   std::vector<std::vector<FacetPoint>> facet_points;
-  MatX at_nodes;                            // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of Gauss
-                                            // values, taken at the nodes
-  std::vector<int> nearest_gauss;           // by node
+  MatX at_nodes;                   // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of Gauss
+                                   // values, taken at the nodes
+  std::vector<int> nearest_gauss;  // by node
 };
 
 const ReferenceCell& reference(int n_nodes);  // which of them, its number of nodes says

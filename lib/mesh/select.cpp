@@ -49,9 +49,7 @@ std::vector<int> nearest_node(const Mesh& mesh, const NearestNode& nearest, cons
   return best < 0 ? std::vector<int>{} : std::vector<int>{best};
 }
 
-bool holds(const OnPlane& plane, const Vec3& x, double tolerance) {
-  return std::abs(x[index(plane.axis)] - plane.at) <= tolerance;
-}
+bool holds(const OnPlane& plane, const Vec3& x, double tolerance) { return std::abs(x[index(plane.axis)] - plane.at) <= tolerance; }
 
 bool holds(const InBox& box, const Vec3& x, double tolerance) {
   return ((x - vector(box.from)).array() >= -tolerance).all() && ((vector(box.to) - x).array() >= -tolerance).all();

@@ -38,8 +38,7 @@ struct InCylinder {
   std::array<double, 3> through{};
   double radius = 0;
   static void fields(auto& v) {
-    v(&InCylinder::axis, "axis", unit::none, "direction of the axis; the cylinder has no ends", required,
-      one_of("x", "y", "z"));
+    v(&InCylinder::axis, "axis", unit::none, "direction of the axis; the cylinder has no ends", required, one_of("x", "y", "z"));
     v(&InCylinder::through, "through", unit::mm, "a point of the axis");
     v(&InCylinder::radius, "radius", unit::mm, "nodes within this distance of the axis", required, positive);
   }

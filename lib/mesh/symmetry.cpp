@@ -29,7 +29,8 @@ class Places {
  private:
   long box(const Vec3& x, int k) const { return std::lround(std::floor(x[k] / width_)); }
   static std::size_t key(long i, long j, long k) {
-    return static_cast<std::size_t>(i) * 73856093u ^ static_cast<std::size_t>(j) * 19349663u ^ static_cast<std::size_t>(k) * 83492791u;
+    return static_cast<std::size_t>(i) * 73856093u ^ static_cast<std::size_t>(j) * 19349663u ^
+           static_cast<std::size_t>(k) * 83492791u;
   }
   const std::vector<Vec3>& X_;
   double width_;
@@ -155,8 +156,7 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
     }
     // the image of a node that other symmetries leave in place has their zeros too
     q.node_image.push_back({kept, signs.cwiseProduct(allowed).asDiagonal()});
-    if (q.node[kept] == static_cast<int>(n))
-      q.node_share[kept] = static_cast<double>(group.size()) / orbit;
+    if (q.node[kept] == static_cast<int>(n)) q.node_share[kept] = static_cast<double>(group.size()) / orbit;
   }
   for (int n : q.node) q.tie.push_back(q.node_image[n]);
   return q;

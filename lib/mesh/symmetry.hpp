@@ -14,8 +14,8 @@ namespace langer {
 
 struct Symmetry {
   Vec3 signs = Vec3::Ones();
-  Vec3 centre = Vec3::Zero();      // [mm]
-  std::vector<int> node, cell;     // image of each
+  Vec3 centre = Vec3::Zero();   // [mm]
+  std::vector<int> node, cell;  // image of each
 };
 
 // Nothing where a node or cell has no image, or the image belongs to another body. Positions agree within 1e-9 of the size.
@@ -29,11 +29,11 @@ struct Image {
 };
 
 struct Quotient {
-  Mesh mesh;                    // kept cells with all their nodes; no sets
-  std::vector<int> node, cell;  // kept -> whole
-  std::vector<Image> tie;       // by kept node: the kept node it moves with; itself in most cases
-  std::vector<Image> node_image;           // by whole node: in terms of kept nodes
-  std::vector<int> cell_image;             // by whole cell: the kept cell that is like it
+  Mesh mesh;                                   // kept cells with all their nodes; no sets
+  std::vector<int> node, cell;                 // kept -> whole
+  std::vector<Image> tie;                      // by kept node: the kept node it moves with; itself in most cases
+  std::vector<Image> node_image;               // by whole node: in terms of kept nodes
+  std::vector<int> cell_image;                 // by whole cell: the kept cell that is like it
   std::vector<double> node_share, cell_share;  // by kept: how many of the whole body it stands for; 0 for tied nodes
 };
 

@@ -7,12 +7,12 @@
 #include "fit/doubts.hpp"
 #include "material/at_rest.hpp"
 #include "report/report_config.hpp"
-#include "study/fit_config.hpp"
-#include "sweep/gather_config.hpp"
-#include "scene/mesh_config.hpp"
 #include "run/post_config.hpp"
-#include "study/sensitivity_config.hpp"
+#include "scene/mesh_config.hpp"
 #include "scene/solve_config.hpp"
+#include "study/fit_config.hpp"
+#include "study/sensitivity_config.hpp"
+#include "sweep/gather_config.hpp"
 #include "sweep/tune_config.hpp"
 
 namespace langer {
@@ -24,7 +24,8 @@ Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
   Effective e{to_yaml(loaded.config, relative_to(folder)), {}, {}};
   for (const NamedFile& file : files_named_by(loaded.config)) e.files.push_back({file.path, file.key, loaded.where(file.key)});
-  if constexpr (std::is_same_v<Config, FitConfig>) e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); };
+  if constexpr (std::is_same_v<Config, FitConfig>)
+    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); };
   return e;
 }
 
@@ -45,9 +46,15 @@ ConfigKind kind() {
 // a new stage stands here
 const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
-      {"mesh", kind<MeshConfig>()},   {"fit", kind<FitConfig>()},   {"sensitivity", kind<SensitivityConfig>()},
-      {"solve", kind<SolveConfig>()}, {"post", kind<PostConfig>()}, {"gather", kind<GatherConfig>()},
-      {"report", kind<ReportConfig>()}, {"tune", kind<TuneConfig>()}, {"material", {check_material, describe<Material>, top_keys<Material>, json_schema<Material>}},
+      {"mesh", kind<MeshConfig>()},
+      {"fit", kind<FitConfig>()},
+      {"sensitivity", kind<SensitivityConfig>()},
+      {"solve", kind<SolveConfig>()},
+      {"post", kind<PostConfig>()},
+      {"gather", kind<GatherConfig>()},
+      {"report", kind<ReportConfig>()},
+      {"tune", kind<TuneConfig>()},
+      {"material", {check_material, describe<Material>, top_keys<Material>, json_schema<Material>}},
   };
   return table;
 }

@@ -76,8 +76,7 @@ class Expansion {
       }
     for (const Node& n : pipeline_.nodes)
       if (const auto it = folders.find(n.name); it != folders.end())
-        f_.say(n.place, "nodes." + n.name, fmt::format("a member of the axis {} has the same folder", it->second),
-               "another name");
+        f_.say(n.place, "nodes." + n.name, fmt::format("a member of the axis {} has the same folder", it->second), "another name");
   }
 
   void check_kinds(const Node& n) {

@@ -82,8 +82,7 @@ class Reading {
     return s;
   }
   void bad_name(const Place& place, const std::string& path, const std::string& name) {
-    f.say(place, path, "found the name \"" + name + "\"", "letters, digits, _, + and - only",
-          "it becomes the name of a folder");
+    f.say(place, path, "found the name \"" + name + "\"", "letters, digits, _, + and - only", "it becomes the name of a folder");
   }
   // one text or a list of texts
   std::vector<std::string> texts(const Tree& tree, const std::string& path) {
@@ -231,8 +230,7 @@ class Reading {
     if (f.errors.size() > before) return a.points.push_back({"1", {}, {}});  // enough is said
     const std::vector<VecX> points = design_points(design);
     if (points.size() > most)
-      return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most",
-                   "fewer trajectories or samples");
+      return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most", "fewer trajectories or samples");
     a.numbers = true;
     a.design = to_tree(design);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -256,8 +254,7 @@ class Reading {
       const Tree& value = list->list[i];
       const std::string here = item(path + ".values", i);
       if (value.kind != Tree::Kind::scalar) {
-        f.say(value.place, here, "found " + description(value), "a number or a word",
-              "maps and lists can be varied by variants");
+        f.say(value.place, here, "found " + description(value), "a number or a word", "maps and lists can be varied by variants");
         continue;
       }
       if (not_finite(value.scalar)) {

@@ -39,17 +39,20 @@ Tree one_or_several(Tree one) {
 Tree axis(Definitions& definitions) {
   const Member design{"design", unit::none, "a design of experiments", false, {}, {}, ""};
   const Tree settings = type("object");
-  return object({{"anyOf",
-                  list({keys_of_map({{"variants", described_by("settings, or the path of a config, by name",
-                                                               object({{"type", word("object")},
-                                                                       {"additionalProperties", types({"object", "string", "null"})}}))}},
-                                    {"variants"}),
-                        keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}}, {"design"}),
-                        keys_of_map({{"key", described_by("path of the key that varies, such as fibre_angles[0]", one_or_several(type("string")))},
-                                     {"keys", described_by("or several that get the same value", one_or_several(type("string")))},
-                                     {"values", described_by("its values", object({{"type", word("array")}, {"items", texts()}, {"minItems", plain_tree("1")}}))},
-                                     {"unit", described_by("of the values, for tables", type("string"))}},
-                                    {"values"})})}});
+  return object(
+      {{"anyOf",
+        list({keys_of_map({{"variants", described_by("settings, or the path of a config, by name",
+                                                     object({{"type", word("object")},
+                                                             {"additionalProperties", types({"object", "string", "null"})}}))}},
+                          {"variants"}),
+              keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}}, {"design"}),
+              keys_of_map(
+                  {{"key", described_by("path of the key that varies, such as fibre_angles[0]", one_or_several(type("string")))},
+                   {"keys", described_by("or several that get the same value", one_or_several(type("string")))},
+                   {"values", described_by("its values",
+                                           object({{"type", word("array")}, {"items", texts()}, {"minItems", plain_tree("1")}}))},
+                   {"unit", described_by("of the values, for tables", type("string"))}},
+                  {"values"})})}});
 }
 
 Tree node(const StageSpec& stage) {
@@ -62,7 +65,8 @@ Tree node(const StageSpec& stage) {
   bool gathers = false;
   for (const Port& port : stage.inputs) {
     const Tree one = object({{"anyOf", list({type("string"), object({{"type", word("object")}, {"required", words({"node"})}})})}});
-    properties.push_back({port.name, described_by(fmt::format("a node or a file: {}", port.says), port.several ? one_or_several(one) : one)});
+    properties.push_back(
+        {port.name, described_by(fmt::format("a node or a file: {}", port.says), port.several ? one_or_several(one) : one)});
     if (port.required) needed.push_back(port.name);
     gathers = gathers || port.several;
   }
@@ -85,11 +89,13 @@ std::string pipeline_schema() {
     choices.list.push_back(object({{"if", object({{"properties", object({{"stage", object({{"const", word(stage.name)}})}})}})},
                                    {"then", reference(std::string("stage_") + stage.name)}}));
   }
-  definitions["node"] = object({{"type", word("object")},
-                                {"properties", object({{"stage", object({{"description", word("which program runs")}, {"enum", words(names)}})}})},
-                                {"required", words({"stage"})},
-                                {"allOf", std::move(choices)}});
-  Tree root = keys_of_map({{"pipeline", described_by("its name: results lie in runs/<name>", object({{"type", word("string")}, {"pattern", word(name_pattern)}}))},
+  definitions["node"] =
+      object({{"type", word("object")},
+              {"properties", object({{"stage", object({{"description", word("which program runs")}, {"enum", words(names)}})}})},
+              {"required", words({"stage"})},
+              {"allOf", std::move(choices)}});
+  Tree root = keys_of_map({{"pipeline", described_by("its name: results lie in runs/<name>",
+                                                     object({{"type", word("string")}, {"pattern", word(name_pattern)}}))},
                            {"nodes", described_by("its steps by name", named(reference("node")))}},
                           {"pipeline", "nodes"});
   return document("Langer: pipeline", std::move(root), definitions);

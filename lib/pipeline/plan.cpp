@@ -179,7 +179,8 @@ PlanReport check_pipeline(const std::string& pipeline_file, std::string folder) 
   return planned(pipeline_file, std::move(folder), true).report;
 }
 
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command, bool slurm) {
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
+                bool slurm) {
   auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder));
   make_folder(report.folder);
   const OutputLock lock((fs::path(report.folder) / "Makefile").string(), command);

@@ -15,8 +15,8 @@ struct PlanReport {
 };
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin,
-                const std::string& command = "", bool slurm = false);
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command = "",
+                bool slurm = false);
 
 // The same checks; nothing is written.
 PlanReport check_pipeline(const std::string& pipeline_file, std::string folder = "");

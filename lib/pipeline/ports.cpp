@@ -12,7 +12,11 @@ const std::vector<StageSpec>& stages() {
        "sensitivity.h5"},
       {"solve",
        "Finds equilibrium along a load path.",
-       {{.name = "mesh", .says = "mesh with named sets and frames, unless the config has one", .made_by = {"mesh"}, .required = false, .or_key = true},
+       {{.name = "mesh",
+         .says = "mesh with named sets and frames, unless the config has one",
+         .made_by = {"mesh"},
+         .required = false,
+         .or_key = true},
         {.name = "material",
          .says = "energy terms and their parameters, unless the config has them",
          .made_by = {"fit"},
@@ -26,7 +30,8 @@ const std::vector<StageSpec>& stages() {
        {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
        "curves.h5",
        false,
-       "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
+       "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be "
+       "repeated, "
        "and wants --solution only"},
       {"gather",
        "Collects one quantity or several over a sweep.",

@@ -21,8 +21,8 @@ struct StageSpec {
   const char* name;
   const char* sentence;  // first line of --help
   std::vector<Port> inputs;
-  const char* output;  // name of the main output file in the node's folder
-  bool forecasts = false;  // knows --dry-run
+  const char* output;        // name of the main output file in the node's folder
+  bool forecasts = false;    // knows --dry-run
   const char* exports = "";  // knows --export, which says this
 
   const Port* port(const std::string& name) const;

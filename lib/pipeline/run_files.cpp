@@ -51,8 +51,7 @@ void need_one_source(const StageSpec& stage, const Tree& config, const std::vect
     if (!port.or_key) continue;
     const Tree* key = config.find(port.name);
     const bool given = std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
-    if (key && given)
-      throw Failure(Exit::config, Error{key->place, port.name, "given here and as a file", "one of the two", ""});
+    if (key && given) throw Failure(Exit::config, Error{key->place, port.name, "given here and as a file", "one of the two", ""});
     const bool one_each = config.find(std::string(port.name) + "s") != nullptr;  // materials: one for each body
     if (!key && !given && !one_each)
       throw Failure(Exit::config,
@@ -71,8 +70,7 @@ void need_output(const std::string& output, const std::string& config, const Inp
   for (const char* beside : {".part", ".steps", ".lock"}) need_replaceable(output + beside);
   const fs::path folder = fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
   fs::create_directories(folder, ec);
-  if (!fs::is_directory(folder))
-    refuse(folder.string(), "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
+  if (!fs::is_directory(folder)) refuse(folder.string(), "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(folder.string(), "this folder cannot be written to");
 }
 
@@ -105,8 +103,7 @@ void apply_setting(Tree& config, const std::string& setting) {
   if (equals == std::string::npos || equals == 0)
     throw Failure(
         Exit::config,
-        Error{
-            {"--set", 0, 0}, "", "found \"" + setting + "\"", "key=value, for example --set material.fibres[0].alpha=30", ""});
+        Error{{"--set", 0, 0}, "", "found \"" + setting + "\"", "key=value, for example --set material.fibres[0].alpha=30", ""});
   const std::string key = setting.substr(0, equals);
   Tree value = parse_yaml(setting.substr(equals + 1), "--set");
   forget_lines(value);

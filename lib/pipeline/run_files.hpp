@@ -37,8 +37,7 @@ Identity identity_of(const std::string& stage, const Config& config, const Where
                      const std::string& command) {
   Identity identity{stage, to_yaml(config), fnv1a(to_yaml(config, file_name)), {}, command};
   for (const auto& [port, files] : inputs)
-    for (std::size_t i = 0; i < files.size(); ++i)
-      identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
+    for (std::size_t i = 0; i < files.size(); ++i) identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
   for (const NamedFile& file : files_named_by(config)) {
     need_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);

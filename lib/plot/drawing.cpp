@@ -61,7 +61,8 @@ std::string with_subscripts(const Label& label) {
     const double dy = 0.25 * label.size * (piece.below - line);
     line = piece.below;
     s += dy == 0 ? escaped(piece.text)
-                 : fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy, (piece.below ? 0.7 : 1) * label.size, escaped(piece.text));
+                 : fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy, (piece.below ? 0.7 : 1) * label.size,
+                               escaped(piece.text));
   }
   return s;
 }
@@ -84,8 +85,8 @@ struct SvgWriter {
   }
   void operator()(const Label& t) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
-    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", t.at[0], t.at[1],
-                     t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? with_subscripts(t) : escaped(t.text));
+    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", t.at[0], t.at[1], t.size,
+                     anchors[static_cast<int>(t.anchor)], t.enhanced ? with_subscripts(t) : escaped(t.text));
   }
 };
 
@@ -115,8 +116,10 @@ struct GnuplotWriter {
       const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
       if (length == 0) continue;
       const double x = 0.5 * l.width * dx / length, y = 0.5 * l.width * dy / length;  // along; across is (-y, x)
-      polygon({{a[0] - 0.5 * x - y, a[1] - 0.5 * y + x}, {b[0] + 0.5 * x - y, b[1] + 0.5 * y + x},
-               {b[0] + 0.5 * x + y, b[1] + 0.5 * y - x}, {a[0] - 0.5 * x + y, a[1] - 0.5 * y - x}},
+      polygon({{a[0] - 0.5 * x - y, a[1] - 0.5 * y + x},
+               {b[0] + 0.5 * x - y, b[1] + 0.5 * y + x},
+               {b[0] + 0.5 * x + y, b[1] + 0.5 * y - x},
+               {a[0] - 0.5 * x + y, a[1] - 0.5 * y - x}},
               l.colour, l.opacity);
     }
   }
@@ -124,7 +127,8 @@ struct GnuplotWriter {
     constexpr const char* anchors[] = {"left", "center", "right"};
     // SVG places the base line, gnuplot the middle of the letters
     labels += fmt::format("set label {} at {:.2f},{:.2f} {} front {}enhanced font ',{}'\n", gnuplot_string(t.text), t.at[0],
-                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? "" : "no", 0.75 * t.size);
+                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? "" : "no",
+                          0.75 * t.size);
   }
 };
 
@@ -149,13 +153,13 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name) {
   s += fmt::format(
       "set output {}\nset lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n",
       gnuplot_file(name + ".png"));
-  s +=
-      fmt::format("unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n", drawing.width, drawing.height);
+  s += fmt::format("unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n", drawing.width, drawing.height);
   GnuplotWriter writer{drawing, {}, {}};
   for (const auto& mark : drawing.marks) std::visit(writer, mark);
   const bool empty = writer.polygons.empty();
   return s + writer.labels + (empty ? "" : "$marks << end\n" + writer.polygons + "end\n") +
-         (empty ? "plot NaN\n" : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n") +
+         (empty ? "plot NaN\n"
+                : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n") +
          "unset output\n";
 }
 
@@ -211,8 +215,7 @@ std::vector<std::string> tick_texts(const std::vector<double>& at) {
   const double step = at.size() > 1 ? at[1] - at[0] : 1;
   const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   std::vector<std::string> texts;
-  for (double value : at)
-    texts.push_back(digits > 5 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value + 0.0, digits));
+  for (double value : at) texts.push_back(digits > 5 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value + 0.0, digits));
   return texts;
 }
 

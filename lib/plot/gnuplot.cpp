@@ -103,15 +103,16 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
                           markers[dash % markers.size()], every);
     draw += fmt::format(" title {}", printed(line.legend));
     if (!line.names.empty())
-      draw += fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
-                          gnuplot_file(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
+      draw +=
+          fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
+                      gnuplot_file(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
   }
   for (const auto& [terminal, size, type] :
        {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})
     s += fmt::format("set terminal {} enhanced size {} font 'DejaVu Sans,{}' {}background rgb 'white'\nset output {}\n{}\n",
                      terminal, size, type == std::string("svg") ? 14 : 13,
-                     type == std::string("svg") ? "" : "fontscale 2 linewidth 2 pointscale 2 ",
-                     gnuplot_file(name + "." + type), draw);
+                     type == std::string("svg") ? "" : "fontscale 2 linewidth 2 pointscale 2 ", gnuplot_file(name + "." + type),
+                     draw);
   return s + "unset output\n";
 }
 
@@ -137,8 +138,8 @@ std::string run_gnuplot(const std::string& folder, const std::string& script) {
   posix_spawn_file_actions_destroy(&actions);
   std::string problem;
   if (error) {
-    problem = error == ENOENT ? "there is no gnuplot on the PATH"
-                              : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
+    problem =
+        error == ENOENT ? "there is no gnuplot on the PATH" : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
   } else {
     int status = 0;
     const auto deadline = std::chrono::steady_clock::now() + longest;

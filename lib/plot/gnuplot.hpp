@@ -14,7 +14,7 @@ struct PlotLine {
   std::string x, y;  // heads of its columns
   std::string legend;
   bool points = false;         // open markers instead of a line: a curve that lies on another stays visible
-  std::string names;  // column of texts written beside the points
+  std::string names;           // column of texts written beside the points
   int colour = -1, dash = -1;  // numbers of its colour and of its dashes and marker; by default both differ from line to line
 };
 
@@ -22,9 +22,9 @@ struct Plot {
   std::string title;             // may be empty
   std::string x_label, y_label;  // with units
   std::vector<PlotLine> lines;
-  bool logarithmic = false;      // both axes
-  double x_step = 0;  // between the tics of x, where that matters
-  int rows = 0;       // of the CSV files, where known: long curves get a marker on some of their points only
+  bool logarithmic = false;  // both axes
+  double x_step = 0;         // between the tics of x, where that matters
+  int rows = 0;              // of the CSV files, where known: long curves get a marker on some of their points only
 };
 
 // writes <name>.svg and <name>.png when run
@@ -33,8 +33,8 @@ std::string gnuplot_script(const Plot& plot, const std::string& name);
 std::string gnuplot_string(const std::string& text);  // as a gnuplot string
 // a file's name as one: "<", "|", "-", "$" and the like at its begin would make it a pipe, a stream or a block of data
 std::string gnuplot_file(const std::string& name);
-std::string literal(const std::string& name);         // enhanced text that prints as it stands
-std::string plain(const std::string& text);           // enhanced text without its marks: σ_xx for σ_{xx}
+std::string literal(const std::string& name);  // enhanced text that prints as it stands
+std::string plain(const std::string& text);    // enhanced text without its marks: σ_xx for σ_{xx}
 
 // Runs <folder>/<script> there. Returns what went wrong, "" if nothing: no gnuplot on the PATH, its complaint, too slow.
 std::string run_gnuplot(const std::string& folder, const std::string& script);

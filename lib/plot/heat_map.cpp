@@ -28,9 +28,7 @@ Drawing heat_map(const HeatMap& map) {
                height = map.y_names.empty() ? 420 : std::max(60., 42. * static_cast<double>(rows));
   d.width = 720, d.height = top + height + 70;
   const double w = width / static_cast<double>(columns), h = height / static_cast<double>(rows);
-  const auto y_of = [&](Eigen::Index row) {
-    return top + h * static_cast<double>(map.first_row_on_top ? row : rows - 1 - row);
-  };
+  const auto y_of = [&](Eigen::Index row) { return top + h * static_cast<double>(map.first_row_on_top ? row : rows - 1 - row); };
   const auto colour = [&](double value) {
     if (!std::isfinite(value)) return grey;
     if (map.losses) return signed_colour(1 - 0.9 * std::clamp(value / map.limit, 0., 1.));
@@ -76,8 +74,7 @@ Drawing heat_map(const HeatMap& map) {
   }
   if (!map.y_names.empty()) {
     for (std::size_t i = 0; i < map.y_names.size(); ++i)
-      d.marks.push_back(
-          label(left - 8, y_of(static_cast<Eigen::Index>(i)) + h / 2 + 4, map.y_names[i], 13, Label::Anchor::end));
+      d.marks.push_back(label(left - 8, y_of(static_cast<Eigen::Index>(i)) + h / 2 + 4, map.y_names[i], 13, Label::Anchor::end));
   } else {
     const std::vector<double> at = ticks(map.y_from, map.y_to);
     const std::vector<std::string> texts = tick_texts(at);
@@ -136,8 +133,7 @@ Drawing bars(const Bars& b) {
       d.marks.push_back(Stroke{{{c, lo}, {c, hi}}, ink, 1.2, 1});
       for (double y : {lo, hi}) d.marks.push_back(Stroke{{{c - 0.2 * bar, y}, {c + 0.2 * bar, y}}, ink, 1.2, 1});
     }
-    d.marks.push_back(
-        label(left + group * (static_cast<double>(j) + 0.5), bottom + 22, b.groups[static_cast<std::size_t>(j)], 14));
+    d.marks.push_back(label(left + group * (static_cast<double>(j) + 0.5), bottom + 22, b.groups[static_cast<std::size_t>(j)], 14));
   }
   d.marks.push_back(Stroke{{{left, bottom}, {left + width, bottom}}, ink, 1.2, 1});
   double x = left;

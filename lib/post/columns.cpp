@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "post/curves.hpp"
 #include "plot/gnuplot.hpp"
+#include "post/curves.hpp"
 #include "store/solution_layout.hpp"
 
 namespace langer {
@@ -43,8 +43,7 @@ std::vector<Complaint> ColumnChoice::complaints() const {
              "one of the two", ""}};
   std::vector<Complaint> found;
   const std::string column = column_name(*this);
-  if (!is_column_name(column))
-    found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", column_letters, ""});
+  if (!is_column_name(column)) found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", column_letters, ""});
   if (quantity && needs_place(*quantity) && !at)
     found.push_back({"at", "missing", "the name of an observation point or node set",
                      fmt::format("{} is measured at a place", line_of(*quantity).word)});
@@ -76,8 +75,7 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice, const std
                             "one of " + known(names), did_you_mean(name, names)});
   }
   if (found_units.size() == 2 && found_units[0] != found_units[1])
-    complaints.push_back(
-        {"quotient", fmt::format("{} over {}", found_units[0], found_units[1]), "two columns of one unit", ""});
+    complaints.push_back({"quotient", fmt::format("{} over {}", found_units[0], found_units[1]), "two columns of one unit", ""});
   return complaints;
 }
 
@@ -102,8 +100,7 @@ std::string label_of(const ColumnChoice& choice) {
   return choice.quantity ? line_of(*choice.quantity).label : literal(*choice.history);
 }
 
-Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body,
-                 const Available& available) {
+Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body, const Available& available) {
   Measures out;
   std::vector<std::string> sets;
   for (const auto& [name, nodes] : body.mesh().node_sets)
@@ -111,8 +108,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
   for (std::size_t i = 0; i < choices.size(); ++i) {
     const ColumnChoice& c = choices[i];
     const auto complain = [&](const char* part, std::string found, std::string expected, std::string hint) {
-      out.complaints.push_back(
-          {fmt::format("{}[{}].{}", key, i, part), std::move(found), std::move(expected), std::move(hint)});
+      out.complaints.push_back({fmt::format("{}[{}].{}", key, i, part), std::move(found), std::move(expected), std::move(hint)});
     };
     const auto has_history = [&](const std::string& name) {
       return std::find(available.histories.begin(), available.histories.end(), name) != available.histories.end();
@@ -128,13 +124,12 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
     if (c.history) {
       m.history = *c.history;
       if (!has_history(m.history))
-        complain("history", fmt::format("the solution has no history \"{}\"", m.history),
-                 "one of " + known(available.histories), did_you_mean(m.history, available.histories));
+        complain("history", fmt::format("the solution has no history \"{}\"", m.history), "one of " + known(available.histories),
+                 did_you_mean(m.history, available.histories));
     } else {
       const QuantityLine& line = line_of(*c.quantity);
       if (line.of == Of::indenter && !available.contact)
-        complain("quantity", fmt::format("{} of a solution without contact", line.word), "a quantity that needs no indenter",
-                 "");
+        complain("quantity", fmt::format("{} of a solution without contact", line.word), "a quantity that needs no indenter", "");
       const bool of_contact_law = *c.quantity >= Quantity::penetration && *c.quantity <= Quantity::complementarity;
       const bool of_energy = *c.quantity >= Quantity::energy && *c.quantity <= Quantity::balance;
       const bool of_shapes = (of_energy && *c.quantity != Quantity::energy) || *c.quantity == Quantity::path;
@@ -145,8 +140,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       const bool of_stability = *c.quantity >= Quantity::negative_eigenvalues && *c.quantity <= Quantity::driving_force;
       const std::string needed = of_stored ? "energy" : of_stability || (of_contact_law && available.contact) ? line.word : "";
       if (!needed.empty() && !has_history(needed))
-        complain("quantity", fmt::format("the solution has no history \"{}\"", needed), "one of " + known(available.histories),
-                 "");
+        complain("quantity", fmt::format("the solution has no history \"{}\"", needed), "one of " + known(available.histories), "");
       if (c.at && needs_place(*c.quantity)) {
         const auto set = body.mesh().node_sets.find(*c.at);
         if (set == body.mesh().node_sets.end() || set->second.empty())
@@ -157,8 +151,8 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       }
       m.family = c.family - 1;
       if (*c.quantity == Quantity::fibre_stretch && c.family > body.n_families())
-        complain("family", fmt::format("family {} of a material with {}", c.family, body.n_families()),
-                 "a family that is there", "");
+        complain("family", fmt::format("family {} of a material with {}", c.family, body.n_families()), "a family that is there",
+                 "");
       if (*c.quantity == Quantity::fibre_stretch_max && body.n_families() == 0)
         complain("quantity", "fibre_stretch_max of a material without fibres", "another quantity", "");
       if (line.of == Of::set && *c.quantity < Quantity::reaction_x)

@@ -32,8 +32,7 @@ struct ColumnChoice {
     v(&ColumnChoice::quotient, "quotient", unit::none,
       "instead of a quantity: names of two other columns, the first over the second");
     v(&ColumnChoice::at, "at", unit::none, "observation point or node set; needed by quantities of nodes, points and sets");
-    v(&ColumnChoice::name, "name", unit::none,
-      "name of the column without its unit; by default the quantity, and _ and the place");
+    v(&ColumnChoice::name, "name", unit::none, "name of the column without its unit; by default the quantity, and _ and the place");
     v(&ColumnChoice::length, "length", unit::mm, "of a strain: the length that belongs to 1; by default the mesh's extent",
       positive);
     v(&ColumnChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
@@ -70,8 +69,7 @@ struct Measures {
   std::vector<Measure> measures;
   std::vector<Complaint> complaints;  // keys like columns[2].at
 };
-Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body,
-                 const Available& available);
+Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body, const Available& available);
 
 // One accepted state, or the unloaded one.
 struct StepState {

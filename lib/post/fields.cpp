@@ -92,7 +92,8 @@ VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt 
     const ElementValues& values = gauss[e];
     if (at == StressAt::nodal_average) {
       VecX row = (cell.at_nodes.row(a) * values).transpose();
-      row[6] = std::clamp(row[6], values.col(6).minCoeff(), values.col(6).maxCoeff());  // J: no volume that no point of the cell has
+      row[6] =
+          std::clamp(row[6], values.col(6).minCoeff(), values.col(6).maxCoeff());  // J: no volume that no point of the cell has
       sum += w * row;
     } else
       sum += w * values.row(cell.nearest_gauss[a]).transpose();

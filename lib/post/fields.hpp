@@ -42,9 +42,7 @@ class Body {
   struct Corner {
     int cell, local;
   };
-  std::span<const Corner> corners(int node) const {
-    return {corners_.data() + first_[node], corners_.data() + first_[node + 1]};
-  }
+  std::span<const Corner> corners(int node) const { return {corners_.data() + first_[node], corners_.data() + first_[node + 1]}; }
 
  private:
   const Mesh& mesh_;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "post/curves.hpp"
 #include "plot/gnuplot.hpp"
+#include "post/curves.hpp"
 
 namespace langer {
 

@@ -29,8 +29,7 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
     if (!set.empty()) facets.push_back(name);
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) points.push_back(name);
-  const auto need = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known,
-                        const char* kind) {
+  const auto need = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known, const char* kind) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string near = nearest(name, known);
     found.push_back({key, fmt::format("the mesh has no {} called \"{}\"", kind, name),

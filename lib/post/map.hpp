@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "post/curves.hpp"
 #include "plot/drawing.hpp"
+#include "post/curves.hpp"
 #include "store/curves_file.hpp"
 
 namespace langer {
@@ -21,8 +21,7 @@ struct MapStyle {
   std::string title;
   static void fields(auto& v) {
     v(&MapStyle::reach, "reach", unit::mm, "half the side of the square shown, around x = z = 0; by default all", positive);
-    v(&MapStyle::range, "range", unit::none,
-      "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&MapStyle::range, "range", unit::none, "values at the ends of the colour bar, in the field's unit; by default those shown");
     v(&MapStyle::cells, "cells", unit::none, "draw the edges of the cells");
     v(&MapStyle::fibres, "fibres", unit::none, "draw the direction of the first fibre family");
     v(&MapStyle::title, "title", unit::none, "above the picture");

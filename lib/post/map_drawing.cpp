@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include "post/figure.hpp"
 #include "plot/gnuplot.hpp"
+#include "post/figure.hpp"
 #include "post/map.hpp"
 
 namespace langer {
@@ -40,9 +40,7 @@ Polygon part_of(const Polygon& polygon, auto&& f) {
 struct Scale {
   std::vector<double> levels;
   bool is_signed = false, below = false, beyond = false;  // values outside the levels
-  int band(double value) const {
-    return static_cast<int>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin());
-  }
+  int band(double value) const { return static_cast<int>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin()); }
   Colour colour(int band) const {
     const int last = static_cast<int>(levels.size());
     const double step = levels[1] - levels[0];
@@ -107,17 +105,9 @@ Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const
 class Painter {
  public:
   Painter(Drawing& drawing, const Window& window, const Scale& scale, double left, double top, double pt_per_mm)
-      : drawing_(drawing),
-        window_(window),
-        scale_(scale),
-        left_(left),
-        top_(top),
-        k_(pt_per_mm),
-        bands_(scale.levels.size() + 1) {}
+      : drawing_(drawing), window_(window), scale_(scale), left_(left), top_(top), k_(pt_per_mm), bands_(scale.levels.size() + 1) {}
 
-  PagePoint page(const PlanePoint& p) const {
-    return {left_ + k_ * (p[0] - window_.x_low), top_ + k_ * (p[1] - window_.z_low)};
-  }
+  PagePoint page(const PlanePoint& p) const { return {left_ + k_ * (p[0] - window_.x_low), top_ + k_ * (p[1] - window_.z_low)}; }
 
   void field(const SurfaceMap& map) {
     for (const auto& facet : map.facets) {
@@ -179,8 +169,7 @@ class Painter {
     const PagePoint a = page({window_.x_low, window_.z_low}), b = page({window_.x_high, window_.z_high});
     drawing_.marks.push_back(Stroke{{a, {b[0], a[1]}, b, {a[0], b[1]}, a}, ink, 0.8});
     for (int axis = 0; axis < 2; ++axis) {
-      const std::vector<double> at =
-          axis == 0 ? ticks(window_.x_low, window_.x_high, 4) : ticks(window_.z_low, window_.z_high, 4);
+      const std::vector<double> at = axis == 0 ? ticks(window_.x_low, window_.x_high, 4) : ticks(window_.z_low, window_.z_high, 4);
       const std::vector<std::string> texts = tick_texts(at);
       for (std::size_t i = 0; i < at.size(); ++i) {
         const PagePoint p = axis == 0 ? PagePoint{page({at[i], 0})[0], b[1]} : PagePoint{a[0], page({0, at[i]})[1]};
@@ -308,8 +297,8 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
   const double bar = std::min(360.0, drawing.height - title_room - bottom_room - 60);
   const double free = drawing.height - title_room - bottom_room - bar;
   const SurfaceMap& first = *panels.front().map;
-  add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20,
-                 title_room + free / 2 + 14, bar);
+  add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20, title_room + free / 2 + 14,
+                 bar);
   if (!style.title.empty())
     drawing.marks.push_back(Label{{(drawing.width - bar_room) / 2, 24}, style.title, 16, Label::Anchor::middle});
   return drawing;

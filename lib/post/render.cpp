@@ -17,8 +17,8 @@ namespace {
 
 constexpr double page_width = 960, margin = 24, bar_room = 150;
 constexpr int most_patches = 6000;
-const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89}, grey{0.45, 0.47, 0.50}, vermilion{0.835, 0.369, 0},
-    blue{0, 0.447, 0.698};
+const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89}, grey{0.45, 0.47, 0.50},
+    vermilion{0.835, 0.369, 0}, blue{0, 0.447, 0.698};
 
 // One thing to paint; those further from the eye come first.
 struct Item {
@@ -50,9 +50,8 @@ struct Page {
 // The sphere in patches between circles about `pole`, up to where a plane cuts it off, and last the disc in that plane.
 std::vector<std::vector<Vec3>> ball_patches(const Ball& ball, const std::vector<Cut>& cuts) {
   constexpr int rings = 48, sectors = 96;
-  const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& c) {
-    return std::abs(c.at - ball.centre[static_cast<int>(c.axis)]) < ball.radius;
-  });
+  const auto cut = std::find_if(cuts.begin(), cuts.end(),
+                                [&](const Cut& c) { return std::abs(c.at - ball.centre[static_cast<int>(c.axis)]) < ball.radius; });
   const bool is_cut = cut != cuts.end();
   const int axis = is_cut ? static_cast<int>(cut->axis) : 1;
   const double side = is_cut && cut->keep == Side::above ? 1 : -1;
@@ -63,8 +62,7 @@ std::vector<std::vector<Vec3>> ball_patches(const Ball& ball, const std::vector<
   const double end = is_cut ? std::acos(side * (cut->at - ball.centre[axis]) / ball.radius) : std::numbers::pi;
   const auto point = [&](int ring, int sector) {
     const double theta = end * ring / rings, phi = 2 * std::numbers::pi * sector / sectors;
-    return Vec3(ball.centre +
-                ball.radius * (std::cos(theta) * pole + std::sin(theta) * (std::cos(phi) * s + std::sin(phi) * t)));
+    return Vec3(ball.centre + ball.radius * (std::cos(theta) * pole + std::sin(theta) * (std::cos(phi) * s + std::sin(phi) * t)));
   };
   std::vector<std::vector<Vec3>> patches;
   for (int ring = 0; ring < rings; ++ring)
@@ -100,8 +98,7 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
     const double y0 = top + height * i / bands, y1 = top + height;
     drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale_colour(1 - (i + 0.5) / bands)});
   }
-  drawing.marks.push_back(
-      Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
+  drawing.marks.push_back(Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
   const std::vector<double> at = ticks(low, high);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -140,11 +137,14 @@ std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>
 }
 
 void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, const Colour& colour) {
-  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::max(std::hypot(dx, dy), 1e-9), head = std::min(11.0, length);
+  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::max(std::hypot(dx, dy), 1e-9),
+               head = std::min(11.0, length);
   const double ex = dx / length, ey = dy / length;
   const PagePoint neck{to[0] - head * ex, to[1] - head * ey};
   drawing.marks.push_back(Stroke{{from, neck}, colour, 2});
-  drawing.marks.push_back(Patch{{to, {neck[0] - 0.45 * head * ey, neck[1] + 0.45 * head * ex}, {neck[0] + 0.45 * head * ey, neck[1] - 0.45 * head * ex}}, colour});
+  drawing.marks.push_back(Patch{
+      {to, {neck[0] - 0.45 * head * ey, neck[1] + 0.45 * head * ex}, {neck[0] + 0.45 * head * ey, neck[1] - 0.45 * head * ex}},
+      colour});
 }
 
 // its ends, as long as a share of the body
@@ -159,12 +159,15 @@ void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const
     for (const auto& [radius, colour] : {std::pair{5.5, Colour{1, 1, 1}}, {4.0, vermilion}}) {
       std::vector<PagePoint> round;
       for (int k = 0; k < 20; ++k)
-        round.push_back({at[0] + radius * std::cos(k * std::numbers::pi / 10), at[1] + radius * std::sin(k * std::numbers::pi / 10)});
+        round.push_back(
+            {at[0] + radius * std::cos(k * std::numbers::pi / 10), at[1] + radius * std::sin(k * std::numbers::pi / 10)});
       drawing.marks.push_back(Patch{round, colour});
     }
     // black on white, so that it is read on any ground
-    drawing.marks.push_back(Patch{{{at[0] + 6, at[1] - 6}, {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
-                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 24}, {at[0] + 6, at[1] - 24}},
+    drawing.marks.push_back(Patch{{{at[0] + 6, at[1] - 6},
+                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
+                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 24},
+                                   {at[0] + 6, at[1] - 24}},
                                   Colour{1, 1, 1}});
     drawing.marks.push_back(Label{{at[0] + 8, at[1] - 9}, name, 16});
   }
@@ -183,8 +186,13 @@ void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, cons
     const Vec3 out = action.moves ? action.along : Vec3(-action.along);
     const PagePoint at = page(R * Vec3(end + 0.035 * size * out));
     const double side = (R * out)[0];
-    drawing.marks.push_back(Label{{at[0], at[1] + 5}, action.says, 16,
-                                  side > 0.3 ? Label::Anchor::start : side < -0.3 ? Label::Anchor::end : Label::Anchor::middle, true});
+    drawing.marks.push_back(Label{{at[0], at[1] + 5},
+                                  action.says,
+                                  16,
+                                  side > 0.3    ? Label::Anchor::start
+                                  : side < -0.3 ? Label::Anchor::end
+                                                : Label::Anchor::middle,
+                                  true});
   }
 }
 
@@ -318,13 +326,13 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
   }
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
   for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
-  for (const auto& edge : outline) drawing.marks.push_back(Stroke{{page(R * mesh.X[edge[0]]), page(R * mesh.X[edge[1]])}, grey, 1.3});
+  for (const auto& edge : outline)
+    drawing.marks.push_back(Stroke{{page(R * mesh.X[edge[0]]), page(R * mesh.X[edge[1]])}, grey, 1.3});
   add_actions(drawing, scene, R, page, extent);
   add_points(drawing, scene, R, page);
   if (coloured) add_colour_bar(drawing, title_room, low, high, scene.label);
   add_axes(drawing, R);
-  if (!choice.title.empty())
-    drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});
+  if (!choice.title.empty()) drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});
   return drawing;
 }
 

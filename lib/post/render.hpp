@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "post/curves.hpp"
 #include "plot/drawing.hpp"
+#include "post/curves.hpp"
 
 namespace langer {
 
@@ -46,7 +46,8 @@ struct RenderChoice {
     v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface; none: the mesh alone");
     v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
     v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
-    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0", between(-360, 360));
+    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0",
+      between(-360, 360));
     v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");
@@ -65,10 +66,10 @@ struct Ball {
 
 // A displacement that is imposed on a set of nodes: 0 is a support.
 struct Action {
-  std::vector<Vec3> at;          // some of its nodes, deformed [mm]
-  Vec3 along = Vec3::UnitX();    // unit: the way it goes; of a support from outside to the body
+  std::vector<Vec3> at;        // some of its nodes, deformed [mm]
+  Vec3 along = Vec3::UnitX();  // unit: the way it goes; of a support from outside to the body
   bool moves = false;
-  std::string says;              // "u_x = 18 mm"
+  std::string says;  // "u_x = 18 mm"
 };
 
 struct RenderScene {

@@ -33,8 +33,13 @@ std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const
     const QuantityLine& line = line_of(q);
     const int n = q == Quantity::fibre_stretch ? body.n_families() : 1;
     for (int k = 0; k < n; ++k)
-      fields.push_back({q, k, n > 1 ? fmt::format("{}_{}", line.word, k + 1) : line.word,
-                        n > 1 ? fmt::format("{} {}", line.label, k + 1) : plain_label(line.label), line.unit, {}, {}});
+      fields.push_back({q,
+                        k,
+                        n > 1 ? fmt::format("{}_{}", line.word, k + 1) : line.word,
+                        n > 1 ? fmt::format("{} {}", line.label, k + 1) : plain_label(line.label),
+                        line.unit,
+                        {},
+                        {}});
   }
   return fields;
 }
@@ -43,8 +48,7 @@ std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const
 std::vector<int> rows_shown(int n_steps, int most) {
   std::vector<int> rows;
   const int n = std::clamp(most, 2, n_steps + 1);
-  for (int i = 0; i < n; ++i)
-    rows.push_back(n > 1 ? static_cast<int>(std::lround(double(i) * n_steps / (n - 1))) : 0);
+  for (int i = 0; i < n; ++i) rows.push_back(n > 1 ? static_cast<int>(std::lround(double(i) * n_steps / (n - 1))) : 0);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
@@ -118,8 +122,8 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                double budget) {
   const SolutionHeader& header = solution.header();
   const Mesh& mesh = header.mesh;
-  const Body body(mesh, header.materials.empty() ? std::vector{header.material} : header.materials,
-                  formulation_of(header, path), header.fibres);
+  const Body body(mesh, header.materials.empty() ? std::vector{header.material} : header.materials, formulation_of(header, path),
+                  header.fibres);
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
 
@@ -127,8 +131,9 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   // bytes in base64: per node and state, per node, per cell and facet
   const auto size = [&](const Chosen& nodes, int states, bool cells) {
     const double n = static_cast<double>(nodes.nodes.size());
-    return 4.0 / 3 * (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
-                      (cells ? 4.0 * n_corners : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
+    return 4.0 / 3 *
+           (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
+            (cells ? 4.0 * n_corners : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
   };
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
   constexpr int few = 4;
@@ -157,8 +162,8 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
       const VecX values = node_values(body, node, gauss, config.stress);
       for (ShownField& f : fields) f.values.back().push_back(value_of(f.quantity, values, f.family));
     }
-    of_state.push_back(object({{"row", number(row)}, {"t", number(state.t)},
-                               {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
+    of_state.push_back(object(
+        {{"row", number(row)}, {"t", number(state.t)}, {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
   }
 
   double largest = 0;
@@ -175,8 +180,11 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   for (ShownField& f : fields) {
     for (const auto& values : f.values) f.span.add(values);
     if (f.span.empty()) continue;
-    shown.push_back(object({{"name", words(f.name)}, {"label", words(f.label)}, {"unit", words(f.unit)},
-                            {"low", number(f.span.low)}, {"high", number(f.span.high)},
+    shown.push_back(object({{"name", words(f.name)},
+                            {"label", words(f.label)},
+                            {"unit", words(f.unit)},
+                            {"low", number(f.span.low)},
+                            {"high", number(f.span.high)},
                             {"states", list(f.values, [&](const auto& v) { return packed(quantised(v, f.span)); })}}));
   }
 
@@ -196,13 +204,23 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   std::vector<Json> spheres;
   for (const RigidContact& indenter : indenters)
     if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))
-      spheres.push_back(object({{"name", words(indenter.name)}, {"radius", number(sphere->radius)},
+      spheres.push_back(object({{"name", words(indenter.name)},
+                                {"radius", number(sphere->radius)},
                                 {"centre", numbers({sphere->centre.begin(), sphere->centre.end()})}}));
   const auto as_is = [](const Json& j) { return j; };
-  return object({{"label", words(label)}, {"cells", connectivity}, {"n_cells", number(mesh.n_cells())},
-                 {"n_nodes", number(mesh.n_nodes())}, {"n_states", number(solution.n_steps() + 1)}, {"X", packed(X)},
-                 {"facets", packed(facets)}, {"states", list(of_state, as_is)}, {"step", number(step)}, {"u", list(moves, as_is)},
-                 {"fields", list(shown, as_is)}, {"glyphs", glyphs}, {"spheres", list(spheres, as_is)}});
+  return object({{"label", words(label)},
+                 {"cells", connectivity},
+                 {"n_cells", number(mesh.n_cells())},
+                 {"n_nodes", number(mesh.n_nodes())},
+                 {"n_states", number(solution.n_steps() + 1)},
+                 {"X", packed(X)},
+                 {"facets", packed(facets)},
+                 {"states", list(of_state, as_is)},
+                 {"step", number(step)},
+                 {"u", list(moves, as_is)},
+                 {"fields", list(shown, as_is)},
+                 {"glyphs", glyphs},
+                 {"spheres", list(spheres, as_is)}});
 }
 
 }  // namespace langer::report

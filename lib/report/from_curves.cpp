@@ -14,7 +14,8 @@ std::string stem(const std::string& name) {
   const auto cut = name.rfind('_');
   if (cut == std::string::npos || cut == 0) return name;
   const std::string place = name.substr(cut + 1);
-  const bool is_place = !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c); });
+  const bool is_place =
+      !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c); });
   return is_place ? name.substr(0, cut) : name;
 }
 
@@ -40,7 +41,10 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
         chart = {"curves", in_words(title), in_words(c->x_label), c->x_unit, in_words(title), c->y_unit, {}, sources.size() > 1};
       }
       chart.ordered = chart.ordered && source.numbered;
-      chart.series.push_back({sources.size() > 1 ? source.label : c->name == title ? c->name : c->name.substr(title.size() + 1), c->x, c->y, false});
+      chart.series.push_back({sources.size() > 1 ? source.label
+                              : c->name == title ? c->name
+                                                 : c->name.substr(title.size() + 1),
+                              c->x, c->y, false});
     }
   }
   for (const std::string& title : order) page.charts.push_back(std::move(charts.at(title)));

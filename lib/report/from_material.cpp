@@ -12,8 +12,14 @@ namespace {
 // measured points and the law's line; the x of a test is its stretch, or the amount of shear
 void add_tests(ReportPage& page, const Source& source, const FitRecord& fit) {
   for (const FittedTest& test : fit.tests) {
-    Chart chart{"fits", fmt::format("{}: {}", source.label, test.name), test.kind == "simple_shear" ? "amount of shear" : "stretch along x",
-                "-", fmt::format("stress ({})", test.measure), "MPa", {}, false};
+    Chart chart{"fits",
+                fmt::format("{}: {}", source.label, test.name),
+                test.kind == "simple_shear" ? "amount of shear" : "stretch along x",
+                "-",
+                fmt::format("stress ({})", test.measure),
+                "MPa",
+                {},
+                false};
     chart.series.push_back({"measured, x", test.first, test.stress_x, true});
     chart.series.push_back({"law, x", test.first, test.model_x, false});
     if (!test.stress_z.empty()) {
@@ -57,21 +63,24 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
     for (const auto* list : {&test.stress_x, &test.stress_z})
       for (double s : *list) largest = std::max(largest, std::abs(s));
     for (const auto& [stress, model] : {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
-      const double miss = root_mean_square(*stress, *model), points = scatter(test.first, *stress), noise = std::max(points, least * largest);
+      const double miss = root_mean_square(*stress, *model), points = scatter(test.first, *stress),
+                   noise = std::max(points, least * largest);
       if (stress->empty() || !(miss > enough * noise)) continue;
-      missed += fmt::format("{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %", missed.empty() ? "" : "; ", test.name,
-                            100 * miss / largest, 100 * points / largest);
+      missed += fmt::format("{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %", missed.empty() ? "" : "; ",
+                            test.name, 100 * miss / largest, 100 * points / largest);
       break;
     }
   }
-  const std::string errors = fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest stress; R² = {:.5f}", fit.mean_error_percent,
-                                         fit.max_error_percent, fit.r2);
+  const std::string errors = fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest stress; R² = {:.5f}",
+                                         fit.mean_error_percent, fit.max_error_percent, fit.r2);
   if (missed.empty())
     page.verdicts.push_back({Level::good, source.label, "the law follows the tests within their scatter: " + errors});
   else
-    page.verdicts.push_back({Level::warning, source.label,
-                             fmt::format("the law misses tests by more than their scatter ({}), root mean squares: another law or a "
-                                         "shorter range may follow them; {}", missed, errors)});
+    page.verdicts.push_back(
+        {Level::warning, source.label,
+         fmt::format("the law misses tests by more than their scatter ({}), root mean squares: another law or a "
+                     "shorter range may follow them; {}",
+                     missed, errors)});
 }
 
 void judge_parameters(ReportPage& page, const Source& source, const FitRecord& fit) {
@@ -87,10 +96,11 @@ void judge_parameters(ReportPage& page, const Source& source, const FitRecord& f
     list += (list.empty() ? "" : ", ") + p.name;
   }
   if (!open.empty())
-    page.verdicts.push_back({Level::warning, source.label,
-                             fmt::format("the tests hardly determine {}: standard error above half the value", open)});
+    page.verdicts.push_back(
+        {Level::warning, source.label, fmt::format("the tests hardly determine {}: standard error above half the value", open)});
   if (!on_bound.empty())
-    page.verdicts.push_back({Level::warning, source.label, fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
+    page.verdicts.push_back(
+        {Level::warning, source.label, fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
   if (fit.at_rest) page.verdicts.push_back({Level::warning, source.label, in_words(*fit.at_rest)});
   if (open.empty() && on_bound.empty() && !fit.at_rest && !fit.parameters.empty())
     page.verdicts.push_back({Level::good, source.label,
@@ -103,10 +113,12 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const auto fit = read_material(source.path).fit;
     if (!fit) continue;
-    ReportTable table{"Parameters: " + source.label,
-                      {{"parameter", "-"}, {"unit", "-"}, {"value", "-"}, {"standard error", "-"}, {"lower bound", "-"}, {"upper bound", "-"}},
-                      {}};
-    for (const FittedParameter& p : fit->parameters) table.rows.push_back({p.name, p.unit, p.value, p.standard_error, p.lower, p.upper});
+    ReportTable table{
+        "Parameters: " + source.label,
+        {{"parameter", "-"}, {"unit", "-"}, {"value", "-"}, {"standard error", "-"}, {"lower bound", "-"}, {"upper bound", "-"}},
+        {}};
+    for (const FittedParameter& p : fit->parameters)
+      table.rows.push_back({p.name, p.unit, p.value, p.standard_error, p.lower, p.upper});
     page.tables.push_back(std::move(table));
     judge_fit(page, source, *fit);
     judge_parameters(page, source, *fit);
@@ -116,8 +128,9 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
       return file.root().group(group).text_attribute(attribute);
     };
     if (const std::string verdict = said("stability", "verdict"); !verdict.empty())
-      page.verdicts.push_back({verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos ? Level::note : Level::warning,
-                               source.label, verdict});
+      page.verdicts.push_back(
+          {verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos ? Level::note : Level::warning,
+           source.label, verdict});
     if (const std::string least = said("identifiability", "words"); !least.empty())
       page.verdicts.push_back({Level::note, source.label, "least determined combination: " + least});
     add_tests(page, source, *fit);

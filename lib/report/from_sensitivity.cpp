@@ -30,8 +30,14 @@ void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
       const h5::Group group = folder.empty() ? file.root() : file.root().group(folder);
       if (!group.has(name)) continue;
       const auto values = group.read<double>(name, {parameters.size(), strain.size()}).values;
-      Chart chart{"sensitivity", sources.size() > 1 ? fmt::format("{}: {}", source.label, matrix.title) : matrix.title, "strain", "-",
-                  matrix.title, matrix.unit, {}, false};
+      Chart chart{"sensitivity",
+                  sources.size() > 1 ? fmt::format("{}: {}", source.label, matrix.title) : matrix.title,
+                  "strain",
+                  "-",
+                  matrix.title,
+                  matrix.unit,
+                  {},
+                  false};
       for (std::size_t p = 0; p < parameters.size(); ++p) {
         const auto row = values.begin() + static_cast<std::ptrdiff_t>(p * strain.size());
         chart.series.push_back({parameters[p], strain, {row, row + static_cast<std::ptrdiff_t>(strain.size())}, false});

@@ -18,7 +18,8 @@ using History = std::map<std::string, std::vector<double>>;
 double largest(const History& history, const std::string& name) {
   const auto found = history.find(name);
   if (found == history.end() || found->second.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return *std::max_element(found->second.begin(), found->second.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return *std::max_element(found->second.begin(), found->second.end(),
+                           [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
 double when(const History& history, const std::string& name, auto&& is) {
@@ -32,7 +33,8 @@ using Say = std::function<void(Level, std::string)>;
 struct IndenterForce {
   double largest = 0, last = 0;  // [N]
 };
-std::map<std::string, IndenterForce> indenter_forces(const SolutionReader& solution, const h5::Group& group, const History& history) {
+std::map<std::string, IndenterForce> indenter_forces(const SolutionReader& solution, const h5::Group& group,
+                                                     const History& history) {
   const auto n = static_cast<std::size_t>(solution.n_steps());
   std::map<std::string, IndenterForce> forces;
   const auto& nodes = solution.header().contact_nodes;
@@ -59,8 +61,10 @@ void judge_contact(const Say& say, const std::map<std::string, IndenterForce>& f
       say(Level::good, fmt::format("{} touches the body: largest force {:.4g} N, largest penetration {:.1e} mm at the nodes", name,
                                    force.largest, penetration));
     else
-      say(Level::warning, fmt::format("{} never touches the body: its force is 0 in every step; look at its place and motion, and at the "
-                                      "nodes that may touch", name));
+      say(Level::warning,
+          fmt::format("{} never touches the body: its force is 0 in every step; look at its place and motion, and at the "
+                      "nodes that may touch",
+                      name));
   }
 }
 
@@ -86,10 +90,12 @@ void judge_errors(const Say& say, const std::vector<Summary>& summary, double fo
     else if (percent <= wanted)
       say(Level::good, fmt::format("{}: within the {:g} % wanted", text, wanted));
     else
-      say(Level::warning, fmt::format("{}: more than the {:g} % wanted; smaller cells, or `accuracy` in the solve config", text, wanted));
+      say(Level::warning,
+          fmt::format("{}: more than the {:g} % wanted; smaller cells, or `accuracy` in the solve config", text, wanted));
   }
   if (!any)
-    say(Level::note, "how much cells and increments change the result is not known: `estimate` or `accuracy` in the solve config tells it");
+    say(Level::note,
+        "how much cells and increments change the result is not known: `estimate` or `accuracy` in the solve config tells it");
 }
 
 void judge_resolution(const Say& say, const std::vector<Summary>& summary) {
@@ -98,10 +104,11 @@ void judge_resolution(const Say& say, const std::vector<Summary>& summary) {
     return found == summary.end() ? 0 : found->value;
   };
   if (value("contact_warnings") > 0)
-    say(Level::warning, fmt::format("contact is not resolved by the cells, or an indenter missed the body (langer-solve said where, {:g} "
-                                    "warnings): between nodes an indenter is up to {:.3g} mm inside the body, {:.0f} % of what it is "
-                                    "pressed in",
-                                    value("contact_warnings"), value("penetration_between_nodes"), 100 * value("penetration_share")));
+    say(Level::warning,
+        fmt::format("contact is not resolved by the cells, or an indenter missed the body (langer-solve said where, {:g} "
+                    "warnings): between nodes an indenter is up to {:.3g} mm inside the body, {:.0f} % of what it is "
+                    "pressed in",
+                    value("contact_warnings"), value("penetration_between_nodes"), 100 * value("penetration_share")));
 }
 
 void judge(const Say& say, const History& history) {
@@ -112,9 +119,10 @@ void judge(const Say& say, const History& history) {
   if (history.count("negative_eigenvalues") == 0)
     say(Level::note, "the stability of the steps was not looked at (stability: last or off)");
   else if (largest(history, "negative_eigenvalues") != 0)
-    say(Level::warning, fmt::format("unstable equilibria from t = {:.4g}: the constrained tangent has up to {:g} negative eigenvalues",
-                                    when(history, "negative_eigenvalues", [](double v) { return v != 0; }),
-                                    std::abs(largest(history, "negative_eigenvalues"))));
+    say(Level::warning,
+        fmt::format("unstable equilibria from t = {:.4g}: the constrained tangent has up to {:g} negative eigenvalues",
+                    when(history, "negative_eigenvalues", [](double v) { return v != 0; }),
+                    std::abs(largest(history, "negative_eigenvalues"))));
   else
     say(Level::good, "every equilibrium is stable: the constrained tangent is positive definite");
   if (history.count("unstable_volume")) {
@@ -127,8 +135,9 @@ void judge(const Say& say, const History& history) {
   }
   if (history.count("outside_fit")) {
     if (largest(history, "outside_fit") > 0)
-      say(Level::warning, fmt::format("from t = {:.4g} the body is deformed beyond the fitted tests, at most in {:.3g} % of the volume",
-                                      when(history, "outside_fit", positive), 100 * largest(history, "outside_fit")));
+      say(Level::warning,
+          fmt::format("from t = {:.4g} the body is deformed beyond the fitted tests, at most in {:.3g} % of the volume",
+                      when(history, "outside_fit", positive), 100 * largest(history, "outside_fit")));
     else
       say(Level::good, "nowhere deformed beyond the fitted tests");
   }
@@ -171,13 +180,15 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources, const R
     for (const auto& [name, values] : history) {
       if (name == "t" || name == "next_increment" || name.starts_with("weakest")) continue;
       if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0; })) continue;  // nothing to see
-      Chart& chart = charts.try_emplace(name, Chart{"path", in_words(name), "path parameter t", "-", in_words(name), units[name], {}, true}).first->second;
+      Chart& chart =
+          charts.try_emplace(name, Chart{"path", in_words(name), "path parameter t", "-", in_words(name), units[name], {}, true})
+              .first->second;
       chart.ordered = chart.ordered && source.numbered;
       chart.series.push_back({source.label, history.at("t"), values, false});
     }
     if (has_three())
-      page.bodies.push_back(body_view(source.label, solution, source.path, config,
-                                      0.9 * budget / static_cast<double>(sources.size())));
+      page.bodies.push_back(
+          body_view(source.label, solution, source.path, config, 0.9 * budget / static_cast<double>(sources.size())));
   }
   for (auto& [name, chart] : charts) page.charts.push_back(std::move(chart));
 }

@@ -91,7 +91,8 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     for (const std::string& name : axis_group.datasets()) axes.push_back(read_axis(axis_group, name));
     std::istringstream members(file.root().read_text("members"));
     ReportTable table{"Sweep: " + source.label, {}, {}};
-    for (std::string member; std::getline(members, member);) table.rows.push_back(axes.empty() ? std::vector<Cell>{member} : std::vector<Cell>{});
+    for (std::string member; std::getline(members, member);)
+      table.rows.push_back(axes.empty() ? std::vector<Cell>{member} : std::vector<Cell>{});
     const std::size_t n = table.rows.size();
     if (axes.empty()) table.columns.push_back({"member", "-"});
     for (const Axis& axis : axes) {
@@ -115,13 +116,21 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       add_polars(page, *angle, columns, units);
     else if (along && axes[0].name != "sample")  // samples of a design have no order
       for (std::size_t c = 0; c < columns.size(); ++c)
-        page.charts.push_back({"sweep", in_words(columns[c].name), along->name, along->unit, in_words(columns[c].name), units[c], {columns[c]}, false});
+        page.charts.push_back({"sweep",
+                               in_words(columns[c].name),
+                               along->name,
+                               along->unit,
+                               in_words(columns[c].name),
+                               units[c],
+                               {columns[c]},
+                               false});
     for (const Polar& polar : page.polars)
       for (const SymmetryResidual& r : polar.residuals)
         if (r.value > 0.02)
-          page.verdicts.push_back({Level::warning, source.label,
-                                   fmt::format("{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks that symmetry",
-                                               r.says, 100 * r.value)});
+          page.verdicts.push_back(
+              {Level::warning, source.label,
+               fmt::format("{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks that symmetry", r.says,
+                           100 * r.value)});
   }
 }
 

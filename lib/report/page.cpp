@@ -7,9 +7,7 @@ namespace langer::report {
 
 namespace {
 
-const char* level_word(Level level) {
-  return level == Level::good ? "good" : level == Level::note ? "note" : "warning";
-}
+const char* level_word(Level level) { return level == Level::good ? "good" : level == Level::note ? "note" : "warning"; }
 
 Json series(const Series& s) {
   return object({{"name", words(s.name)}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"points", {s.points ? "true" : "false"}}});
@@ -20,33 +18,55 @@ Json data_of(const ReportPage& page) {
     return object({{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
   };
   const auto chart = [](const Chart& c) {
-    return object({{"group", words(c.group)}, {"title", words(c.title)}, {"xLabel", words(c.x_label)}, {"xUnit", words(c.x_unit)},
-                   {"yLabel", words(c.y_label)}, {"yUnit", words(c.y_unit)}, {"series", list(c.series, series)},
+    return object({{"group", words(c.group)},
+                   {"title", words(c.title)},
+                   {"xLabel", words(c.x_label)},
+                   {"xUnit", words(c.x_unit)},
+                   {"yLabel", words(c.y_label)},
+                   {"yUnit", words(c.y_unit)},
+                   {"series", list(c.series, series)},
                    {"ordered", {c.ordered ? "true" : "false"}}});
   };
   const auto polar = [](const Polar& p) {
     const auto residual = [](const SymmetryResidual& r) {
       return object({{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
     };
-    return object({{"title", words(p.title)}, {"axis", words(p.axis)}, {"unit", words(p.unit)}, {"angle", numbers(p.angle)},
-                   {"series", list(p.series, series)}, {"residuals", list(p.residuals, residual)}});
+    return object({{"title", words(p.title)},
+                   {"axis", words(p.axis)},
+                   {"unit", words(p.unit)},
+                   {"angle", numbers(p.angle)},
+                   {"series", list(p.series, series)},
+                   {"residuals", list(p.residuals, residual)}});
   };
   const auto table = [](const ReportTable& t) {
     const auto column = [](const TableColumn& c) { return object({{"name", words(c.name)}, {"unit", words(c.unit)}}); };
     const auto cell = [](const Cell& c) {
       return std::holds_alternative<double>(c) ? number(std::get<double>(c)) : words(std::get<std::string>(c));
     };
-    return object({{"title", words(t.title)}, {"columns", list(t.columns, column)},
-                   {"rows", list(t.rows, [&](const auto& row) { return list(row, cell); })}});
+    return object({{"title", words(t.title)}, {"columns", list(t.columns, column)}, {"rows", list(t.rows, [&](const auto& row) {
+                                                                                       return list(row, cell);
+                                                                                     })}});
   };
   const auto origin = [](const FileOrigin& o) {
-    return object({{"label", words(o.label)}, {"stage", words(o.stage)}, {"made", words(o.made)}, {"host", words(o.host)},
-                   {"version", words(o.version)}, {"libraries", words(o.libraries)}, {"command", words(o.command)},
-                   {"content", words(o.content)}, {"config", words(o.config)}, {"wall", number(o.wall)}, {"cpu", number(o.cpu)}});
+    return object({{"label", words(o.label)},
+                   {"stage", words(o.stage)},
+                   {"made", words(o.made)},
+                   {"host", words(o.host)},
+                   {"version", words(o.version)},
+                   {"libraries", words(o.libraries)},
+                   {"command", words(o.command)},
+                   {"content", words(o.content)},
+                   {"config", words(o.config)},
+                   {"wall", number(o.wall)},
+                   {"cpu", number(o.cpu)}});
   };
-  return object({{"title", words(page.title)}, {"version", words(fmt::format("{} ({})", version, revision))},
-                 {"verdicts", list(page.verdicts, verdict)}, {"charts", list(page.charts, chart)}, {"polars", list(page.polars, polar)},
-                 {"tables", list(page.tables, table)}, {"bodies", list(page.bodies, [](const Json& j) { return j; })},
+  return object({{"title", words(page.title)},
+                 {"version", words(fmt::format("{} ({})", version, revision))},
+                 {"verdicts", list(page.verdicts, verdict)},
+                 {"charts", list(page.charts, chart)},
+                 {"polars", list(page.polars, polar)},
+                 {"tables", list(page.tables, table)},
+                 {"bodies", list(page.bodies, [](const Json& j) { return j; })},
                  {"origins", list(page.origins, origin)}});
 }
 
@@ -71,8 +91,8 @@ std::string html(const ReportPage& page) {
   const std::string data = data_of(page).text, title = escaped(page.title);
   const bool view = has_three() && !page.bodies.empty();
   const std::pair<std::string_view, std::string_view> parts[] = {
-      {"title", title},         {"style", style_css},   {"three", view ? three_js : ""}, {"orbit", view ? orbit_js : ""},
-      {"data", data},           {"charts", charts_js},  {"tables", tables_js},           {"body", body_js},
+      {"title", title}, {"style", style_css},  {"three", view ? three_js : ""}, {"orbit", view ? orbit_js : ""},
+      {"data", data},   {"charts", charts_js}, {"tables", tables_js},           {"body", body_js},
       {"main", main_js}};
   std::string text;
   std::string_view rest = index_html;

@@ -43,7 +43,7 @@ struct ReportTable {
 
 struct Polar {
   std::string title, axis, unit;
-  std::vector<double> angle;  // [deg]
+  std::vector<double> angle;   // [deg]
   std::vector<Series> series;  // y by angle
   std::vector<SymmetryResidual> residuals;
 };

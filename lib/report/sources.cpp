@@ -91,8 +91,8 @@ void add_origin(ReportPage& page, const Source& source) {
   const Origin origin = read_origin(source.path);
   const h5::File file = h5::File::open(source.path);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  FileOrigin o{source.label, origin.identity.stage, "", "", "", "", origin.identity.command, origin.content_id,
-               origin.identity.config, unknown, unknown};
+  FileOrigin o{source.label,      origin.identity.stage,  "",      "",     "", "", origin.identity.command,
+               origin.content_id, origin.identity.config, unknown, unknown};
   if (file.root().has("provenance")) {
     const h5::Group p = file.root().group("provenance");
     const auto text = [&](const char* name) { return p.has(name) ? p.read_text(name) : std::string(); };

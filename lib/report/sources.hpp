@@ -12,7 +12,7 @@ namespace langer::report {
 
 struct Source {
   std::string path, label;
-  double angle = 0;      // a number that tells the members of a sweep apart, in the label
+  double angle = 0;  // a number that tells the members of a sweep apart, in the label
   bool numbered = false;
 };
 

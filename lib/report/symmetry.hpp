@@ -11,9 +11,9 @@
 namespace langer::report {
 
 struct SymmetryResidual {
-  std::string says;    // the equation
-  int pairs = 0;       // of angles compared
-  double value = 0;    // -
+  std::string says;  // the equation
+  int pairs = 0;     // of angles compared
+  double value = 0;  // -
 };
 
 // nothing where no two angles of the sweep are partners (an angle that is its own partner compares nothing)

@@ -30,18 +30,14 @@ std::optional<double> percent_of(const std::string& text) {
 const std::vector<AccuracyRung>& accuracy_rungs(bool plain) {
   // make trade; force_error of <scene>/trade.csv: q50-4steps, q35-4steps and q25-5steps in the isotropic scene, rounded up;
   // the first is better there than its neighbours and its estimate: by chance
-  static const std::vector<AccuracyRung> smooth{{CellType::hex27, 0.5, 0.25, 2},
-                                                {CellType::hex27, 0.3536, 0.25, 0.5},
-                                                {CellType::hex27, 0.25, 0.2, 0.2}};
+  static const std::vector<AccuracyRung> smooth{
+      {CellType::hex27, 0.5, 0.25, 2}, {CellType::hex27, 0.3536, 0.25, 0.5}, {CellType::hex27, 0.25, 0.2, 0.2}};
   // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and a quarter
   // more for scenes unlike them (pipelines/accuracy.yaml). Shorter increments cost more and are no nearer: what cells add, longer
   // increments take away
-  static const std::vector<AccuracyRung> others{{CellType::hex8, 0.175, 0.25, 2.7},
-                                                {CellType::hex8, 0.15, 0.25, 1.8},
-                                                {CellType::hex8, 0.125, 0.25, 1.2},
-                                                {CellType::hex8, 0.1125, 0.25, 1},
-                                                {CellType::hex8, 0.1, 0.25, 0.7},
-                                                {CellType::hex8, 0.0884, 0.25, 0.55}};
+  static const std::vector<AccuracyRung> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
+                                                {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.1125, 0.25, 1},
+                                                {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
   return plain ? smooth : others;
 }
 
@@ -62,11 +58,11 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   config.mesh->cells = chosen.rung.cells;
   if (!config.estimate) config.estimate = EstimateBy::second_rung;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
-  chosen.words = fmt::format("{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the ladder's scenes {} the "
-                             "force was within {:g} %{}",
-                             chosen.wanted, names(CellType{})[static_cast<int>(chosen.rung.cells)], chosen.rung.edge,
-                             chosen.rung.step, plain ? "without fibres and friction" : "with friction", chosen.rung.error,
-                             chosen.met ? "" : ", the finest rung measured");
+  chosen.words = fmt::format(
+      "{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the ladder's scenes {} the "
+      "force was within {:g} %{}",
+      chosen.wanted, names(CellType{})[static_cast<int>(chosen.rung.cells)], chosen.rung.edge, chosen.rung.step,
+      plain ? "without fibres and friction" : "with friction", chosen.rung.error, chosen.met ? "" : ", the finest rung measured");
   return chosen;
 }
 

@@ -8,7 +8,7 @@ namespace langer {
 
 namespace {
 
-constexpr double tiny = 1e-9;         // [mm] what positions are known to
+constexpr double tiny = 1e-9;  // [mm] what positions are known to
 constexpr double share_meaningless = 0.5, share_warned = 0.1, node_refused = 0.01;
 
 std::string text(const Vec3& X) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", X[0], X[1], X[2]); }
@@ -26,7 +26,9 @@ ContactWatch::ContactWatch(const Mesh& mesh, const Scene& scene, Where where)
     if (look.node.depth > tiny)
       refuse(key, fmt::format("starts {:.3g} mm inside the body at {}", look.node.depth, text(look.node.X)), outside, hint);
     if (look.unresolved_ratio > 1)
-      refuse(key, fmt::format("starts {:.3g} mm inside the body near {}, between its nodes", look.unresolved.depth, text(look.unresolved.X)),
+      refuse(key,
+             fmt::format("starts {:.3g} mm inside the body near {}, between its nodes", look.unresolved.depth,
+                         text(look.unresolved.X)),
              outside, hint);
   }
   for (Found& f : found_) f.distance = std::numeric_limits<double>::infinity();
@@ -48,19 +50,22 @@ void ContactWatch::refuse_mid_path(const RigidContact& contact, const SurfaceLoo
            "shorter cells where it goes in, and shorter increments");
   const double width = half_width(contact.shape);
   if ((look.touching > 0 || look.facet.depth > tiny) && width < look.spacing)
-    refuse(key + ".rigid",
-           when + fmt::format("smaller than the cells: half its width is {:.3g} mm, nodes that it meets are {:.3g} mm apart (at {})", width,
-                              2 * look.spacing, text(look.nearest)),
-           fmt::format("nodes at most {:.3g} mm apart there", 2 * width), "shorter cells where it goes in");
+    refuse(
+        key + ".rigid",
+        when + fmt::format("smaller than the cells: half its width is {:.3g} mm, nodes that it meets are {:.3g} mm apart (at {})",
+                           width, 2 * look.spacing, text(look.nearest)),
+        fmt::format("nodes at most {:.3g} mm apart there", 2 * width), "shorter cells where it goes in");
   if (look.node.depth > tiny && look.node.depth > node_refused * look.pressed)
     refuse(key + ".on",
            when + fmt::format("{:.3g} mm inside the body at {}, a node that is not in its set", look.node.depth, text(look.node.X)),
-           "a set with every node that the indenter reaches", "leave out the key `on`, or name a larger set: the force is wrong from here on");
+           "a set with every node that the indenter reaches",
+           "leave out the key `on`, or name a larger set: the force is wrong from here on");
   if (look.unresolved_ratio > 1)
-    refuse(key + ".rigid",
-           when + fmt::format("{:.3g} mm inside the body near {}, between its nodes", look.unresolved.depth, text(look.unresolved.X)),
-           fmt::format("at most {:.3g} mm, half the distance of the nodes there", look.unresolved.depth / look.unresolved_ratio),
-           "shorter cells there");
+    refuse(
+        key + ".rigid",
+        when + fmt::format("{:.3g} mm inside the body near {}, between its nodes", look.unresolved.depth, text(look.unresolved.X)),
+        fmt::format("at most {:.3g} mm, half the distance of the nodes there", look.unresolved.depth / look.unresolved_ratio),
+        "shorter cells there");
 }
 
 void ContactWatch::keep(std::size_t contact, const SurfaceLook& look, double t, double force) {
@@ -104,10 +109,11 @@ void ContactWatch::finish() const {
     const Found& f = found_[k];
     const std::string key = "contacts." + scene_.contacts[k].name + ".rigid", apart = fmt::format("{:.3g}", 2 * f.at_force.spacing);
     if (!f.touched && f.from_the_start && f.facet.depth > 1e-6 * f.at_force.spacing)
-      refuse(key,
-             fmt::format("no node touches the indenter, which is up to {:.3g} mm inside the body near {}, between nodes {} mm apart",
-                         f.facet.depth, text(f.facet.X), apart),
-             "an indenter that meets nodes", "shorter cells there: its force is not 0 N");
+      refuse(
+          key,
+          fmt::format("no node touches the indenter, which is up to {:.3g} mm inside the body near {}, between nodes {} mm apart",
+                      f.facet.depth, text(f.facet.X), apart),
+          "an indenter that meets nodes", "shorter cells there: its force is not 0 N");
   }
 }
 
@@ -117,23 +123,27 @@ std::vector<std::string> ContactWatch::warnings() const {
     const Found& f = found_[k];
     const std::string name = "contacts." + scene_.contacts[k].name + ": ";
     if (!f.touched && f.from_the_start)
-      lines.push_back(name + fmt::format("the indenter never touches the body: nearest at t = {:.4g}, {:.3g} mm from {}; look at its place "
-                                         "and its motion",
-                                         f.t_nearest, f.distance, text(f.nearest)));
+      lines.push_back(
+          name + fmt::format("the indenter never touches the body: nearest at t = {:.4g}, {:.3g} mm from {}; look at its place "
+                             "and its motion",
+                             f.t_nearest, f.distance, text(f.nearest)));
     if (f.node.depth > 0)
-      lines.push_back(name + fmt::format("the indenter is up to {:.3g} mm inside the body at {}, a node that is not in its set; a larger "
-                                         "set is needed",
-                                         f.node.depth, text(f.node.X)));
+      lines.push_back(name +
+                      fmt::format("the indenter is up to {:.3g} mm inside the body at {}, a node that is not in its set; a larger "
+                                  "set is needed",
+                                  f.node.depth, text(f.node.X)));
     if (f.share() > share_warned)
-      lines.push_back(name + fmt::format("between nodes the body is {:.3g} mm inside the indenter near {}, {:.0f} % of what it is pressed "
-                                         "in: {}; shorten them there",
-                                         f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(),
-                                         f.share() > share_meaningless ? "the force is that of the cells and not of the body"
-                                                                       : "the force depends on the length of the cells"));
+      lines.push_back(name +
+                      fmt::format("between nodes the body is {:.3g} mm inside the indenter near {}, {:.0f} % of what it is pressed "
+                                  "in: {}; shorten them there",
+                                  f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(),
+                                  f.share() > share_meaningless ? "the force is that of the cells and not of the body"
+                                                                : "the force depends on the length of the cells"));
     if (f.force > 0 && !f.at_force.whole_facet)
       lines.push_back(name + fmt::format("at the largest force {} node{}, and no facet as a whole: the force depends on the length "
                                          "of the cells, whose nodes are {:.3g} mm apart there; shorten them",
-                                         f.at_force.touching, f.at_force.touching == 1 ? " touches" : "s touch", 2 * f.at_force.spacing));
+                                         f.at_force.touching, f.at_force.touching == 1 ? " touches" : "s touch",
+                                         2 * f.at_force.spacing));
   }
   return lines;
 }

@@ -32,14 +32,14 @@ class ContactWatch {
   std::vector<Summary> summary() const;
 
  private:
-  struct Found {                 // of one indenter
-    double force = 0;            // largest [N]
-    SurfaceLook at_force;        // there
-    SurfaceLook::Spot node, facet;  // deepest of all steps
+  struct Found {                     // of one indenter
+    double force = 0;                // largest [N]
+    SurfaceLook at_force;            // there
+    SurfaceLook::Spot node, facet;   // deepest of all steps
     double distance, t_nearest = 0;  // smallest of all steps
     Vec3 nearest;
     bool touched = false, from_the_start = true;
-    double share() const;        // of the deepest entry between nodes in what the body is pressed in, at the largest force
+    double share() const;  // of the deepest entry between nodes in what the body is pressed in, at the largest force
   };
   void keep(std::size_t contact, const SurfaceLook& look, double t, double force);
   void refuse_mid_path(const RigidContact& contact, const SurfaceLook& look, double t) const;

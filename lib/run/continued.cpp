@@ -28,10 +28,11 @@ SolutionWriter::StillGood within_tolerance(const SolveConfig& config) {
   const double now = relative(config);
   const auto then = std::make_shared<std::map<std::string, double>>();  // by config
   return [now, then](const StepRecord& step, const EarlierRun& run) {
-    if (!then->count(run.config)) (*then)[run.config] = relative(read_config<SolveConfig>(parse_yaml(run.config, "provenance")).config);
+    if (!then->count(run.config))
+      (*then)[run.config] = relative(read_config<SolveConfig>(parse_yaml(run.config, "provenance")).config);
     if (now >= then->at(run.config) || step.residual <= now) return true;
-    say_line("solve: the step at t = {:.6g} was kept with a residual of {:.2g}, and solver asks for {:.2g} now; it is made anew", step.t,
-             step.residual, now);
+    say_line("solve: the step at t = {:.6g} was kept with a residual of {:.2g}, and solver asks for {:.2g} now; it is made anew",
+             step.t, step.residual, now);
     return false;
   };
 }

@@ -33,12 +33,13 @@ void need_memory(const Statics& statics, int threads) {
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
   const double wanted = factor <= free_memory() ? mapped : factor, free = std::min(free_memory(), free_address());
-  throw Failure(Exit::config, Error{{},
-                                    "",
-                                    fmt::format("this run needs {} more than the {} it holds already, to factorize its tangent; {} are free",
-                                                amount(wanted), amount(resident_bytes()), amount(free)),
-                                    "",
-                                    "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
+  throw Failure(Exit::config,
+                Error{{},
+                      "",
+                      fmt::format("this run needs {} more than the {} it holds already, to factorize its tangent; {} are free",
+                                  amount(wanted), amount(resident_bytes()), amount(free)),
+                      "",
+                      "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
 Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops) {
@@ -46,18 +47,20 @@ Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics
   return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent);
 }
 
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,
-                             bool quiet) {
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,
+                             double estimate, bool quiet) {
   const double free = std::min(free_memory(), free_address());
   const Forecast f = forecast_of(config, body, statics, scene.stops);
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");
-    line("body", fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(),
-                             body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
+    line("body",
+         fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), shape_name(body.mesh().type),
+                     body.mesh().n_nodes(), body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
     const int families = scene.families();
-    line("fibres", families == 0 ? "off, not in the material" : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
-                                                                           scene.fibres.empty() ? "" : ", directions from a field"));
+    line("fibres", families == 0 ? "off, not in the material"
+                                 : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
+                                               scene.fibres.empty() ? "" : ", directions from a field"));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
@@ -67,8 +70,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                                 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
     line("path", fmt::format("{} steps if none is cut back, about {:.0f} iterations{}", f.steps, f.iterations,
                              f.again > 0 ? fmt::format(" and {:.0f} corrections with their tangents", f.again) : ""));
-    line("memory", fmt::format("{}; {} are free{}", amount(f.bytes), amount(free),
-                               f.size.factor_bytes > free ? ": this will not fit" : ""));
+    line("memory",
+         fmt::format("{}; {} are free{}", amount(f.bytes), amount(free), f.size.factor_bytes > free ? ": this will not fit" : ""));
     line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}{}",
                              duration(f.seconds()), f.per_iteration() + f.contact, f.assembly, f.factor, f.solving,
                              f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));

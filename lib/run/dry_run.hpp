@@ -18,7 +18,7 @@ Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
 // estimate: seconds that the estimate of its errors takes, 0 where none is wanted
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics, double estimate,
-                             bool quiet);
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,
+                             double estimate, bool quiet);
 
 }  // namespace langer

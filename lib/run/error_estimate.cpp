@@ -12,8 +12,8 @@
 #include "post/recovery.hpp"
 #include "run/dry_run.hpp"
 #include "run/equilibrium_by.hpp"
-#include "scene/make_mesh.hpp"
 #include "run/step_record.hpp"
+#include "scene/make_mesh.hpp"
 #include "scene/symmetry.hpp"
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
@@ -93,7 +93,8 @@ struct SecondRungs {
 
 SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
   if (!config.mesh || !has_edge_in_contact_radii(config.mesh->geometry))
-    throw Failure(Exit::config, Error{where("estimate"), "estimate", "the mesh is not an indented_block or indented_disc of this config", "", ""});
+    throw Failure(Exit::config, Error{where("estimate"), "estimate",
+                                      "the mesh is not an indented_block or indented_disc of this config", "", ""});
   SecondRungs rungs;
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;
@@ -150,25 +151,27 @@ Body body_of(const Scene& scene, const Mesh& mesh) {
 }  // namespace
 
 std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
-  return with_scene(config, material, where, [&](const Mesh& mesh, const Scene& whole, const std::optional<ReducedScene>& part,
-                                                 Equilibrium& body, Statics& statics) {
-    StepRecord last;
-    const PathReport path = load_path(
-        config.path, 0, std::nullopt, whole.stops,
-        [&](double t) {
-          statics.begin(t);
-          return equilibrium_by(config.solver, statics.problem(), statics.trial());
-        },
-        [&](double t, double taken, double next, const SolveReport& report) {
-          statics.accept();
-          if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
-          return true;
-        });
-    if (!path.complete)
-      throw Failure(Exit::not_converged,
-                    Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
-    return valued(whole, mesh, part ? part->whole(last) : last);
-  });
+  return with_scene(
+      config, material, where,
+      [&](const Mesh& mesh, const Scene& whole, const std::optional<ReducedScene>& part, Equilibrium& body, Statics& statics) {
+        StepRecord last;
+        const PathReport path = load_path(
+            config.path, 0, std::nullopt, whole.stops,
+            [&](double t) {
+              statics.begin(t);
+              return equilibrium_by(config.solver, statics.problem(), statics.trial());
+            },
+            [&](double t, double taken, double next, const SolveReport& report) {
+              statics.accept();
+              if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
+              return true;
+            });
+        if (!path.complete)
+          throw Failure(
+              Exit::not_converged,
+              Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
+        return valued(whole, mesh, part ? part->whole(last) : last);
+      });
 }
 
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
@@ -185,11 +188,14 @@ std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecor
   return found;
 }
 
-std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state, const std::vector<Valued>& found) {
+std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
+                                            const std::vector<Valued>& found) {
   const RecoveredError error = recovered_error(body_of(scene, mesh), state.u);
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
-    const double cells = q.name == "force" ? error.energy_share() * q.value : q.name == "von_mises_max" ? error.von_mises_spread : -1;
+    const double cells = q.name == "force"           ? error.energy_share() * q.value
+                         : q.name == "von_mises_max" ? error.von_mises_spread
+                                                     : -1;
     if (cells >= 0) estimates.push_back({q, cells, 0, 0, state.residual * std::abs(q.value), false});
   }
   return estimates;
@@ -222,9 +228,10 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
   const SecondRungs rungs = second_rungs(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
-    return with_scene(scene, material, where, [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
-      return forecast_of(scene, body, statics, whole.stops).seconds();
-    });
+    return with_scene(scene, material, where,
+                      [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
+                        return forecast_of(scene, body, statics, whole.stops).seconds();
+                      });
   };
   double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);
   for (const auto* scenes : {&rungs.hex8, &rungs.hex27})

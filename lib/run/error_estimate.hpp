@@ -51,7 +51,8 @@ struct ErrorEstimate {
 
 // Of any mesh, by what its stress lacks to be smooth (post/recovery.hpp): force and greatest von Mises stress, no limit. The error of
 // sticking on coarse cells and that of increments are not among them.
-std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state, const std::vector<Valued>& found);
+std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
+                                            const std::vector<Valued>& found);
 
 // Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no equilibrium,
 // Failure(config) for another kind of mesh.
@@ -60,6 +61,7 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
                                            double residual);
 
 // CPU seconds that it will take, about (solve/forecast.hpp)
-double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const std::function<Place(const std::string&)>& where);
+double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,
+                        const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/reference.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/step_record.hpp"
 #include "solve/load_path.hpp"
@@ -66,7 +66,8 @@ HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const S
   if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
-  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets, scene.fibres);
+  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
+                                         scene.fibres);
 }
 
 std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
@@ -153,7 +154,8 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) {
   left = std::sqrt(left), reactions = std::sqrt(reactions);
   if (!(left <= 1e-9 * reactions + 10 * whole_->rounding_floor())) return std::nullopt;
   record.residual = reactions > 0 ? left / reactions : left;
-  for (auto& [name, values] : record.cell_fields) values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
+  for (auto& [name, values] : record.cell_fields)
+    values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
   record.scalars["J_min"] = whole_->J_min(), record.scalars["energy"] = whole_->W();
   return record;
 }

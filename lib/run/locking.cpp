@@ -12,7 +12,7 @@ namespace {
 constexpr double by_shear_if_stiff = 50, by_shear_if_soft = 2;  // calibrated
 
 struct CellSums {
-  double theta2 = 0;  // integral of theta^2 [mm^3]
+  double theta2 = 0;     // integral of theta^2 [mm^3]
   double W = 0, I1 = 0;  // of the isochoric energy and of I1_bar - 3
 };
 
@@ -66,8 +66,8 @@ Locking locking(const Equilibrium& body, const VecX& u) {
     for (int a : body.mesh().cell(e)) out.place += body.mesh().X[a] / static_cast<double>(body.mesh().cell(e).size());
   }
   if (!(out.energy > 0) || most == 0) return out;
-  out.share = too_soft ? -missing / (out.energy + missing)
-                       : stored / std::max(out.energy - stored, 1e-300) + by_pressure / out.energy;
+  out.share =
+      too_soft ? -missing / (out.energy + missing) : stored / std::max(out.energy - stored, 1e-300) + by_pressure / out.energy;
   return out;
 }
 

@@ -56,8 +56,7 @@ inline std::vector<Complaint> PostConfig::complaints() const {
   once("further", further);
   constexpr const char* steps = "last, a row of the table, t=0.5 or u_ind=0.5";
   for (std::size_t i = 0; i < snapshots.size(); ++i)
-    if (!parse_step(snapshots[i]))
-      all.push_back({"snapshots[" + std::to_string(i) + "]", "\"" + snapshots[i] + "\"", steps, ""});
+    if (!parse_step(snapshots[i])) all.push_back({"snapshots[" + std::to_string(i) + "]", "\"" + snapshots[i] + "\"", steps, ""});
   if (render && !parse_step(render->step)) all.push_back({"render.step", "\"" + render->step + "\"", steps, ""});
   for (const auto& [name, choice] : renders) {
     if (!parse_step(choice.step)) all.push_back({"renders." + name + ".step", "\"" + choice.step + "\"", steps, ""});
@@ -72,8 +71,7 @@ inline std::vector<Complaint> PostConfig::complaints() const {
   for (const auto& [name, map] : maps) {
     if (!is_column_name(name)) all.push_back({"maps." + name, "\"" + name + "\"", column_letters, ""});
     if (!parse_step(map.step)) all.push_back({"maps." + name + ".step", "\"" + map.step + "\"", steps, ""});
-    if (name == "render" || figures.count(name))
-      all.push_back({"maps." + name, "the name of another picture", "another name", ""});
+    if (name == "render" || figures.count(name)) all.push_back({"maps." + name, "the name of another picture", "another name", ""});
     for (const char* end : {"_min", "_max"})
       if (seen.count(name + end)) all.push_back({"maps." + name, "a column is called " + name + end, "another name", ""});
   }

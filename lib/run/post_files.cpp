@@ -67,8 +67,9 @@ Formulation formulation_of(const SolutionHeader& header, const std::string& path
   const auto words = names(Formulation{});
   for (std::size_t i = 0; i < words.size(); ++i)
     if (header.formulation == words[i]) return static_cast<Formulation>(i);
-  throw Failure(Exit::input,
-                Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation, displacement or linear_dilatation", ""});
+  throw Failure(
+      Exit::input,
+      Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation, displacement or linear_dilatation", ""});
 }
 
 StepState state_of(const StepRecord& record) {
@@ -201,8 +202,7 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
   EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
-    state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero())
-                                                     : found->second.r);
+    state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
   }
   if (const auto stored = record.scalars.find("energy"); stored != record.scalars.end()) state.stored = stored->second;
   return state;

@@ -9,14 +9,17 @@
 namespace langer {
 
 Progress::Progress(bool quiet, bool verbose, const Equilibrium& body, const Scene& scene)
-    : quiet_(quiet), verbose_(verbose), live_(on_terminal() && !verbose && !said::log),
-      contact_(!scene.contacts.empty()), start_(wall_seconds()) {
+    : quiet_(quiet),
+      verbose_(verbose),
+      live_(on_terminal() && !verbose && !said::log),
+      contact_(!scene.contacts.empty()),
+      start_(wall_seconds()) {
   if (quiet_) return;
   const int families = scene.families();
-  say_line("solve: {} {}, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}",
-             body.mesh().n_cells(), shape_name(body.mesh().type), body.mesh().n_nodes(), body.dofs().n_free(),
-             names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
-             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
+  say_line("solve: {} {}, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}", body.mesh().n_cells(),
+           shape_name(body.mesh().type), body.mesh().n_nodes(), body.dofs().n_free(),
+           names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
+           scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
 }
 
 void Progress::resumed(int steps, double t) {
@@ -38,7 +41,8 @@ Problem Progress::watched(Problem problem, double t) {
   problem.assess = [this, t, n, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
     const Assessment found = assess(x, with_tangent);
     const std::string residual =
-        found.admissible ? fmt::format("{:.1e}", found.reference > 0 ? found.residual / found.reference : found.residual) : "not admissible";
+        found.admissible ? fmt::format("{:.1e}", found.reference > 0 ? found.residual / found.reference : found.residual)
+                         : "not admissible";
     if (verbose_)
       say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual, found.missing.empty() ? "" : "  ", found.missing);
     else
@@ -85,12 +89,14 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
   if (quiet_) return;
   const Statics::Cost& cost = statics.cost();
   say_line("solve: {} steps, {} iterations{}, {} cuts; {:.0f} MB", path.steps, path.iterations,
-           path.again > 0 ? fmt::format(" and {} corrections with their tangents", path.again) : "", path.cuts, 1e-6 * peak_bytes());
-  say_line("solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
-             "files {:.2f}",
-             cost.analysis, cost.assembly, cost.factor,
-             1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9),
-             cost.solve, cost.contact, files);
+           path.again > 0 ? fmt::format(" and {} corrections with their tangents", path.again) : "", path.cuts,
+           1e-6 * peak_bytes());
+  say_line(
+      "solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
+      "files {:.2f}",
+      cost.analysis, cost.assembly, cost.factor,
+      1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9), cost.solve,
+      cost.contact, files);
   if (statics.n_indefinite() > 0)
     say_line(
         "solve: {} tangents were not positive definite: without its constraints the body has a direction in which it gives way "

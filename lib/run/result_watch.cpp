@@ -57,7 +57,8 @@ void ResultWatch::look_at_chains(const VecX& u) {
     for (int g = 0; g < body_.geometry(e).n_gauss(); ++g) {
       const Mat3 H = displacement_gradient(q, body_.geometry(e).dN_dX[g]);
       const double stretch = (Mat3::Identity() + H).norm() / std::sqrt(3.0) / std::cbrt(1 + volume_change(H));
-      if (stretch <= law->locking_stretch || stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300)) continue;
+      if (stretch <= law->locking_stretch || stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300))
+        continue;
       chains_ = stretch, locking_stretch_ = law->locking_stretch, chains_place_ = gauss_position(body_.mesh(), e, g);
     }
   }
@@ -83,21 +84,23 @@ std::vector<std::string> ResultWatch::warnings() const {
   if (share > worth_saying) {
     const bool soft = locking_.share < 0;
     const CellType type = body_.mesh().type;
-    lines.push_back(fmt::format(
-        "formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
-        names(body_.formulation())[static_cast<int>(body_.formulation())], names(type)[static_cast<int>(type)],
-        soft ? "the volume changes within cells, which nothing opposes" : "the cells lock", text(locking_.place),
-        soft ? "small" : "large", share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
-        names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
+    lines.push_back(
+        fmt::format("formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
+                    names(body_.formulation())[static_cast<int>(body_.formulation())], names(type)[static_cast<int>(type)],
+                    soft ? "the volume changes within cells, which nothing opposes" : "the cells lock", text(locking_.place),
+                    soft ? "small" : "large", share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
+                    names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
   }
   if (raised_ > asked_)
-    lines.push_back(fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
-                                "with d = {:g} rounding leaves no less; d: {:.0e} leaves what was asked",
-                                asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), d_, large_enough_d()));
+    lines.push_back(
+        fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
+                    "with d = {:g} rounding leaves no less; d: {:.0e} leaves what was asked",
+                    asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), d_, large_enough_d()));
   if (chains_ > 0)
-    lines.push_back(fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
-                                "series of five terms that the law is goes on there, the chains do not",
-                                chains_, text(chains_place_), locking_stretch_));
+    lines.push_back(
+        fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
+                    "series of five terms that the law is goes on there, the chains do not",
+                    chains_, text(chains_place_), locking_stretch_));
   return lines;
 }
 

@@ -33,7 +33,7 @@ class ResultWatch {
   double d_;         // the smallest of all materials [1/MPa]
   Locking locking_;  // where the stored energy was largest
   double t_ = 0, residual_ = 0;
-  double reactions_ = 0, asked_ = 0;  // largest on the path [N]
+  double reactions_ = 0, asked_ = 0;   // largest on the path [N]
   double raised_ = 0, raised_at_ = 0;  // largest tolerance that was, and where
   double chains_ = 0, locking_stretch_ = 0;
   Vec3 chains_place_ = Vec3::Zero();

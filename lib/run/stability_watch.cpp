@@ -15,15 +15,14 @@ namespace langer {
 
 namespace {
 
-constexpr double slack = 1 + 1e-6;  // a run to the end of the test is inside
+constexpr double slack = 1 + 1e-6;   // a run to the end of the test is inside
 constexpr std::size_t refined = 24;  // points looked at exactly
 
 // of the invariants over their range: above 1 outside
 double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) {
   double most = (F.squaredNorm() - 3) / std::max(range.I1_bar - 3, 1e-12);
   for (std::size_t k = 0; k < a.size() && k < range.I4_bar.size(); ++k)
-    if (const double I4 = (F * a[k]).squaredNorm(); I4 > 1)
-      most = std::max(most, (I4 - 1) / std::max(range.I4_bar[k] - 1, 1e-12));
+    if (const double I4 = (F * a[k]).squaredNorm(); I4 > 1) most = std::max(most, (I4 - 1) / std::max(range.I4_bar[k] - 1, 1e-12));
   return most;
 }
 
@@ -151,7 +150,8 @@ void StabilityWatch::Spans::add(double t, bool here) {
 std::string StabilityWatch::Spans::text() const {
   std::string words;
   for (const auto& [from, to] : of)
-    words += (words.empty() ? "t = " : ", ") + (from == to ? fmt::format("{:.4g}", from) : fmt::format("{:.4g} to {:.4g}", from, to));
+    words +=
+        (words.empty() ? "t = " : ", ") + (from == to ? fmt::format("{:.4g}", from) : fmt::format("{:.4g} to {:.4g}", from, to));
   return words;
 }
 
@@ -169,9 +169,10 @@ void StabilityWatch::keep(const StabilityReport& r) {
 std::vector<std::string> StabilityWatch::warnings() const {
   std::vector<std::string> lines;
   if (!outside_.of.empty())
-    lines.push_back(fmt::format("{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
-                                "as far near {}; first at t = {:.4g}",
-                                percent(last_.outside), last_.farthest, text(last_.farthest_place), outside_.of[0][0]));
+    lines.push_back(
+        fmt::format("{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
+                    "as far near {}; first at t = {:.4g}",
+                    percent(last_.outside), last_.farthest, text(last_.farthest_place), outside_.of[0][0]));
   if (!equilibrium_.of.empty())
     lines.push_back(
         fmt::format("unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
@@ -180,17 +181,20 @@ std::vector<std::string> StabilityWatch::warnings() const {
   if (!material_.of.empty() && std::isnan(last_.stiffness))
     lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), text(last_.place)));
   else if (!material_.of.empty())
-    lines.push_back(fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (smallest shear "
-                                "stiffness {:.3g} MPa near {}): the solution depends on the mesh there",
-                                material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));
+    lines.push_back(
+        fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (smallest shear "
+                    "stiffness {:.3g} MPa near {}): the solution depends on the mesh there",
+                    material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));
   if (volume_change_ > 0.02)
-    lines.push_back(fmt::format("a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
-                                "come near the bulk modulus; look at c2 and at the strains there",
-                                text(volume_place_), percent(volume_change_)));
+    lines.push_back(
+        fmt::format("a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
+                    "come near the bulk modulus; look at c2 and at the strains there",
+                    text(volume_place_), percent(volume_change_)));
   if (!falling_.of.empty())
-    lines.push_back(fmt::format("the driving force falls at {}: held by displacements these states may be stable, under the same "
-                                "forces as dead loads they are not",
-                                falling_.text()));
+    lines.push_back(
+        fmt::format("the driving force falls at {}: held by displacements these states may be stable, under the same "
+                    "forces as dead loads they are not",
+                    falling_.text()));
   return lines;
 }
 

@@ -23,17 +23,17 @@ StudyRecord study_from(const std::string& material_file);  // nothing in a YAML 
 struct StabilityReport {
   double t = 0;
   Signature signature;
-  double stiffness = 0;                                 // smallest, in the whole body [MPa]
-  int cell = -1;                                        // where; reference position of the Gauss point [mm]
+  double stiffness = 0;  // smallest, in the whole body [MPa]
+  int cell = -1;         // where; reference position of the Gauss point [mm]
   Vec3 place = Vec3::Zero();
-  double volume_change = 0;                             // largest of a cell that its material resists: |V / V0 - 1|
+  double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
   Vec3 volume_place = Vec3::Zero();
-  double lost = 0;                                      // share of the volume with a negative one
+  double lost = 0;                                                            // share of the volume with a negative one
   double fibre_min = std::numeric_limits<double>::infinity(), fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
-  double outside = 0, farthest = 0;                     // of the fitted range: share of the volume, largest excess (1: at its end)
+  double outside = 0, farthest = 0;  // of the fitted range: share of the volume, largest excess (1: at its end)
   Vec3 farthest_place = Vec3::Zero();
-  double driving_force = 0;                             // [N mm] per unit of t
-  bool falling = false;                                 // ... less than one step before; looked at without contact only
+  double driving_force = 0;  // [N mm] per unit of t
+  bool falling = false;      // ... less than one step before; looked at without contact only
 
   bool equilibrium_unstable() const { return signature.negative != 0; }
   bool material_unstable() const { return !(stiffness >= 0); }

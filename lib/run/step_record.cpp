@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "config/reader.hpp"
 #include "base/error.hpp"
+#include "config/reader.hpp"
 #include "material/at_rest.hpp"
 #include "store/material_file.hpp"
 #include "tensor/stress.hpp"
@@ -19,7 +19,10 @@ Material material_from(const std::string& path) {
 Material material_of_body(const std::string& path) {
   const Material material = material_from(path);
   if (at_rest(material) == AtRest::without_stiffness)
-    throw Failure(Exit::input, Error{{path}, "", "a law with " + at_rest_in_words(material), stiffness_at_rest_cure(material),
+    throw Failure(Exit::input, Error{{path},
+                                     "",
+                                     "a law with " + at_rest_in_words(material),
+                                     stiffness_at_rest_cure(material),
                                      "a body without it has no first step"});
   return material;
 }

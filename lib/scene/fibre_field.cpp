@@ -10,8 +10,8 @@
 #include <map>
 #include <numbers>
 
-#include "config/formula.hpp"
 #include "base/csv_table.hpp"
+#include "config/formula.hpp"
 #include "mesh/facets.hpp"
 #include "store/h5.hpp"
 #include "store/units.hpp"
@@ -48,8 +48,7 @@ Directions from_csv(const PointField& field) {
   for (int i = 0; i < 6; ++i) {
     const auto& names = table.header.cells;
     const auto found = std::find_if(names.begin(), names.end(), [&](const CsvCell& c) { return c.text == field.columns[i]; });
-    if (found == names.end())
-      refuse(table.header.line, 1, field.columns[i], "no such column", "columns as `columns` names them");
+    if (found == names.end()) refuse(table.header.line, 1, field.columns[i], "no such column", "columns as `columns` names them");
     at[i] = found - names.begin();
   }
   Directions points;
@@ -75,8 +74,11 @@ Directions from_hdf5(const PointField& field) {
     column[i] = file.root().read_finite(field.columns[i], {h5::any});
     need_unit(file.root(), field.columns[i], i < 3 ? "mm" : "-");
     if (column[i].size() != column[0].size())
-      throw Failure(Exit::input, Error{{field.file.path, 0, 0}, field.columns[i], fmt::format("found {} numbers", column[i].size()),
-                                       fmt::format("{}, as {} has", column[0].size(), field.columns[0]), ""});
+      throw Failure(Exit::input, Error{{field.file.path, 0, 0},
+                                       field.columns[i],
+                                       fmt::format("found {} numbers", column[i].size()),
+                                       fmt::format("{}, as {} has", column[0].size(), field.columns[0]),
+                                       ""});
   }
   Directions points;
   for (std::size_t k = 0; k < column[0].size(); ++k) {

@@ -40,7 +40,8 @@ struct PointField {
   double power = 2;
   static void fields(auto& v) {
     v(&PointField::file, "file", unit::none, "CSV or HDF5 file of points [mm] and directions", required);
-    v(&PointField::columns, "columns", unit::none, "names of its columns (HDF5: datasets of n numbers): the three of the place, the three of the direction");
+    v(&PointField::columns, "columns", unit::none,
+      "names of its columns (HDF5: datasets of n numbers): the three of the place, the three of the direction");
     v(&PointField::method, "method", unit::none, "what a cell between the points gets");
     v(&PointField::power, "power", unit::none, "of the distance, for inverse_distance", positive);
   }

@@ -49,12 +49,12 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
       for (int n : mesh.cell(e)) least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
       if (least > low - slack && most < high + slack) mesh.body[e] = static_cast<int>(b);
       if (least < high - slack && most > high + slack)
-        throw Failure(Exit::config, Error{{},
-                                          fmt::format("bodies[{}].thickness", b),
-                                          fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm",
-                                                      high, least, most),
-                                          "a border between cells",
-                                          "change the thickness, or the divisions or layers of the geometry"});
+        throw Failure(Exit::config,
+                      Error{{},
+                            fmt::format("bodies[{}].thickness", b),
+                            fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm", high, least, most),
+                            "a border between cells",
+                            "change the thickness, or the divisions or layers of the geometry"});
     }
     low = high;
   }
@@ -91,7 +91,8 @@ MadeMesh made(const MeshConfig& config) {
   for (const auto& [name, set] : node_sets) mesh.node_sets[name] = set;  // a file's own sides come before ours
   for (const auto& [name, set] : facet_sets) mesh.facet_sets[name] = set;
   for (const auto& [name, set] : config.sets)
-    if (node_sets.count(name)) throw Failure(Exit::config, Error{{}, "sets." + name, "found the name of a set of the file", "another name", ""});
+    if (node_sets.count(name))
+      throw Failure(Exit::config, Error{{}, "sets." + name, "found the name of a set of the file", "another name", ""});
   name_sets(mesh, config);
   if (mesh.section) {
     for (const char* side : {"z_min", "z_max"}) mesh.node_sets.erase(side), mesh.facet_sets.erase(side);

@@ -67,7 +67,8 @@ struct MeshConfig {
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
     v(&MeshConfig::sets, "sets", unit::none, "further sets by name: nodes, and the facets of the surface between them");
     v(&MeshConfig::exports, "export", unit::none,
-      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
+      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are "
+      "kept");
   }
   Points positions() const {
     Points positions;
@@ -81,18 +82,21 @@ struct MeshConfig {
       thickness += bodies[i].thickness;
       for (std::size_t k = 0; k < i; ++k)
         if (bodies[k].name == bodies[i].name)
-          found.push_back(
-              {"bodies[" + std::to_string(i) + "].name", "found \"" + bodies[i].name + "\" again", "another name", ""});
+          found.push_back({"bodies[" + std::to_string(i) + "].name", "found \"" + bodies[i].name + "\" again", "another name", ""});
     }
     if (std::holds_alternative<FromFile>(geometry)) {
       const std::string expected = "none, where geometry is a file";
-      if (!bodies.empty()) found.push_back({"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
+      if (!bodies.empty())
+        found.push_back(
+            {"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
       if (cells == CellType::hex27) found.push_back({"cells", "found hex27", "hex8 or tet15, where geometry is a file", ""});
       if (cells == CellType::tet15 && frames != Frames::global)
-        found.push_back({"frames", "found element_edges beside cells: tet15", "global: no edge of a tetrahedron stands for a direction", ""});
+        found.push_back(
+            {"frames", "found element_edges beside cells: tet15", "global: no edge of a tetrahedron stands for a direction", ""});
     } else {
       if (cells == CellType::tet15)
-        found.push_back({"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
+        found.push_back(
+            {"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
       if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
         found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                          std::to_string(height) + " mm, the height of the geometry", ""});

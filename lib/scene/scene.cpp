@@ -49,8 +49,8 @@ void set_angles(Material& material, const std::vector<double>& angles, const std
 }
 
 // A field gives the direction of the first family: angles beside it tell those of further ones, and of a single one nothing.
-void refuse_angles_without_effect(const std::vector<double>& angles, const std::optional<FibreField>& field, const Material& material,
-                                  const std::string& key, const Find& where, std::vector<Error>& errors) {
+void refuse_angles_without_effect(const std::vector<double>& angles, const std::optional<FibreField>& field,
+                                  const Material& material, const std::string& key, const Find& where, std::vector<Error>& errors) {
   if (!field || angles.empty() || material.fibres.size() != 1) return;
   for (const Error& e : errors)
     if (e.key == key) return;
@@ -173,8 +173,7 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
     bool agrees = true;
     for (int node : composer.nodes(config.loads[i].on, key + ".on"))
       for (int axis = 0; axis < 3 && agrees; ++axis)
-        if (const auto& to = axis == 0 ? d.x : axis == 1 ? d.y : d.z)
-          agrees = prescribe(node, axis, *to, key + ".displacement");
+        if (const auto& to = axis == 0 ? d.x : axis == 1 ? d.y : d.z) agrees = prescribe(node, axis, *to, key + ".displacement");
   }
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);

@@ -111,7 +111,8 @@ struct BodyConfig {
   std::optional<FibreField> fibre_field;
   static void fields(auto& v) {
     v(&BodyConfig::material, "material", unit::none, "its material; none: that of the bodies not named");
-    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named", between(-360, 360));
+    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named",
+      between(-360, 360));
     v(&BodyConfig::fibre_field, "fibre_field", unit::none, "directions that vary from cell to cell");
   }
 };
@@ -147,16 +148,20 @@ struct SolveConfig {
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
-      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and the "
+      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and "
+      "the "
       "symmetry from what was measured (pipelines/trade.yaml)");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
-      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
+      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer "
+      "by "
       "1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
-      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
+      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh "
+      "and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
-    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own", between(-360, 360));
+    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own",
+      between(-360, 360));
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,
@@ -176,7 +181,8 @@ struct SolveConfig {
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
-      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike everywhere, "
+      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike "
+      "everywhere, "
       "one hexahedron is solved in place of the mesh; every state is put to the mesh, which has to balance");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
@@ -199,12 +205,14 @@ struct SolveConfig {
     const bool one_number = mesh && has_edge_in_contact_radii(mesh->geometry);
     if (estimate == EstimateBy::second_rung && !one_number)
       found.push_back({"estimate", "second_rung, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
-                       "the key mesh with geometry: {indented_block: ...} or {indented_disc: ...}", "coarser cells are made from it"});
+                       "the key mesh with geometry: {indented_block: ...} or {indented_disc: ...}",
+                       "coarser cells are made from it"});
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
       if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
       if (mesh && is_section(mesh->geometry))
-        found.push_back({key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
-                         "of a section, cells: hex27 with an edge of 0.125 and estimate: second_rung tell what its force is worth"});
+        found.push_back(
+            {key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
+             "of a section, cells: hex27 with an edge of 0.125 and estimate: second_rung tell what its force is worth"});
       else if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
         found.push_back({key, mesh ? "a mesh of another kind" : "no mesh here", "the key mesh with geometry: {indented_block: ...}",
                          "its cells are what accuracy chooses"});

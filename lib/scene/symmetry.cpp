@@ -23,7 +23,9 @@ struct Operation {
 const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
 
 Vec3 image(const Vec3& x, const Vec3& signs, const Vec3& centre) { return centre + signs.cwiseProduct(x - centre); }
-bool stays(const Vec3& x, const Operation& op, const Vec3& centre) { return (image(x, op.signs, centre) - x).norm() <= same * (1 + x.norm()); }
+bool stays(const Vec3& x, const Operation& op, const Vec3& centre) {
+  return (image(x, op.signs, centre) - x).norm() <= same * (1 + x.norm());
+}
 bool keeps_direction(const Vec3& d, const Operation& op) { return (op.signs.cwiseProduct(d) - d).norm() <= same * d.norm(); }
 
 bool stays(const Sphere& s, const Operation& op, const Vec3& c) { return stays(vec(s.centre), op, c); }
@@ -41,7 +43,8 @@ std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, con
     const auto a = scene.fibres_of(mesh, e), b = scene.fibres_of(mesh, g.cell[e]);
     const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
     for (std::size_t k = 0; k < a.size(); ++k)
-      if (const Vec3 turned = op.signs.cwiseProduct(a[k]); families[k].hgo.c1 != 0 && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
+      if (const Vec3 turned = op.signs.cwiseProduct(a[k]);
+          families[k].hgo.c1 != 0 && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
         return fmt::format("the fibres of cells {} and {}", e, g.cell[e]);
   }
   std::map<int, double> imposed;
@@ -66,12 +69,18 @@ std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, con
 
 std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
   switch (wanted) {
-    case SymmetryChoice::none: return {};
-    case SymmetryChoice::mirror_x: return {{mirror_x}};
-    case SymmetryChoice::mirror_z: return {{mirror_z}};
-    case SymmetryChoice::quarter: return {{mirror_x, mirror_z}};
-    case SymmetryChoice::half_turn: return {{half_turn}};
-    case SymmetryChoice::automatic: return {{mirror_x, mirror_z}, {half_turn}, {mirror_x}, {mirror_z}};
+    case SymmetryChoice::none:
+      return {};
+    case SymmetryChoice::mirror_x:
+      return {{mirror_x}};
+    case SymmetryChoice::mirror_z:
+      return {{mirror_z}};
+    case SymmetryChoice::quarter:
+      return {{mirror_x, mirror_z}};
+    case SymmetryChoice::half_turn:
+      return {{half_turn}};
+    case SymmetryChoice::automatic:
+      return {{mirror_x, mirror_z}, {half_turn}, {mirror_x}, {mirror_z}};
   }
   return {};
 }
@@ -113,7 +122,8 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
     std::vector<Prescribed> prescribed;
     for (const Prescribed& p : scene.dofs.prescribed) {
       const Image& image = q.node_image[p.dof / 3];
-      if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back({3 * image.of + p.dof % 3, p.value});
+      if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
+        prescribed.push_back({3 * image.of + p.dof % 3, p.value});
     }
     r.scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
     for (const RigidContact& contact : scene.contacts) r.take_contact(contact);
@@ -122,7 +132,8 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
   if (wanted == SymmetryChoice::automatic) return std::nullopt;
   std::string why;
   for (const auto& [name, what] : breaks) why += (why.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", name, what);
-  throw Failure(Exit::config, Error{where("symmetry"), "symmetry", why, "a scene with this symmetry", "symmetry: auto takes what there is"});
+  throw Failure(Exit::config,
+                Error{where("symmetry"), "symmetry", why, "a scene with this symmetry", "symmetry: auto takes what there is"});
 }
 
 void ReducedScene::take_contact(const RigidContact& contact) {
@@ -186,7 +197,8 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
       contact.gap.push_back(kept.gap[image.of]);
     }
     for (int k = 0; k < 3; ++k)
-      if (const auto found = record.scalars.find("force_" + scene_.contacts[c].name + "_" + "xyz"[k]); found != record.scalars.end())
+      if (const auto found = record.scalars.find("force_" + scene_.contacts[c].name + "_" + "xyz"[k]);
+          found != record.scalars.end())
         found->second *= kept_directions_[k];
   }
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);

@@ -50,8 +50,7 @@ std::optional<VecX> Statics::contact_forces(const VecX& last_move) {
   for (int p = 0; p < m; ++p) {
     const int node = contacts_[near[p].contact].nodes[near[p].candidate];
     for (int j = 0; j < 3; ++j)
-      if (const int row = last_of_[3 * node + j]; row >= 0)
-        B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j), ++sharing[row];
+      if (const int row = last_of_[3 * node + j]; row >= 0) B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j), ++sharing[row];
   }
   for (int p = 0; p < m; ++p) {
     const Near& n = near[p];

@@ -44,8 +44,8 @@ double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts,
 
 }  // namespace
 
-Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
-                  const std::vector<double>& stops, bool reuses) {
+Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
+                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses) {
   Forecast out;
   out.size = linear.size();
   const VecX rest = VecX::Zero(body.dofs().n);
@@ -74,7 +74,8 @@ Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vect
   const auto accepted = [&](double, double taken, double, const SolveReport&) {
     const double decades = std::log10(taken / 0.1);
     const double per_decade = friction && decades > 0 ? 3.5 : 1.1;
-    out.iterations += reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6) : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0);
+    out.iterations +=
+        reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6) : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0);
     out.again += reuses ? 7 : 0;
     return true;
   };

@@ -27,8 +27,8 @@ double forecast_bytes(const LinearSolver& linear);
 
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
 // reuses: corrections with a tangent that is there already
-Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
-                  const std::vector<double>& stops, bool reuses);
+Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
+                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

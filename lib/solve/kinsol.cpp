@@ -29,7 +29,7 @@ struct Round {
   VecX x;  // all dofs; the free ones follow KINSOL's vector
   VecX f;  // residual on the free rows
   double tolerance = 0;
-  VecX best;          // the iterate with the smallest residual: what KINSOL leaves in its vector may be anything
+  VecX best;  // the iterate with the smallest residual: what KINSOL leaves in its vector may be anything
   double least = std::numeric_limits<double>::infinity();
   int evaluations = 0, iterations = 0, setups = 0;
   bool fixed_tangent = false;

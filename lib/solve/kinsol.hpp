@@ -30,8 +30,7 @@ struct KinsolOptions {
     v(&KinsolOptions::anderson, "anderson", unit::none, "earlier steps used by picard and fixed_point", between(0, 50));
     v(&KinsolOptions::iterations, "iterations", unit::none, "largest number of KINSOL iterations in one round", at_least(1));
     v(&KinsolOptions::rounds, "rounds", unit::none, "largest number of rounds in one step", at_least(1));
-    v(&KinsolOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive,
-      between(0, 0.1));
+    v(&KinsolOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
     v(&KinsolOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
     v(&KinsolOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
   }

@@ -90,8 +90,7 @@ bool LinearSolver::State::factorize_indefinite() {
       !worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
     return false;
   if (numeric) umfpack_di_free_numeric(&numeric);
-  return worked(
-      umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
+  return worked(umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
 }
 
 int LinearSolver::negative_pivots(const std::vector<double>& values) {

@@ -56,7 +56,7 @@ struct LinearSolver::State {
 
   void analyse();
   void order_last();
-  bool cholesky();  // of A as it is
+  bool cholesky();                  // of A as it is
   VecX whole(const VecX& b) const;  // by the CHOLMOD factor, springs included
   bool factorize_indefinite();
   const MatX& trailing_factor() const;

@@ -5,8 +5,8 @@
 
 namespace langer {
 
-PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment,
-                     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
+PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment, const std::vector<double>& stops,
+                     const std::function<SolveReport(double t)>& attempt,
                      const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted) {
   constexpr double tiny = 1e-10;
   PathReport report;

@@ -16,14 +16,11 @@ struct LoadPathOptions {
   double first = 0.1, largest = 0.1, smallest = 1e-4;
   int easy = 6;
   static void fields(auto& v) {
-    v(&LoadPathOptions::steps, "steps", unit::none, "number of equal increments; first and largest follow from it",
-      at_least(1));
+    v(&LoadPathOptions::steps, "steps", unit::none, "number of equal increments; first and largest follow from it", at_least(1));
     v(&LoadPathOptions::first, "first", unit::none, "first increment, as a fraction of the path", positive, between(0, 1));
     v(&LoadPathOptions::largest, "largest", unit::none, "largest increment", positive, between(0, 1));
-    v(&LoadPathOptions::smallest, "smallest", unit::none, "increment below which the path is given up", positive,
-      between(0, 1));
-    v(&LoadPathOptions::easy, "easy", unit::none, "a step with at most this many iterations lets the next one grow",
-      at_least(1));
+    v(&LoadPathOptions::smallest, "smallest", unit::none, "increment below which the path is given up", positive, between(0, 1));
+    v(&LoadPathOptions::easy, "easy", unit::none, "a step with at most this many iterations lets the next one grow", at_least(1));
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
@@ -47,8 +44,8 @@ struct PathReport {
 // attempt(t): solve at t from the last accepted state; the callee keeps or restores its state.
 // accepted(t, increment taken, next increment, report): false stops the path (the report is then not complete).
 // stops: values of t that must be hit (kinks of the path); 1 is always one.
-PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment,
-                     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
+PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment, const std::vector<double>& stops,
+                     const std::function<SolveReport(double t)>& attempt,
                      const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted);
 
 }  // namespace langer

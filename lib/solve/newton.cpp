@@ -55,8 +55,8 @@ class OldTangent {
 
  private:
   double price_, before_ = 0;  // residual
-  int used_ = 0;      // since it was made
-  bool any_ = true;   // serves in this step at all
+  int used_ = 0;               // since it was made
+  bool any_ = true;            // serves in this step at all
 };
 
 }  // namespace
@@ -87,8 +87,8 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     } else {
       if (report.iterations == options.iterations)
         return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
-                                                     : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
-                                                                   now.residual, report.tolerance, report.iterations));
+                                                     : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations", now.residual,
+                                                                   report.tolerance, report.iterations));
       dx = problem.correction();
       old.renewed(), ++report.iterations;
     }

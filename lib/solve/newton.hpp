@@ -55,8 +55,7 @@ struct NewtonOptions {
   bool reuse_tangent = true;
   static void fields(auto& v) {
     v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of tangents in one step", at_least(1));
-    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive,
-      between(0, 0.1));
+    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
     v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
     v(&NewtonOptions::reuse_tangent, "reuse_tangent", unit::none,
       "within a step, correct with the last tangent for as long as that is cheaper than a new one; false: a new one each time");
@@ -68,12 +67,12 @@ enum class Outcome { converged, not_converged, inadmissible, singular };
 
 struct SolveReport {
   Outcome outcome = Outcome::not_converged;
-  int iterations = 0;  // each with a tangent of its own
-  int again = 0;       // corrections with the tangent of an iteration
+  int iterations = 0;   // each with a tangent of its own
+  int again = 0;        // corrections with the tangent of an iteration
   int evaluations = 0;  // of the residual
   double residual = 0, tolerance = 0, reference = 0;
   double asked = 0;  // tolerance before it was raised to what rounding leaves [N]
-  std::string why;  // in words, when not converged
+  std::string why;   // in words, when not converged
   bool converged() const { return outcome == Outcome::converged; }
 };
 

@@ -86,8 +86,7 @@ Signature Statics::signature() {
       for (int node = 0; node < equilibrium_.mesh().n_nodes(); ++node) {
         int row[3];
         bool is_free[3], candidate = false;
-        for (int j = 0; j < 3; ++j)
-          row[j] = last_of_[3 * node + j], is_free[j] = row[j] >= 0, candidate = candidate || is_free[j];
+        for (int j = 0; j < 3; ++j) row[j] = last_of_[3 * node + j], is_free[j] = row[j] >= 0, candidate = candidate || is_free[j];
         if (!candidate) continue;
         const MatX basis = left_of(contacts[node], is_free);
         for (int i = 0; i < 3; ++i)

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/stopwatch.hpp"
-#include "mesh/reference.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/reference.hpp"
 #include "solve/zero_energy_modes.hpp"
 
 namespace langer {
@@ -137,8 +137,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
     const ContactDefect d =
         contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
                        indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
-    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance ||
-        d.cone > options_.law_tolerance) {
+    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance) {
       out.others = false;
       out.missing = "the contact law does not hold";
     }

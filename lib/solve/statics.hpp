@@ -33,7 +33,7 @@ struct Signature {
 };
 
 struct StaticsOptions {
-  int threads = 1;  // of the BLAS
+  int threads = 1;               // of the BLAS
   double gap_tolerance = 1e-10;  // [mm]
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one
@@ -102,10 +102,10 @@ class Statics {
   double gamma_ = 0;                           // [N/mm]
   double loose_spring_ = 0;                    // gamma to begin with where the supports leave rigid motions [N/mm]
   enum class Factor { none, whole, supported, indefinite } factor_ = Factor::none;
-  VecX factored_at_;          // u of the tangent that was factorized last
-  bool K_current_ = false;    // K is that of the trial
+  VecX factored_at_;            // u of the tangent that was factorized last
+  bool K_current_ = false;      // K is that of the trial
   bool factor_serves_ = false;  // also for other corrections of this increment
-  bool again_ = false;        // the last correction was such a one
+  bool again_ = false;          // the last correction was such a one
   int n_indefinite_ = 0, n_unstable_ = 0;
   Cost cost_;
 };

@@ -54,7 +54,8 @@ struct CurvesFile {
 CurvesFile read_curves(const std::string& path);
 
 std::string csv_name(const std::string& name, const std::string& unit);  // "1/MPa" becomes per_MPa, "N mm" N_mm
-std::string csv_cell(const std::string& text);  // between quotes where it holds a comma, a quote, a semicolon, a line's end or outer blanks
+std::string csv_cell(
+    const std::string& text);  // between quotes where it holds a comma, a quote, a semicolon, a line's end or outer blanks
 std::string csv(const std::vector<Column>& columns);
 std::vector<Column> columns_of(const SurfaceMap& map);  // x, z, value: one row per node
 

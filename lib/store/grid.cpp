@@ -134,7 +134,8 @@ Mesh read_grid(const h5::Group& root) {
     if (types[0] == vtk_type(type)) mesh.type = type;
   for (std::uint8_t type : types)
     if (type != vtk_type(mesh.type))
-      grid.refuse("Types", fmt::format("VTK cell type {}", type), "12 (hexahedron), 29 (triquadratic hexahedron) or 71 (Lagrange tetrahedron), one for all");
+      grid.refuse("Types", fmt::format("VTK cell type {}", type),
+                  "12 (hexahedron), 29 (triquadratic hexahedron) or 71 (Lagrange tetrahedron), one for all");
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
   need_unit(grid, "Points", "mm");
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));

@@ -32,8 +32,7 @@ void written(bool good, const Group& group, const std::string& name) {
   if (!good) group.refuse(name, "cannot be written", "", "is the disk full?");
 }
 
-void Group::refuse(const std::string& name, const std::string& found, const std::string& expected,
-                   const std::string& hint) const {
+void Group::refuse(const std::string& name, const std::string& found, const std::string& expected, const std::string& hint) const {
   throw Failure(Exit::input, Error{{file_->path}, name.empty() ? path_ : full(name), found, expected, hint});
 }
 
@@ -70,7 +69,8 @@ bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
 }
 
 void refuse_external(hid_t file, const Group& group, const std::string& name, const std::string& full) {
-  if (leads_elsewhere(file, full)) group.refuse(name, "is a link into another file", "the data themselves", "copy them into this file (h5copy)");
+  if (leads_elsewhere(file, full))
+    group.refuse(name, "is a link into another file", "the data themselves", "copy them into this file (h5copy)");
 }
 
 Handle open_object(hid_t file, const std::string& path) { return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose}; }

@@ -58,8 +58,7 @@ class Group {
   void write_text(const std::string& name, const std::string& text) const;
   // no rows yet; rows never appended read as NaN (or the least integer)
   template <class T>
-  void make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk,
-                       const std::string& unit = "") const;
+  void make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk, const std::string& unit = "") const;
   template <class T>
   void append(const std::string& name, std::span<const T> rows) const;
 

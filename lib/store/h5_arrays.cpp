@@ -82,15 +82,13 @@ void Group::write(const std::string& name, const Shape& shape, std::span<const T
     throw Failure(Exit::bug, Error{{file_->path}, full(name), fmt::format("{} values", values.size()), words(shape), ""});
   if (!has(name)) {
     const Handle list = creation(H5P_DATASET_CREATE), space = dataspace(shape);
-    const Handle made(H5Dcreate2(file_->id, full(name).c_str(), Kind<T>::file(), space, H5P_DEFAULT, list, H5P_DEFAULT),
-                      H5Dclose);
+    const Handle made(H5Dcreate2(file_->id, full(name).c_str(), Kind<T>::file(), space, H5P_DEFAULT, list, H5P_DEFAULT), H5Dclose);
     written(made.good(), *this, name);
   } else if (this->shape(name) != shape) {
     throw Failure(Exit::bug, Error{{file_->path}, full(name), words(this->shape(name)), words(shape), ""});
   }
   const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
-  written(values.empty() || H5Dwrite(dataset, Kind<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, *this,
-          name);
+  written(values.empty() || H5Dwrite(dataset, Kind<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, *this, name);
   if (!unit.empty()) annotate(name, "unit", unit);
 }
 
@@ -106,17 +104,14 @@ void Group::write_text(const std::string& name, const std::string& text) const {
 }
 
 template <class T>
-void Group::make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk,
-                            const std::string& unit) const {
+void Group::make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk, const std::string& unit) const {
   Shape now{0}, most{static_cast<std::size_t>(H5S_UNLIMITED)}, chunk{std::max<std::size_t>(1, rows_per_chunk)};
-  for (std::size_t extent : row)
-    now.push_back(extent), most.push_back(extent), chunk.push_back(std::max<std::size_t>(1, extent));
+  for (std::size_t extent : row) now.push_back(extent), most.push_back(extent), chunk.push_back(std::max<std::size_t>(1, extent));
   const Handle list = creation(H5P_DATASET_CREATE), space = dataspace(now, most);
   const T blank = Kind<T>::blank;
   H5Pset_chunk(list, static_cast<int>(chunk.size()), extents(chunk).data());
   H5Pset_fill_value(list, Kind<T>::memory(), &blank);
-  const Handle made(H5Dcreate2(file_->id, full(name).c_str(), Kind<T>::file(), space, H5P_DEFAULT, list, H5P_DEFAULT),
-                    H5Dclose);
+  const Handle made(H5Dcreate2(file_->id, full(name).c_str(), Kind<T>::file(), space, H5P_DEFAULT, list, H5P_DEFAULT), H5Dclose);
   written(made.good(), *this, name);
   if (!unit.empty()) annotate(name, "unit", unit);
 }
@@ -201,10 +196,8 @@ std::string Group::read_text(const std::string& name) const {
 }
 
 template void Group::write<double>(const std::string&, const Shape&, std::span<const double>, const std::string&) const;
-template void Group::write<std::int64_t>(const std::string&, const Shape&, std::span<const std::int64_t>,
-                                         const std::string&) const;
-template void Group::write<std::uint8_t>(const std::string&, const Shape&, std::span<const std::uint8_t>,
-                                         const std::string&) const;
+template void Group::write<std::int64_t>(const std::string&, const Shape&, std::span<const std::int64_t>, const std::string&) const;
+template void Group::write<std::uint8_t>(const std::string&, const Shape&, std::span<const std::uint8_t>, const std::string&) const;
 template void Group::make_extendible<double>(const std::string&, const Shape&, std::size_t, const std::string&) const;
 template void Group::make_extendible<std::int64_t>(const std::string&, const Shape&, std::size_t, const std::string&) const;
 template void Group::append<double>(const std::string&, std::span<const double>) const;

@@ -111,7 +111,8 @@ void Journal::append(std::string_view record) {
   if (size_of(fd_) > end_ && ::ftruncate(fd_, static_cast<off_t>(end_)) != 0) cannot_write(path_, "");
   if (!write_at(fd_, end_, bytes_of(length)) || !write_at(fd_, at, record) || !write_at(fd_, at + length, bytes_of(sum))) {
     const int reason = errno;
-    const bool cut = ::ftruncate(fd_, static_cast<off_t>(end_)) == 0;  // not needed to be right: half a record does not fit its checksum
+    const bool cut =
+        ::ftruncate(fd_, static_cast<off_t>(end_)) == 0;  // not needed to be right: half a record does not fit its checksum
     (void)cut;
     errno = reason;
     cannot_write(path_, "is the disk full?");

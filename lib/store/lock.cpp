@@ -21,8 +21,7 @@ namespace {
 std::string this_run(const std::string& command) {
   char host[256] = "";
   gethostname(host, sizeof host - 1);
-  return fmt::format("pid {} on {} since {:%Y-%m-%dT%H:%M:%SZ}: {}\n", getpid(), host, fmt::gmtime(std::time(nullptr)),
-                     command);
+  return fmt::format("pid {} on {} since {:%Y-%m-%dT%H:%M:%SZ}: {}\n", getpid(), host, fmt::gmtime(std::time(nullptr)), command);
 }
 
 std::string content(int fd) {
@@ -34,7 +33,8 @@ std::string content(int fd) {
 
 // the name still leads to this file: its last holder may have removed it after we opened it
 bool is_named(int fd, const std::string& path) {
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   return fstat(fd, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
          opened.st_dev == named.st_dev;
 }
@@ -45,7 +45,10 @@ OutputLock::OutputLock(const std::string& output, const std::string& command) : 
   while (true) {
     fd_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (fd_ < 0)
-      throw Failure(Exit::input, Error{{output}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "",
+      throw Failure(Exit::input, Error{{output},
+                                       "",
+                                       fmt::format("cannot be written ({})", std::strerror(errno)),
+                                       "",
                                        "does the folder exist, and may it be written?"});
     if (flock(fd_, LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) return;  // a file system without locks

@@ -30,7 +30,8 @@ void write_vector(const h5::Group& group, const std::string& name, const std::ve
 }
 
 void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
-  for (const auto& [name, value] : {std::pair{"fitted", s.fitted}, {"allowed", s.allowed}, {"least", s.least}, {"taken", s.taken}, {"noise", s.noise}})
+  for (const auto& [name, value] :
+       {std::pair{"fitted", s.fitted}, {"allowed", s.allowed}, {"least", s.least}, {"taken", s.taken}, {"noise", s.noise}})
     group.write_scalar(name, value, "MPa");
   group.write_scalar("error_before", s.error_before, "percent");
   group.write_scalar("error_after", s.error_after, "percent");
@@ -39,7 +40,7 @@ void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
 
 StiffnessAtRest read_at_rest(const h5::Group& group) {
   const auto value = [&](const char* name) { return group.read_scalar(name); };
-  return {value("fitted"), value("allowed"),       value("least"), value("taken"), value("noise"), group.text_attribute("key"),
+  return {value("fitted"),       value("allowed"),    value("least"), value("taken"), value("noise"), group.text_attribute("key"),
           value("error_before"), value("error_after")};
 }
 
@@ -135,8 +136,8 @@ FitRecord read_fit(const h5::Group& root) {
   std::istringstream order(parameters.text_attribute("order"));
   for (std::string name; order >> name;) {
     const h5::Group one = parameters.group(name);
-    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"),
-                              one.read_scalar("upper"), one.read_scalar("standard_error")});
+    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"), one.read_scalar("upper"),
+                              one.read_scalar("standard_error")});
   }
   const std::size_t p = fit.parameters.size();
   fit.covariance = read_matrix(group, "covariance", {p, p});
@@ -180,7 +181,8 @@ MatX correlation(const MatX& covariance) {
   MatX r = MatX::Constant(covariance.rows(), covariance.cols(), std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     for (Eigen::Index j = 0; j < r.cols(); ++j)
-      if (std::isgreater(deviation[i], 0) && std::isgreater(deviation[j], 0)) r(i, j) = covariance(i, j) / deviation[i] / deviation[j];
+      if (std::isgreater(deviation[i], 0) && std::isgreater(deviation[j], 0))
+        r(i, j) = covariance(i, j) / deviation[i] / deviation[j];
   return r;
 }
 

@@ -46,8 +46,8 @@ struct FitRecord {
   std::optional<StiffnessAtRest> at_rest;                // where its bound was raised
   // correlation of the residuals from value to value, and how many independent values they count as; 0 in files without it
   double residual_correlation = 0, effective_values = 0;
-  std::vector<Tie> ties;                                 // numbers of the law that follow others
-  StudyRecord study;                                     // read back: fitted range, verdict and safe radius
+  std::vector<Tie> ties;  // numbers of the law that follow others
+  StudyRecord study;      // read back: fitted range, verdict and safe radius
 };
 
 // cov_ij / (s_i s_j); NaN where a parameter is not determined or the fit leaves it no variance (exact data)

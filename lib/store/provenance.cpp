@@ -34,8 +34,7 @@ std::map<std::string, std::string> separated(const std::string& text) {
   std::map<std::string, std::string> inputs;
   std::istringstream in(text);
   for (std::string item; in >> item;)
-    if (const auto equals = item.find('='); equals != std::string::npos)
-      inputs[item.substr(0, equals)] = item.substr(equals + 1);
+    if (const auto equals = item.find('='); equals != std::string::npos) inputs[item.substr(0, equals)] = item.substr(equals + 1);
   return inputs;
 }
 

@@ -11,7 +11,7 @@ namespace langer {
 
 struct Schema {
   const char* name;
-  int version;  // that files are written in
+  int version;           // that files are written in
   int newest = version;  // that is read: of files with what the version before did not know
 };
 inline constexpr Schema mesh_schema{"mesh", 1, 2}, material_schema{"material", 1}, solution_schema{"solution", 1, 2},

@@ -33,7 +33,8 @@ void refuse_link(const std::string& path) {
 void refuse_input(const std::string& path) {
   std::error_code none;
   for (const std::string& input : spared())
-    if (fs::equivalent(input, path, none)) refuse(path, "is read by this run and would be replaced", "another name or folder for the output (-o)");
+    if (fs::equivalent(input, path, none))
+      refuse(path, "is read by this run and would be replaced", "another name or folder for the output (-o)");
 }
 
 // `words` within the first and last megabyte of a file
@@ -77,7 +78,8 @@ void need_replaceable_by(const std::string& path, const std::string& text) {
   need_replaceable(path);
   if (!first_time) return;
   const std::string line = text.substr(0, text.find('\n') + 1), is = begin_of(path, std::max<std::size_t>(line.size(), 1));
-  if (!is.empty() && is != line) refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
+  if (!is.empty() && is != line)
+    refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
 }
 
 void need_own_output(const std::string& path) {
@@ -97,7 +99,8 @@ void need_own_log(const std::string& path) {
   if (!fs::exists(status) || fs::is_character_file(status)) return;
   if (!fs::is_regular_file(status)) refuse(path, "is no file for a log", "the name of a file (--log)");
   const std::string begin = begin_of(path, 9);
-  if (!begin.empty() && !begin.starts_with("# langer")) refuse(path, "is there already and is no log of langer", "another name (--log), or remove it");
+  if (!begin.empty() && !begin.starts_with("# langer"))
+    refuse(path, "is there already and is no log of langer", "another name (--log), or remove it");
 }
 
 }  // namespace langer

@@ -10,7 +10,7 @@ namespace langer {
 void append_seal(const std::string& path);  // and forces the file to the disk
 bool seal_broken(const std::string& path);  // a seal is there and does not fit
 void rename_durably(const std::string& from, const std::string& to);
-void sync_folder_of(const std::string& path);  // that the name of a new file lasts
+void sync_folder_of(const std::string& path);                            // that the name of a new file lasts
 void write_text_file(const std::string& path, const std::string& text);  // through <path>.part
 
 }  // namespace langer

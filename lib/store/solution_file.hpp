@@ -27,9 +27,9 @@ struct StepRecord {
   double t = 0;          // path parameter
   double increment = 0;  // of t
   int iterations = 0;
-  double residual = 0;   // relative
-  std::vector<Vec3> u;         // (n) [mm]
-  std::vector<Vec3> reaction;  // (n) internal minus external force: supports and contact [N]
+  double residual = 0;                                     // relative
+  std::vector<Vec3> u;                                     // (n) [mm]
+  std::vector<Vec3> reaction;                              // (n) internal minus external force: supports and contact [N]
   std::map<std::string, std::vector<double>> cell_fields;  // (e): J, I4_bar, von_mises [MPa], pressure [MPa]
   std::map<std::string, double> scalars;                   // further /history values, e.g. penetration, cone, complementarity
   Vec3 u_ind = Vec3::Zero();                               // [mm]; only with contact

@@ -73,7 +73,8 @@ constexpr const HistoryLine* line_of(std::string_view name) {
     const std::string_view pattern = line.name;
     const std::size_t star = pattern.find('*');
     if (star == pattern.npos ? name == pattern
-                             : name.size() >= pattern.size() && name.starts_with(pattern.substr(0, star)) && name.ends_with(pattern.substr(star + 1)))
+                             : name.size() >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
+                                   name.ends_with(pattern.substr(star + 1)))
       return &line;
   }
   return nullptr;

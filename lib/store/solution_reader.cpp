@@ -114,8 +114,7 @@ StepRecord SolutionReader::step(int index) const {
   const std::size_t i = static_cast<std::size_t>(index), n = state_->header.mesh.X.size(),
                     e = static_cast<std::size_t>(state_->header.mesh.n_cells());
   if (index < 0 || i >= state_->n_steps)
-    throw Failure(Exit::bug,
-                  Error{{}, "SolutionReader::step", std::to_string(index), fmt::format("0 to {}", n_steps() - 1), ""});
+    throw Failure(Exit::bug, Error{{}, "SolutionReader::step", std::to_string(index), fmt::format("0 to {}", n_steps() - 1), ""});
   const h5::Group root = state_->file.root(), history = root.group("history"), grid = root.group("VTKHDF");
   StepRecord record;
   record.t = one(history, "t", i);

@@ -32,8 +32,8 @@ namespace {
 constexpr std::size_t history_chunk = 128;  // steps; one chunk holds a usual run
 
 template <class T>
-void extend(const h5::Group& group, const std::string& name, const h5::Shape& row, std::size_t chunk,
-            const std::vector<T>& rows, const std::string& unit = "") {
+void extend(const h5::Group& group, const std::string& name, const h5::Shape& row, std::size_t chunk, const std::vector<T>& rows,
+            const std::string& unit = "") {
   if (!group.has(name)) group.make_extendible<T>(name, row, chunk, unit);
   group.append<T>(name, rows);
 }
@@ -145,8 +145,7 @@ void SolutionWriter::State::check(const StepRecord& record) const {
     check_finite(name, std::vector{value});
     if (solution::among(solution::histories, name)) bug("scalars." + name, "a name of the file's own", "another name");
   }
-  if (last &&
-      (names_of(record.cell_fields) != names_of(last->cell_fields) || names_of(record.scalars) != names_of(last->scalars)))
+  if (last && (names_of(record.cell_fields) != names_of(last->cell_fields) || names_of(record.scalars) != names_of(last->scalars)))
     bug("cell_fields and scalars", names_of(record.cell_fields) + names_of(record.scalars),
         names_of(last->cell_fields) + names_of(last->scalars) + "as in the steps before");
   check_length("contacts", record.contacts.size(), header.contact_nodes.size());

@@ -17,9 +17,7 @@ namespace {
 class Packer {
  public:
   std::string bytes;
-  void put(const auto& value)
-    requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>
-  {
+  void put(const auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void put(const std::string& text) { put(text.size()), bytes += text; }
@@ -51,11 +49,7 @@ class Unpacker {
   explicit Unpacker(std::string_view bytes) : rest_(bytes) {}
   bool good = true;
   bool done() const { return good && rest_.empty(); }
-  void get(auto& value)
-    requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>
-  {
-    copy(&value, sizeof value);
-  }
+  void get(auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> { copy(&value, sizeof value); }
   void get(std::string& text) { text.resize(length(1)), copy(text.data(), text.size()); }
   void get(Vec3& v) { copy(v.data(), 3 * sizeof(double)); }
   template <class T>
@@ -135,7 +129,8 @@ struct Task {
 Task task_of(const SolutionHeader& header) {
   Packer arrays;
   const Mesh& mesh = header.mesh;
-  arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity), arrays.put(mesh.body), arrays.put(mesh.frames);
+  arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity), arrays.put(mesh.body),
+      arrays.put(mesh.frames);
   arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(header.fibres), arrays.put(header.contact_nodes);
   if (mesh.section) arrays.put(static_cast<int>(mesh.section->of)), arrays.put(mesh.section->depth);
   const Identity& identity = header.identity;
@@ -201,7 +196,8 @@ void StepJournal::replay(const Take& take) {
     else
       ++earlier_.back().steps, ++steps;
   }
-  if (!dropped && !journal_.at_end()) say_line("{}: damaged, or a step was cut off; continuing after the {} steps before", journal_.path(), steps);
+  if (!dropped && !journal_.at_end())
+    say_line("{}: damaged, or a step was cut off; continuing after the {} steps before", journal_.path(), steps);
   std::erase_if(earlier_, [](const EarlierRun& r) { return r.steps == 0; });
 }
 

@@ -13,8 +13,7 @@ void write_matrix(const h5::Group& group, const std::string& name, const MatX& A
   group.write<double>(name, {size(A.rows()), size(A.cols())}, std::span(rows.data(), size(rows.size())), unit);
 }
 
-void write_vector(const h5::Group& group, const std::string& name, const std::vector<double>& x,
-                  const std::string& unit = "-") {
+void write_vector(const h5::Group& group, const std::string& name, const std::vector<double>& x, const std::string& unit = "-") {
   group.write<double>(name, {x.size()}, x, unit);
 }
 

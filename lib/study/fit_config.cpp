@@ -30,7 +30,8 @@ std::vector<Complaint> FitData::complaints() const {
     all.push_back({"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes", ""});
   const bool own_grids = columns && !biaxial && !columns->strain_z.empty();
   if (own_grids && kind != TestKind::equibiaxial && kind != TestKind::pure_shear)
-    all.push_back({"columns.strain_z", "found in a test without stress along z", "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
+    all.push_back({"columns.strain_z", "found in a test without stress along z",
+                   "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())
     all.push_back({"columns.stress_z", "missing beside strain_z", "the stress along z, at the deformations of strain_z", ""});
   if (toe && kind == TestKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
@@ -113,8 +114,8 @@ Complaint unknown(const std::string& at, const std::string& key, const std::vect
 }
 
 // what is wrong with one tie whose text was understood; `whole` follows chains to their ends
-void complain(const std::string& at, const Tie& tie, const Tie& whole, const FitConfig& config, const std::vector<MaterialParameter>& known,
-              std::vector<Complaint>& all) {
+void complain(const std::string& at, const Tie& tie, const Tie& whole, const FitConfig& config,
+              const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
   const auto number = [&](const std::string& key) {
     return std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == key; });
   };
@@ -137,10 +138,12 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
   const double from = root == free.end() ? *source->value : root->lower, to = root == free.end() ? from : root->upper;
   for (const double end : {whole.factor * from + whole.offset, whole.factor * to + whole.offset})
     if (end < tied->range.low || end > tied->range.high || (end == tied->range.low && !tied->range.low_included))
-      return all.push_back({at + "follows", fmt::format("{} would be {} where {} is {}", tie.key, number_text(end), whole.of,
-                                            number_text(whole.factor != 0 ? (end - whole.offset) / whole.factor : from)),
-                            fmt::format("between {} and {}, as the law asks", number_text(tied->range.low), number_text(tied->range.high)),
-                            "other bounds of " + whole.of + ", or another factor"});
+      return all.push_back(
+          {at + "follows",
+           fmt::format("{} would be {} where {} is {}", tie.key, number_text(end), whole.of,
+                       number_text(whole.factor != 0 ? (end - whole.offset) / whole.factor : from)),
+           fmt::format("between {} and {}, as the law asks", number_text(tied->range.low), number_text(tied->range.high)),
+           "other bounds of " + whole.of + ", or another factor"});
 }
 
 void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
@@ -210,9 +213,9 @@ std::vector<Complaint> FitConfig::complaints() const {
       continue;
     }
     if (lower < range.low || (lower == range.low && !range.low_included))
-      all.push_back(
-          {at + "lower", "found " + number_text(lower),
-           std::string("a number ") + (range.low_included ? ">= " : "> ") + number_text(range.low) + ", as the law asks", ""});
+      all.push_back({at + "lower", "found " + number_text(lower),
+                     std::string("a number ") + (range.low_included ? ">= " : "> ") + number_text(range.low) + ", as the law asks",
+                     ""});
     if (upper > range.high)
       all.push_back(
           {at + "upper", "found " + number_text(upper), "a number <= " + number_text(range.high) + ", as the law asks", ""});
@@ -265,7 +268,9 @@ namespace {
 double greatest_secant(const std::vector<Test>& tests) {
   double greatest = 0;
   for (const Test& test : tests) {
-    const auto strain = [&](std::size_t i) { return std::abs(test.kind == TestKind::simple_shear ? test.first[i] : test.first[i] - 1); };
+    const auto strain = [&](std::size_t i) {
+      return std::abs(test.kind == TestKind::simple_shear ? test.first[i] : test.first[i] - 1);
+    };
     double most = 0;
     for (std::size_t i = 0; i < test.points(); ++i) most = std::max(most, strain(i));
     for (std::size_t i = 0; i < test.points(); ++i)

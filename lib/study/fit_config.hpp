@@ -54,7 +54,8 @@ struct FitData {
     v(&FitData::kind, "kind", unit::none, "what the test imposes");
     v(&FitData::columns, "columns", unit::none,
       "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
-      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure shear "
+      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure "
+      "shear "
       "tests");
     v(&FitData::stress, "stress", unit::none,
       "measure of the stress where its column's name does not tell; in `columns` without either cauchy is taken, and said");
@@ -78,8 +79,7 @@ struct FitData {
     v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
     v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
     v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);
-    v(&FitData::standard_deviation, "standard_deviation", unit::MPa, "of the measured stress: the weight is its inverse",
-      positive);
+    v(&FitData::standard_deviation, "standard_deviation", unit::MPa, "of the measured stress: the weight is its inverse", positive);
     v(&FitData::strain_from, "strain_from", unit::none, "points below this engineering strain along x are left out");
     v(&FitData::strain_to, "strain_to", unit::none, "points above this engineering strain along x are left out");
     v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
@@ -96,8 +96,7 @@ struct FitParameter {
   std::optional<double> lower, upper, start;
   static void fields(auto& v) {
     v(&FitParameter::key, "key", unit::none, "path of a number of the law, such as matrix.yeoh.a1", required);
-    v(&FitParameter::lower, "lower", unit::none,
-      "lower bound, in the unit of the number; may be left out unless bounds: custom");
+    v(&FitParameter::lower, "lower", unit::none, "lower bound, in the unit of the number; may be left out unless bounds: custom");
     v(&FitParameter::upper, "upper", unit::none, "upper bound; may be left out unless bounds: custom");
     v(&FitParameter::start, "start", unit::none, "where the first search starts; by default the law's own value");
   }
@@ -142,8 +141,7 @@ struct FitConfig {
       between(1, 100000));
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
     v(&FitConfig::check, "check", unit::none, "a second answer by another method; disagreement is a warning");
-    v(&FitConfig::study, "study", unit::none,
-      "what the data tell about the parameters, and where the law is stable; {} for all");
+    v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
   }
   std::vector<Complaint> complaints() const;
   static void complete(Tree& tree);  // what the measured files say of themselves

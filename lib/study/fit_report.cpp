@@ -115,17 +115,18 @@ std::vector<std::string> fit_results(const FitRecord& record) {
   for (const FittedParameter& p : record.parameters) {
     const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
-    const std::string known = on_bound                                ? "on its bound"
-                              : std::isnan(p.standard_error) && p.unit == unit::deg ? "at an angle of symmetry, or not determined: see its profile"
-                              : std::isnan(p.standard_error)          ? "not determined by this curve"
+    const std::string known = on_bound ? "on its bound"
+                              : std::isnan(p.standard_error) && p.unit == unit::deg
+                                  ? "at an angle of symmetry, or not determined: see its profile"
+                              : std::isnan(p.standard_error) ? "not determined by this curve"
                                                              : fmt::format("standard error {:.2g}", p.standard_error);
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
   }
   for (const Tie& tie : record.ties) lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
   if (record.tests.size() > 1)
     for (const FittedTest& t : record.tests)
-      lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2,
-                                  t.mean_error_percent, t.max_error_percent));
+      lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2, t.mean_error_percent,
+                                  t.max_error_percent));
   std::size_t points = 0;
   for (const FittedTest& t : record.tests) points += t.first.size();
   lines.push_back(fmt::format("R2 {:.6f}, AICc {:.6g}, BIC {:.6g}", record.r2, record.aicc, record.bic));
@@ -147,15 +148,15 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
                                   std::visit([](const auto& law) { return law.key; }, term), mu));
   for (const Fibre& fibre : material.fibres)
     if (fibre.hgo.c1 < 0)
-      lines.push_back(
-          fmt::format("c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
-                      fibre.hgo.c1));
+      lines.push_back(fmt::format(
+          "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only", fibre.hgo.c1));
   if (record.residual_correlation > 0) {
     std::size_t values = 0;
     for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
-    lines.push_back(fmt::format("residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
-                                "errors, intervals and AICc; the law misses the curves, or the device drifts",
-                                record.residual_correlation, values, record.effective_values));
+    lines.push_back(
+        fmt::format("residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
+                    "errors, intervals and AICc; the law misses the curves, or the device drifts",
+                    record.residual_correlation, values, record.effective_values));
   }
   const MatX correlations = correlation(record.covariance);
   for (std::size_t i = 0; i < record.parameters.size(); ++i)

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "study/fit_config.hpp"
 #include "store/material_file.hpp"
+#include "study/fit_config.hpp"
 
 namespace langer {
 

@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "material/parameters.hpp"
+#include "store/material_file.hpp"
 #include "study/sensitivity_config.hpp"
 #include "study/sensitivity_file.hpp"
-#include "store/material_file.hpp"
 
 namespace langer {
 

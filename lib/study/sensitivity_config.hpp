@@ -77,8 +77,7 @@ struct SensitivityConfig {
     v(&SensitivityConfig::parameters, "parameters", unit::none,
       "the numbers to rank; none means those of the fit, between the fit's bounds");
     v(&SensitivityConfig::strain, "strain", unit::none, "where the stress is looked at; in simple shear the shear");
-    v(&SensitivityConfig::steps, "steps", unit::none, "steps from the lower to the upper bound, n of eq. 40",
-      between(2, 1000000));
+    v(&SensitivityConfig::steps, "steps", unit::none, "steps from the lower to the upper bound, n of eq. 40", between(2, 1000000));
     v(&SensitivityConfig::zones, "zones", unit::none, "ranges of strain over which effects are averaged");
     v(&SensitivityConfig::dilatation, "dilatation", unit::none,
       "state of the specimen: the volume term left out (incompressible) or counted");
@@ -89,8 +88,7 @@ struct SensitivityConfig {
     v(&SensitivityConfig::morris, "morris", unit::none, "Morris' trajectories as well: what curvature and interactions do");
     v(&SensitivityConfig::sobol, "sobol", unit::none, "Sobol's shares of variance as well: first and total");
     v(&SensitivityConfig::seed, "seed", unit::none, "of the random samples", at_least(0));
-    v(&SensitivityConfig::resamples, "resamples", unit::none, "of the bootstrap behind each 95 % interval",
-      between(50, 100000));
+    v(&SensitivityConfig::resamples, "resamples", unit::none, "of the bootstrap behind each 95 % interval", between(50, 100000));
     v(&SensitivityConfig::threads, "threads", unit::none, "processor cores; the results do not depend on it", between(1, 1024));
     v(&SensitivityConfig::figures, "figures", unit::none, "draw effects over strain and by zone, SVG and PNG");
   }

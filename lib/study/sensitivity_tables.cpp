@@ -53,9 +53,9 @@ std::string zones_csv(const SensitivityRecord& r) {
   text += "\n";
   for (std::size_t j = 0; j < r.parameters.size(); ++j)
     for (std::size_t z = 0; z < r.zones.size(); ++z) {
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(r.parameters[j].name), z + 1, r.zones[z].from, r.zones[z].to,
-                      row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], csv_cell(effect_unit(r.parameters[j].unit)), row(range, j)[z]);
+      text += fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(r.parameters[j].name), z + 1, r.zones[z].from, r.zones[z].to,
+                          row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], csv_cell(effect_unit(r.parameters[j].unit)),
+                          row(range, j)[z]);
       for (const auto& [name, A] : more) text += fmt::format(",{}", row(A, j)[z]);
       text += "\n";
     }

@@ -65,8 +65,7 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
     }
   }
   if (!open) return {};
-  if (!closed)
-    refuse({shown_name, opened_at, 1}, "found a header that does not end", "a second line \"# ---\" before the table");
+  if (!closed) refuse({shown_name, opened_at, 1}, "found a header that does not end", "a second line \"# ---\" before the table");
   const Tree tree = parse_yaml(yaml, shown_name);
   if (tree.kind != Tree::Kind::map)
     refuse({shown_name, opened_at, 1}, "found " + description(tree) + " between the lines \"# ---\"", "a map of keys");
@@ -82,7 +81,8 @@ void add_what_the_file_says(Tree& item) {
   if (!in || !(text << in.rdbuf())) return;
   Tree said = csv_header(text.str(), path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
-  const Tree other = beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place) ? load_yaml(beside.string()) : Tree{};
+  const Tree other =
+      beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place) ? load_yaml(beside.string()) : Tree{};
   if (other.kind != Tree::Kind::null && is_sidecar(other)) {
     if (said.kind == Tree::Kind::map)
       refuse(said.place, "found a header beside " + beside.string(), "one of the two", "both describe the same test");
@@ -90,8 +90,7 @@ void add_what_the_file_says(Tree& item) {
   }
   for (const Tree::Entry& entry : said.map) {
     if (entry.key == "file")
-      refuse(entry.value.place, "found the key \"file\"",
-             "kind, columns, stress and so on: this describes a file that is there");
+      refuse(entry.value.place, "found the key \"file\"", "kind, columns, stress and so on: this describes a file that is there");
     if (!item.find(entry.key)) item.map.push_back(entry);
   }
 }

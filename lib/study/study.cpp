@@ -22,7 +22,8 @@ std::string word(E e) {
 // The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as the largest test, whose weight it
 // has as well, for it is measured by the same device.
 Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, double reach) {
-  const Test& largest = *std::max_element(tests.begin(), tests.end(), [](const Test& a, const Test& b) { return a.points() < b.points(); });
+  const Test& largest =
+      *std::max_element(tests.begin(), tests.end(), [](const Test& a, const Test& b) { return a.points() < b.points(); });
   Test t;
   t.kind = choice.kind, t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
   for (std::size_t i = 1; i <= largest.points(); ++i) {
@@ -107,8 +108,7 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   }
   std::vector<AdviceRecord> records;
   for (const Advice& a : advise(known, size, candidates)) {
-    AdviceRecord record{a.name, a.worst, a.gain,
-                        std::vector<double>(static_cast<std::size_t>(fit.best.p.size()), std::nan(""))};
+    AdviceRecord record{a.name, a.worst, a.gain, std::vector<double>(static_cast<std::size_t>(fit.best.p.size()), std::nan(""))};
     for (std::size_t j = 0; j < free.size(); ++j) record.relative[static_cast<std::size_t>(free[j])] = a.relative[j];
     records.push_back(record);
   }
@@ -138,7 +138,8 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   record.names = parameter_names(problem), record.symmetric = fit.symmetric;
   record.value.assign(p.data(), p.data() + n);
   record.size.assign(s.size.data(), s.size.data() + n);
-  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective, record.error = s.error, record.singular = s.singular;
+  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective, record.error = s.error,
+  record.singular = s.singular;
   record.correlation = s.correlation, record.combination = s.combination;
   if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
   if (config.profiles) {
@@ -238,16 +239,17 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
   std::vector<std::string> lines;
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
-    lines.push_back(r.rho > 0 ? fmt::format("with a noise of {:.3g} MPa, correlated by {:.3f} from value to value, so that they count as "
-                                            "{:.0f} in all, the data tell:",
-                                            r.noise, r.rho, r.effective)
-                              : fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
+    lines.push_back(r.rho > 0
+                        ? fmt::format("with a noise of {:.3g} MPa, correlated by {:.3f} from value to value, so that they count as "
+                                      "{:.0f} in all, the data tell:",
+                                      r.noise, r.rho, r.effective)
+                        : fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       std::string s = r.symmetric[i]           ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
                       : std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
-                                             : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %)", r.names[i], r.error[k],
-                                                           100 * r.error[k] / r.size[i]);
+                                               : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %)", r.names[i], r.error[k],
+                                                             100 * r.error[k] / r.size[i]);
       if (!r.profiles.empty()) {
         const ProfileRecord& p = r.profiles[i];
         s += fmt::format(", profile {}{:.4g} to {:.4g}{}", p.low_open ? "[bound] " : "", p.low, p.high,
@@ -284,8 +286,7 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
   std::vector<TextFile> files;
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
-    std::string text =
-        "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
+    std::string text = "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       text += fmt::format("{},{},{},{},", csv_cell(r.names[i]), r.value[i], r.error[k], 100 * r.error[k] / r.size[i]);
@@ -324,8 +325,8 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
         l1.push_back(map.stretch[static_cast<std::size_t>(column)]), l2.push_back(map.stretch[static_cast<std::size_t>(row)]);
         value.push_back(map.plane(row, column));
       }
-    files.push_back({"stability_plane.csv",
-                     csv({{"stretch_x", "-", l1}, {"stretch_z", "-", l2}, {"smallest_shear_stiffness", "MPa", value}})});
+    files.push_back(
+        {"stability_plane.csv", csv({{"stretch_x", "-", l1}, {"stretch_z", "-", l2}, {"smallest_shear_stiffness", "MPa", value}})});
   }
   return files;
 }

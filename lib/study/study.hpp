@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fit/fit.hpp"
-#include "study/study_config.hpp"
 #include "store/study_record.hpp"
+#include "study/study_config.hpp"
 
 namespace langer {
 

@@ -23,18 +23,16 @@ struct StudyConfig {
   bool profiles = true;
   int bootstrap = 200;
   int seed = 1;
-  std::vector<CandidateChoice> candidates{
-      {TestKind::uniaxial, 0},     {TestKind::uniaxial, 45},     {TestKind::uniaxial, 90},
-      {TestKind::equibiaxial, 0},  {TestKind::pure_shear, 0},    {TestKind::pure_shear, 90},
-      {TestKind::simple_shear, 0}, {TestKind::simple_shear, 45}, {TestKind::simple_shear, 90}};
+  std::vector<CandidateChoice> candidates{{TestKind::uniaxial, 0},     {TestKind::uniaxial, 45},     {TestKind::uniaxial, 90},
+                                          {TestKind::equibiaxial, 0},  {TestKind::pure_shear, 0},    {TestKind::pure_shear, 90},
+                                          {TestKind::simple_shear, 0}, {TestKind::simple_shear, 45}, {TestKind::simple_shear, 90}};
   bool stability = true;
   double stability_to = 1;
   int threads = 1;
   bool figures = false;
   static void fields(auto& v) {
     v(&StudyConfig::noise, "noise", unit::none,
-      "least standard deviation of a measured value, as part of the largest stress; more where the fit misses by more",
-      positive);
+      "least standard deviation of a measured value, as part of the largest stress; more where the fit misses by more", positive);
     v(&StudyConfig::profiles, "profiles", unit::none, "intervals by holding each parameter while the others follow");
     v(&StudyConfig::bootstrap, "bootstrap", unit::none, "fits to fresh noise; 0 for none", between(0, 1000000));
     v(&StudyConfig::seed, "seed", unit::none, "of that noise", at_least(0));

@@ -8,9 +8,9 @@
 #include "plot/gnuplot.hpp"
 #include "plot/heat_map.hpp"
 #include "plot/pictures.hpp"
-#include "study/sensitivity_tables.hpp"
 #include "store/curves_file.hpp"
 #include "store/seal.hpp"
+#include "study/sensitivity_tables.hpp"
 
 namespace langer {
 
@@ -46,8 +46,7 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
   // at rest, times two: what is far stiffer or softer has the ends' colours
   Eigen::Index rest = 0;
   for (std::size_t i = 0; i < m.stretch.size(); ++i)
-    if (std::abs(m.stretch[i] - 1) < std::abs(m.stretch[static_cast<std::size_t>(rest)] - 1))
-      rest = static_cast<Eigen::Index>(i);
+    if (std::abs(m.stretch[i] - 1) < std::abs(m.stretch[static_cast<std::size_t>(rest)] - 1)) rest = static_cast<Eigen::Index>(i);
   plane.limit = std::max(2 * std::abs(m.plane(rest, rest)), 1e-12);
   pictures.draw("stability_plane", heat_map(plane));
 
@@ -74,8 +73,7 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
 }  // namespace
 
 std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const std::string& folder) {
-  for (const TextFile& file : study_tables(study))
-    write_text_file((std::filesystem::path(folder) / file.name).string(), file.text);
+  for (const TextFile& file : study_tables(study)) write_text_file((std::filesystem::path(folder) / file.name).string(), file.text);
   if (!config.figures) return {};
   Pictures pictures(folder);
   if (study.identifiability) draw_identifiability(pictures, *study.identifiability);

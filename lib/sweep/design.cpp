@@ -28,8 +28,7 @@ QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   options.seed = static_cast<std::uint64_t>(design.seed), options.resamples = design.resamples;
   const CurveMaker maker = [&] { return phi; };
   if (design.one_at_a_time) e.one_at_a_time = one_at_a_time(phi, box.value, box.lower, box.upper, design.one_at_a_time->steps);
-  if (design.morris)
-    e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories, design.morris->levels, options);
+  if (design.morris) e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories, design.morris->levels, options);
   if (design.sobol) options.sequence = design.sobol->sequence;
   if (design.sobol) e.sobol = sobol(maker, box.lower, box.upper, design.sobol->samples, options);
   if (e.one_at_a_time && e.one_at_a_time->complete)
@@ -52,8 +51,7 @@ std::vector<Complaint> Design::complaints() const {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const DesignParameter& p = parameters[i];
     const std::string at = "parameters[" + std::to_string(i) + "].";
-    if (split_path(p.key).empty())
-      all.push_back({at + "key", "found \"" + p.key + "\"", "a path like contacts[0].friction", ""});
+    if (split_path(p.key).empty()) all.push_back({at + "key", "found \"" + p.key + "\"", "a path like contacts[0].friction", ""});
     if (!(p.lower < p.upper))
       all.push_back({at + "upper", "found " + number_text(p.upper), "more than lower, " + number_text(p.lower), ""});
     else if (p.value && (*p.value < p.lower || *p.value > p.upper))

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "base/fields.hpp"
-#include "study/sensitivity_config.hpp"
 #include "sensitivity/morris.hpp"
 #include "sensitivity/sobol.hpp"
+#include "study/sensitivity_config.hpp"
 
 namespace langer {
 
@@ -37,8 +37,7 @@ struct DesignParameter {
 struct OneAtATimeChoice {
   int steps = 4;
   static void fields(auto& v) {
-    v(&OneAtATimeChoice::steps, "steps", unit::none, "from the lower to the upper bound; k (steps + 1) members",
-      between(2, 1000));
+    v(&OneAtATimeChoice::steps, "steps", unit::none, "from the lower to the upper bound; k (steps + 1) members", between(2, 1000));
   }
 };
 

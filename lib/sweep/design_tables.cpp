@@ -71,9 +71,8 @@ std::string effects_csv(const Design& design, const std::vector<QuantityEffects>
   for (const QuantityEffects& e : effects)
     for (std::size_t i = 0; i < design.parameters.size(); ++i) {
       const DesignParameter& p = design.parameters[i];
-      rows +=
-          fmt::format("{},{},{},{},{},{}", csv_cell(e.name), csv_cell(e.unit), csv_cell(short_name(p)), csv_cell(p.unit),
-                      number_text(p.lower), number_text(p.upper));
+      rows += fmt::format("{},{},{},{},{},{}", csv_cell(e.name), csv_cell(e.unit), csv_cell(short_name(p)), csv_cell(p.unit),
+                          number_text(p.lower), number_text(p.upper));
       for (const Value& v : values(e, static_cast<Eigen::Index>(i))) {
         const bool interval = !std::string(v.name).starts_with("one_at_a_time");
         if (!headed) text += interval ? fmt::format(",{0},{0}_low,{0}_high", v.name) : fmt::format(",{}", v.name);
@@ -105,11 +104,11 @@ std::vector<std::string> effects_lines(const Design& design, const QuantityEffec
                                   return fmt::format("{:.3g}", named(all, "one_at_a_time").value);
                                 })));
   if (e.morris && e.morris->trajectories >= 2)
-    lines.push_back(fmt::format(
-        "{}: Morris mu* (95 %; sigma){}: {}", e.name, unit, ranked("morris_mu_star", [](const auto& all) {
-          const Value& m = named(all, "morris_mu_star");
-          return fmt::format("{:.3g} ({:.3g} to {:.3g}; {:.2g})", m.value, m.low, m.high, named(all, "morris_sigma").value);
-        })));
+    lines.push_back(fmt::format("{}: Morris mu* (95 %; sigma){}: {}", e.name, unit, ranked("morris_mu_star", [](const auto& all) {
+                                  const Value& m = named(all, "morris_mu_star");
+                                  return fmt::format("{:.3g} ({:.3g} to {:.3g}; {:.2g})", m.value, m.low, m.high,
+                                                     named(all, "morris_sigma").value);
+                                })));
   if (e.sobol && e.sobol->rows >= 2)
     lines.push_back(fmt::format("{}: Sobol total (alone): {}", e.name, ranked("sobol_total", [](const auto& all) {
                                   return fmt::format("{:.0f} % ({:.0f} %)", 100 * named(all, "sobol_total").value,

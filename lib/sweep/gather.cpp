@@ -45,8 +45,8 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
     const std::vector<std::string> known = all_names(members);
     const std::string near = nearest(name, known);
     throw Failure(Exit::config,
-                  Error{asked_at, "columns", fmt::format("no member has a quantity \"{}\"", name),
-                        "one of " + list_words(known), near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                  Error{asked_at, "columns", fmt::format("no member has a quantity \"{}\"", name), "one of " + list_words(known),
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   return c;
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/fields.hpp"
-#include "sweep/sweep_figure.hpp"
 #include "sweep/design.hpp"
+#include "sweep/sweep_figure.hpp"
 
 namespace langer {
 
@@ -37,8 +37,7 @@ struct GatherConfig {
   std::map<std::string, SweepFigure> figures;
   std::map<std::string, SweepMap> maps;
   static void fields(auto& v) {
-    v(&GatherConfig::columns, "columns", unit::none,
-      "names of /summary in the order wanted; none means all of the first member");
+    v(&GatherConfig::columns, "columns", unit::none, "names of /summary in the order wanted; none means all of the first member");
     v(&GatherConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg, .png and .csv");
     v(&GatherConfig::maps, "maps", unit::none,
       "maps of all members in one picture, on one colour scale, <name>.svg and .png; the name of a map that post made");
@@ -63,8 +62,7 @@ struct GatherConfig {
       if (map.compare && map.compare->with.size() != axes.size() && !axes.empty())
         all.push_back({"maps." + name + ".compare.with", "found " + std::to_string(map.compare->with.size()) + " values",
                        "one for each of the " + std::to_string(axes.size()) + " axes", ""});
-    if (members.empty() && !axes.empty())
-      all.push_back({"axes", "there are axes and no members", "members with their values", ""});
+    if (members.empty() && !axes.empty()) all.push_back({"axes", "there are axes and no members", "members with their values", ""});
     return all;
   }
 };

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "base/csv_table.hpp"
 #include "base/error.hpp"
 #include "config/writer.hpp"
-#include "base/csv_table.hpp"
 #include "post/figure.hpp"
 
 namespace langer {
@@ -37,8 +37,7 @@ std::string member_text(const std::string& pattern, const std::vector<SweepAxis>
     if (pattern.empty() && !unit.empty()) values += unit == "deg" ? "°" : " " + unit;
   }
   std::string text = pattern.empty() ? "{}" : pattern;
-  for (std::size_t i = text.find("{}"); i != std::string::npos; i = text.find("{}", i + values.size()))
-    text.replace(i, 2, values);
+  for (std::size_t i = text.find("{}"); i != std::string::npos; i = text.find("{}", i + values.size())) text.replace(i, 2, values);
   return text;
 }
 
@@ -133,8 +132,9 @@ class Drawer {
       for (const CsvCell& cell : table.header.cells) known.push_back(cell.text);
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
-        throw Failure(Exit::config, Error{where_("points." + key), "points." + key,
-                                          fmt::format("{} has no column \"{}\"", points.file.path, name), "one of " + list_words(known), ""});
+        throw Failure(Exit::config,
+                      Error{where_("points." + key), "points." + key,
+                            fmt::format("{} has no column \"{}\"", points.file.path, name), "one of " + list_words(known), ""});
       std::vector<double> values;
       for (const CsvRow& row : table.rows)
         values.push_back(csv_number(row.cells[static_cast<std::size_t>(found - known.begin())].text)

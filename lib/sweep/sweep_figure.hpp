@@ -12,10 +12,10 @@
 
 #include "base/fields.hpp"
 #include "base/input_path.hpp"
-#include "sweep/gather.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/map.hpp"
 #include "store/curves_file.hpp"
+#include "sweep/gather.hpp"
 
 namespace langer {
 
@@ -39,8 +39,7 @@ struct SweepFigure {
   std::optional<std::string> x_label, y_label;
   static void fields(auto& v) {
     v(&SweepFigure::x, "x", unit::none, "an axis of the sweep, or a column of the members' tables, without its unit", required);
-    v(&SweepFigure::y, "y", unit::none, "names from the summary, or columns of the members' tables; of the same unit",
-      required);
+    v(&SweepFigure::y, "y", unit::none, "names from the summary, or columns of the members' tables; of the same unit", required);
     v(&SweepFigure::legends, "legends", unit::none, "one for each y; by default the names");
     v(&SweepFigure::markers, "markers", unit::none,
       "those of y that are drawn as open markers without a line, to be seen on curves that they coincide with");

@@ -7,9 +7,9 @@
 //                      with [_low, _high] all but the first two; attribute `order` of /effects: the parameters
 #pragma once
 
-#include "sweep/gather.hpp"
-#include "sweep/design.hpp"
 #include "store/identity.hpp"
+#include "sweep/design.hpp"
+#include "sweep/gather.hpp"
 
 namespace langer {
 

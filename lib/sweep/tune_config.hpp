@@ -47,7 +47,8 @@ struct TuneReference {
   std::optional<RichardsonConfig> richardson;
   static void fields(auto& v) {
     v(&TuneReference::member, "member", unit::none, "values on the axes of the member that counts as right; it is no rung itself");
-    v(&TuneReference::fitted, "fitted", unit::none, "instead: what is left at length 0 of q = f + A length^order, fitted to members");
+    v(&TuneReference::fitted, "fitted", unit::none,
+      "instead: what is left at length 0 of q = f + A length^order, fitted to members");
     v(&TuneReference::richardson, "richardson", unit::none, "instead: the limit of three members, of the order that they show");
   }
   std::vector<Complaint> complaints() const {

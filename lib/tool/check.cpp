@@ -69,7 +69,10 @@ std::string kind_of(const std::string& path) {
   if (const auto kind = kind_by_schema_line(path)) return *kind;
   const Tree tree = load_yaml(path);
   if (const auto kind = kind_by_keys(tree)) return *kind;
-  throw Failure(Exit::config, Error{{path, 0, 0}, "", "its keys do not tell what kind of file this is", "",
+  throw Failure(Exit::config, Error{{path, 0, 0},
+                                    "",
+                                    "its keys do not tell what kind of file this is",
+                                    "",
                                     "say so: --as with one of " + list_words(schema_kinds())});
 }
 
@@ -79,7 +82,8 @@ std::string check_file(const std::string& path, std::string kind) {
   if (!has_schema(kind)) schema_text(kind);  // says which there are
   if (kind == "pipeline") {
     const PlanReport report = check_pipeline(path);
-    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes, report.steps, warnings(report.doubts));
+    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes, report.steps,
+                       warnings(report.doubts));
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);

@@ -18,10 +18,14 @@ std::string longest_flag(const UsageOption& o) { return o.flags.substr(o.flags.r
 std::string roff(const std::string& s) {
   std::string out;
   for (const char c : s) {
-    if (c == '\\') out += "\\e";
-    else if (c == '-') out += "\\-";
-    else if (c == '\'') out += "\\(aq";
-    else out += c;
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else if (c == '\'')
+      out += "\\(aq";
+    else
+      out += c;
   }
   return !out.empty() && out[0] == '.' ? "\\&" + out : out;
 }
@@ -40,32 +44,67 @@ const std::vector<Usage>& langer_commands() {
     std::vector<std::string> described = config_kind_names();
     described.push_back("columns");
     std::vector<Usage> all{
-        {"langer show", "Prints what is in a file that Langer made.",
+        {"langer show",
+         "Prints what is in a file that Langer made.",
          {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
           {"--config", "", "print the config that it was made with instead", "", {}},
           {"--json", "", "print the summary as one JSON object a file", "", {}}},
-         {}, "", "langer show runs/indentation/solve/solution.h5", ""},
-        {"langer new", "Writes a starter project that runs, with comments.",
+         {},
+         "",
+         "langer show runs/indentation/solve/solution.h5",
+         ""},
+        {"langer new",
+         "Writes a starter project that runs, with comments.",
          {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "", starter_names(), true},
           {"FOLDER", "", "a new folder; the scene's name by default", "/", {}}},
-         {}, "", "langer new indentation skin && make -C skin", ""},
-        {"langer check", "Checks configs and pipelines without running anything.",
+         {},
+         "",
+         "langer new indentation skin && make -C skin",
+         ""},
+        {"langer check",
+         "Checks configs and pipelines without running anything.",
          {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
           {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
-         {}, "", "langer check pipelines/indentation.yaml configs/*/*.yaml", ""},
-        {"langer describe", "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
+         {},
+         "",
+         "langer check pipelines/indentation.yaml configs/*/*.yaml",
+         ""},
+        {"langer describe",
+         "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
          {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
-         {}, "", "langer describe solve", ""},
-        {"langer schema", "Prints the JSON Schema of a config, for editors.",
-         {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true}, {"--list", "", "print the kinds instead", "", {}}},
-         {}, "", "langer schema solve > solve.schema.json", ""},
-        {"langer explain", "Says why make would run a step of a run again.",
-         {{"RUN", "", "folder of a run", "/", {}, true}}, {}, "", "langer explain runs/indentation", ""},
-        {"langer times", "Says what each step of a run took, and which failed.",
+         {},
+         "",
+         "langer describe solve",
+         ""},
+        {"langer schema",
+         "Prints the JSON Schema of a config, for editors.",
+         {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
+          {"--list", "", "print the kinds instead", "", {}}},
+         {},
+         "",
+         "langer schema solve > solve.schema.json",
+         ""},
+        {"langer explain",
+         "Says why make would run a step of a run again.",
+         {{"RUN", "", "folder of a run", "/", {}, true}},
+         {},
+         "",
+         "langer explain runs/indentation",
+         ""},
+        {"langer times",
+         "Says what each step of a run took, and which failed.",
          {{"RUN", "", "folder of a run", "/", {}, true}, {"--failed", "", "only those that failed, with their logs", "", {}}},
-         {}, "", "langer times runs/indentation", ""},
-        {"langer man", "Prints the man page of a program.",
-         {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}}, {}, "", "langer man langer-solve | man -l -", ""},
+         {},
+         "",
+         "langer times runs/indentation",
+         ""},
+        {"langer man",
+         "Prints the man page of a program.",
+         {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
+         {},
+         "",
+         "langer man langer-solve | man -l -",
+         ""},
         {"langer completion", "Prints the completion of all programs for bash.", {}, {}, "", "source <(langer completion)", ""},
     };
     for (Usage& u : all)
@@ -77,7 +116,10 @@ const std::vector<Usage>& langer_commands() {
 }
 
 Usage langer_usage() {
-  Usage u{"langer", "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...", {}, {}, "", "", ""};
+  Usage u{"langer", "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...",
+          {},       {},
+          "",       "",
+          ""};
   for (const Usage& c : langer_commands()) {
     const std::string name = c.program.substr(7);
     u.options.push_back({name, "", c.sentence, "", {}});
@@ -85,7 +127,8 @@ Usage langer_usage() {
   u.options.push_back({"-h,--help", "", "this page; langer COMMAND --help says more", "", {}});
   u.options.push_back({"--version", "", "version of this build", "", {}});
   for (const Usage& c : langer_commands())
-    if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" || c.program == "langer explain") u.examples += (u.examples.empty() ? "" : "\n") + c.examples;
+    if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" || c.program == "langer explain")
+      u.examples += (u.examples.empty() ? "" : "\n") + c.examples;
   u.more = "The stages: ";
   for (const StageSpec& s : stages()) u.more += std::string("langer-") + s.name + ", ";
   u.more += "and langer-plan, which chains them.";
@@ -105,7 +148,8 @@ std::string man_text(const Usage& u) {
   std::replace(name.begin(), name.end(), ' ', '-');
   std::string upper = name;
   for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-  std::string s = fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n", upper, version, roff(name), roff(u.sentence));
+  std::string s =
+      fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n", upper, version, roff(name), roff(u.sentence));
   s += ".SH SYNOPSIS\n.B " + roff(u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n";
   const auto options = [&s](const Usage& of) {
     for (const UsageOption& o : of.options) s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
@@ -157,12 +201,15 @@ std::string completion_text() {
       std::string patterns = o.flags;
       std::replace(patterns.begin(), patterns.end(), ',', '|');
       s += fmt::format("    {}) ", patterns);
-      if (!o.words.empty()) s += fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"));", fmt::join(o.words, " "));
-      else if (!o.files.empty()) s += fmt::format("_langer_files {};", o.files);
+      if (!o.words.empty())
+        s += fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"));", fmt::join(o.words, " "));
+      else if (!o.files.empty())
+        s += fmt::format("_langer_files {};", o.files);
       s += " return ;;\n";
     }
     s += "  esac\n";
-    s += fmt::format("  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}", flags.empty() ? "" : flags.substr(1), places);
+    s += fmt::format("  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}",
+                     flags.empty() ? "" : flags.substr(1), places);
     s += "}\n";
   };
   const auto words = "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
@@ -181,9 +228,10 @@ std::string completion_text() {
     names += " " + name;
     branches += fmt::format("    {}) _langer_command_{} ;;\n", name, name);
   }
-  s += fmt::format("_langer() {{\n{}  if [ $COMP_CWORD = 1 ]; then COMPREPLY=($(compgen -W '{} --help --version' -- \"$cur\")); return; fi\n"
-                   "  case ${{COMP_WORDS[1]}} in\n{}  esac\n}}\ncomplete -F _langer langer\n",
-                   words, names.substr(1), branches);
+  s += fmt::format(
+      "_langer() {{\n{}  if [ $COMP_CWORD = 1 ]; then COMPREPLY=($(compgen -W '{} --help --version' -- \"$cur\")); return; fi\n"
+      "  case ${{COMP_WORDS[1]}} in\n{}  esac\n}}\ncomplete -F _langer langer\n",
+      words, names.substr(1), branches);
   return s;
 }
 

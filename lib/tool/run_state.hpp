@@ -8,11 +8,11 @@
 namespace langer {
 
 struct StepTimes {
-  std::string step;   // folder and output without ending: alpha_030/solve/solution
+  std::string step;  // folder and output without ending: alpha_030/solve/solution
   std::string log;
-  int exit = -1;      // -1: the log has no end: running, or killed
+  int exit = -1;                     // -1: the log has no end: running, or killed
   double wall = 0, cpu = 0, MB = 0;  // s, s, at most
-  std::string last;   // what was said last
+  std::string last;                  // what was said last
 };
 std::vector<StepTimes> times_of(const std::string& folder);  // ascending by step; throws Failure(input) without a Makefile
 std::string times_text(const std::vector<StepTimes>& times, bool failed_only);

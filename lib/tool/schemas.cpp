@@ -26,7 +26,10 @@ std::string schema_text(const std::string& kind) {
   if (kind == "pipeline") return pipeline::pipeline_schema();
   if (const ConfigKind* known = find_config_kind(kind)) return known->schema(fmt::format("Langer: {}", kind));
   const std::string near = nearest(kind, schema_kinds());
-  throw Failure(Exit::config, Error{{}, "", fmt::format("found the kind \"{}\"", kind), "one of " + list_words(schema_kinds()),
+  throw Failure(Exit::config, Error{{},
+                                    "",
+                                    fmt::format("found the kind \"{}\"", kind),
+                                    "one of " + list_words(schema_kinds()),
                                     near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
 }
 

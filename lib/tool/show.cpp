@@ -23,7 +23,9 @@ namespace {
 
 std::string size_words(std::uintmax_t bytes) {
   const auto b = static_cast<double>(bytes);
-  return b < 1e3 ? fmt::format("{} bytes", bytes) : b < 1e6 ? fmt::format("{:.1f} kB", 1e-3 * b) : fmt::format("{:.1f} MB", 1e-6 * b);
+  return b < 1e3   ? fmt::format("{} bytes", bytes)
+         : b < 1e6 ? fmt::format("{:.1f} kB", 1e-3 * b)
+                   : fmt::format("{:.1f} MB", 1e-6 * b);
 }
 
 // what is said under one heading; long lists go on in the next line
@@ -70,12 +72,13 @@ void show_mesh(Page& page, const Mesh& mesh) {
   page.line("size", fmt::format("{} cells, {} nodes", mesh.n_cells(), mesh.n_nodes()));
   page.list("bodies", bodies);
   if (mesh.section)
-    page.line("section", fmt::format("{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)], number(mesh.section->depth),
-                                     mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
+    page.line("section",
+              fmt::format("{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)], number(mesh.section->depth),
+                          mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  page.line("box", fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]), number(low[1]), number(high[1]),
-                               number(low[2]), number(high[2])));
+  page.line("box", fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]), number(low[1]),
+                               number(high[1]), number(low[2]), number(high[2])));
   std::vector<std::string> nodes, points, facets;
   for (const auto& [name, set] : mesh.node_sets) {
     if (set.size() == 1) {
@@ -106,8 +109,8 @@ void show_material(Page& page, const std::string& path) {
   page.table("fitted", rows);
   rows = {{"test", "kind", "points", "r2", "mean error %", "largest error %"}};
   for (const FittedTest& t : file.fit->tests)
-    rows.push_back({t.name, t.kind, std::to_string(t.first.size()), fmt::format("{:.5f}", t.r2), fmt::format("{:.3g}", t.mean_error_percent),
-                    fmt::format("{:.3g}", t.max_error_percent)});
+    rows.push_back({t.name, t.kind, std::to_string(t.first.size()), fmt::format("{:.5f}", t.r2),
+                    fmt::format("{:.3g}", t.mean_error_percent), fmt::format("{:.3g}", t.max_error_percent)});
   page.table("tests", rows);
 }
 
@@ -151,14 +154,17 @@ void show_curves(Page& page, const std::string& path) {
     std::vector<double> finite;
     std::copy_if(c.values.begin(), c.values.end(), std::back_inserter(finite), [](double x) { return std::isfinite(x); });
     const auto extreme = [&](bool low) {
-      return finite.empty() ? std::string("-") : number(low ? *std::min_element(finite.begin(), finite.end()) : *std::max_element(finite.begin(), finite.end()));
+      return finite.empty()
+                 ? std::string("-")
+                 : number(low ? *std::min_element(finite.begin(), finite.end()) : *std::max_element(finite.begin(), finite.end()));
     };
     rows.push_back({with_unit(c.name, c.unit), std::to_string(c.values.size()), c.values.empty() ? "-" : number(c.values.front()),
                     c.values.empty() ? "-" : number(c.values.back()), extreme(true), extreme(false)});
   }
   page.table("columns", rows);
   std::vector<std::string> maps, names;
-  for (const SurfaceMap& m : curves.maps) maps.push_back(fmt::format("{} of {} at t = {} ({} nodes)", m.name, with_unit(m.label, m.unit), number(m.t), m.values.size()));
+  for (const SurfaceMap& m : curves.maps)
+    maps.push_back(fmt::format("{} of {} at t = {} ({} nodes)", m.name, with_unit(m.label, m.unit), number(m.t), m.values.size()));
   for (const NamedCurve& c : curves.curves) names.push_back(c.name);
   page.list("curves", names);
   page.list("maps", maps);
@@ -188,7 +194,8 @@ void show_sweep(Page& page, const h5::Group& root) {
       if (words.empty())
         for (double x : group.read<double>(name, {h5::any}).values) column.push_back(std::isfinite(x) ? number(x) : "-");
       else
-        for (std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values) column.push_back(words.at(static_cast<std::size_t>(i)));
+        for (std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values)
+          column.push_back(words.at(static_cast<std::size_t>(i)));
       columns.push_back(std::move(column));
     }
   }
@@ -204,11 +211,13 @@ void show_sensitivity(Page& page, const h5::Group& root) {
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "lower", "upper", "unit"}};
   for (const std::string& name : parameters.groups()) {
     const h5::Group p = parameters.group(name);
-    rows.push_back({name, number(p.read_scalar("value")), number(p.read_scalar("lower")), number(p.read_scalar("upper")), p.unit("value")});
+    rows.push_back(
+        {name, number(p.read_scalar("value")), number(p.read_scalar("lower")), number(p.read_scalar("upper")), p.unit("value")});
   }
   page.table("parameters", rows);
   const std::vector<double> strain = root.read<double>("strain", {h5::any}).values;
-  if (!strain.empty()) page.line("strains", fmt::format("{}, {} to {}", strain.size(), number(strain.front()), number(strain.back())));
+  if (!strain.empty())
+    page.line("strains", fmt::format("{}, {} to {}", strain.size(), number(strain.front()), number(strain.back())));
   std::vector<std::string> methods{"one at a time"};
   for (const char* method : {"morris", "sobol"})
     if (root.has(method)) methods.push_back(method);
@@ -220,7 +229,8 @@ void show_sensitivity(Page& page, const h5::Group& root) {
 std::string show(const std::string& path) {
   const Origin origin = read_origin(path);
   Page page;
-  page.text = fmt::format("{}: {}, schema {}, {}\n", path, origin.schema, origin.version, size_words(std::filesystem::file_size(path)));
+  page.text =
+      fmt::format("{}: {}, schema {}, {}\n", path, origin.schema, origin.version, size_words(std::filesystem::file_size(path)));
   const h5::File file = h5::File::open(path);
   const h5::Group root = file.root();
   std::string when;

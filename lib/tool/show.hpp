@@ -5,8 +5,8 @@
 
 namespace langer {
 
-std::string show(const std::string& path);           // throws Failure(input)
-std::string show_config(const std::string& path);    // the effective YAML in /provenance
-std::string show_summary(const std::string& path);   // one JSON object: schema, content_id and the summary by column name
+std::string show(const std::string& path);          // throws Failure(input)
+std::string show_config(const std::string& path);   // the effective YAML in /provenance
+std::string show_summary(const std::string& path);  // one JSON object: schema, content_id and the summary by column name
 
 }  // namespace langer

@@ -26,7 +26,10 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
   const std::vector<std::string> known = starter_names();
   if (std::find(known.begin(), known.end(), scene) == known.end()) {
     const std::string near = nearest(scene, known);
-    throw Failure(Exit::config, Error{{}, "", fmt::format("found the scene \"{}\"", scene), "one of " + list_words(known),
+    throw Failure(Exit::config, Error{{},
+                                      "",
+                                      fmt::format("found the scene \"{}\"", scene),
+                                      "one of " + list_words(known),
                                       near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   std::error_code ec;
@@ -34,7 +37,8 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
     throw Failure(Exit::input, Error{{folder}, "", "this is there already", "a new or an empty folder", "langer new SCENE FOLDER"});
   fs::create_directories(fs::path(folder) / "schema", ec);
   if (!fs::is_directory(fs::path(folder) / "schema"))
-    throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()), "", ""});
+    throw Failure(Exit::input,
+                  Error{{folder}, "", "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()), "", ""});
   std::vector<std::string> written;
   for (const StarterFile& f : starter_files) {
     if (f.scene != scene && std::string(f.scene) != "common") continue;

@@ -95,13 +95,26 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   Usage u{std::string("langer-") + stage.name, stage.sentence, {}, {}, "", "", ""};
   u.options.push_back({"CONFIG", "", "YAML file with the keys below", "yaml yml", {}, true});
   for (const Port& p : stage.inputs)
-    u.options.push_back({std::string("--") + p.name, "FILE",
-                         fmt::format("{}{}{}", p.says, p.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)", p.several ? "; may be repeated" : ""),
-                         p.takes_yaml ? "h5 yaml yml" : "h5", {}, p.required});
-  u.options.push_back({"-o,--output", "FILE", fmt::format("main output, for example {}; side files stand beside it", stage.output), std::string(stage.output).substr(std::string(stage.output).rfind('.') + 1), {}, true});
+    u.options.push_back(
+        {std::string("--") + p.name,
+         "FILE",
+         fmt::format("{}{}{}", p.says, p.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)", p.several ? "; may be repeated" : ""),
+         p.takes_yaml ? "h5 yaml yml" : "h5",
+         {},
+         p.required});
+  u.options.push_back({"-o,--output",
+                       "FILE",
+                       fmt::format("main output, for example {}; side files stand beside it", stage.output),
+                       std::string(stage.output).substr(std::string(stage.output).rfind('.') + 1),
+                       {},
+                       true});
   u.options.push_back({"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
-  u.options.push_back({"--dry-run", "", stage.forecasts ? "check all, say which parts the scene has, memory and time; write nothing"
-                                                       : "check config and inputs, say what would be made; write nothing", "", {}});
+  u.options.push_back({"--dry-run",
+                       "",
+                       stage.forecasts ? "check all, say which parts the scene has, memory and time; write nothing"
+                                       : "check config and inputs, say what would be made; write nothing",
+                       "",
+                       {}});
   if (*stage.exports) u.options.push_back({"--export", "FILE", stage.exports, "inp feb", {}});
   u.options.push_back({"--json", "", "print the results as one JSON object on stdout", "", {}});
   u.options.push_back({"--log", "FILE", "write what is said to this file, too", "log", {}});
@@ -137,7 +150,8 @@ std::string help_text(const Usage& u) {
   }
   if (!u.keys.empty()) {
     std::size_t key = 0, kind = 0;
-    for (const DescribedKey& k : u.keys) key = std::max(key, k.key.size()), kind = std::max(kind, std::min<std::size_t>(44, dots(k).size()));
+    for (const DescribedKey& k : u.keys)
+      key = std::max(key, k.key.size()), kind = std::max(kind, std::min<std::size_t>(44, dots(k).size()));
     s += "\nKeys of the config, in mm, N, MPa, s and degrees (those below them: --describe):\n";
     for (const DescribedKey& k : u.keys) {
       std::string line = fmt::format("  {:<{}}  {:<{}}  ", k.key, key, dots(k), kind);

@@ -11,8 +11,8 @@
 namespace langer {
 
 struct UsageOption {
-  std::string flags;               // "-o,--output", "--mesh", "CONFIG" (a place in the line)
-  std::string value;               // "FILE", "" for a switch
+  std::string flags;  // "-o,--output", "--mesh", "CONFIG" (a place in the line)
+  std::string value;  // "FILE", "" for a switch
   std::string says;
   std::string files;               // endings of the files it takes, separated by spaces: "h5 yaml"; for completion
   std::vector<std::string> words;  // or the words it takes
@@ -37,9 +37,9 @@ std::string help_text(const Usage& usage);
 extern const char* const exit_codes;  // one line
 
 // parts of these pages
-std::vector<UsageOption> common_options();  // --quiet ... --version
+std::vector<UsageOption> common_options();           // --quiet ... --version
 std::string option_text(const UsageOption& option);  // "-o, --output FILE"
-bool is_place(const UsageOption& option);     // a place in the line, not an option
+bool is_place(const UsageOption& option);            // a place in the line, not an option
 std::string synopsis(const Usage& usage);
 
 // manual.cpp: of all programs; knows every stage's config

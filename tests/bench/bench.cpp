@@ -37,12 +37,13 @@ void measure(const std::string& name, const test::Indentation& scene, const Mate
              result.path.complete ? "complete" : "stopped (" + result.path.why + ")",
              result.steps.empty() ? 0 : result.steps.back().depth, result.steps.empty() ? 0 : result.steps.back().force);
   fmt::print(
-      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, {:.0f} MB\n",
+      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, "
+      "{:.0f} MB\n",
       result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), result.path.again,
       double(result.path.again) / std::max(1, result.path.steps), seconds, wall, 1e-6 * peak_bytes());
   const double rate = multiplication_rate();
-  fmt::print("  CPU s: assembly {:.2f}, factor {:.2f} ({:.3f} each), solve {:.2f}, contact {:.2f}, analysis {:.2f}\n", cost.assembly,
-             cost.factor, cost.factor / n, cost.solve, cost.contact, cost.analysis);
+  fmt::print("  CPU s: assembly {:.2f}, factor {:.2f} ({:.3f} each), solve {:.2f}, contact {:.2f}, analysis {:.2f}\n",
+             cost.assembly, cost.factor, cost.factor / n, cost.solve, cost.contact, cost.analysis);
   fmt::print("  factor {:.1f} GFLOP/s ({:.2f} GFLOP each), beside {:.1f} of a matrix product (DGEMM)\n",
              1e-9 * result.size.flops * n / cost.factor, 1e-9 * result.size.flops, 1e-9 * rate);
   std::fflush(stdout);
@@ -76,9 +77,8 @@ void measure_sobol(const Material& skin) {
   const Sobol s = sobol(maker, value - range, value + range, 1000000 / 7 + 1, options);
   fmt::print(
       "Sobol: {} curves of {} strains: {:.1f} s CPU, {:.1f} s wall on 2 threads; total share of c1 at 60 %: {:.3f} +- {:.3f}\n",
-      s.curves, strain.size(), cpu_seconds() - cpu,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), s.total.value(3, 9),
-      0.5 * (s.total.high(3, 9) - s.total.low(3, 9)));
+      s.curves, strain.size(), cpu_seconds() - cpu, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      s.total.value(3, 9), 0.5 * (s.total.high(3, 9) - s.total.low(3, 9)));
 }
 
 // Isotropic and frictionless: the force at six depths against a reference made with other elements (axisymmetric Q2P1).
@@ -89,8 +89,8 @@ struct Grid {
   int ny;
 };
 const std::vector<Grid> fine{{CellType::hex8, 20, 0.13, 9}, {CellType::hex8, 32, 0.075, 14}, {CellType::hex8, 44, 0.05, 18}};
-const std::vector<Grid> both{{CellType::hex8, 10, 0.3, 5},   {CellType::hex8, 14, 0.2, 6},   {CellType::hex8, 20, 0.13, 9},
-                             {CellType::hex8, 28, 0.1, 12},  {CellType::hex27, 6, 0.5, 3},   {CellType::hex27, 8, 0.35, 4},
+const std::vector<Grid> both{{CellType::hex8, 10, 0.3, 5},   {CellType::hex8, 14, 0.2, 6}, {CellType::hex8, 20, 0.13, 9},
+                             {CellType::hex8, 28, 0.1, 12},  {CellType::hex27, 6, 0.5, 3}, {CellType::hex27, 8, 0.35, 4},
                              {CellType::hex27, 10, 0.25, 5}, {CellType::hex27, 14, 0.2, 6}};
 
 void measure_depths(const std::vector<Grid>& grids) {
@@ -117,8 +117,10 @@ void measure_depths(const std::vector<Grid>& grids) {
 void measure_assembly(const Material& skin) {
   const Mesh linear = test::block(test::even(-15, 15, 56), test::even(0, 4, 4), test::even(-15, 15, 55));
   const Mesh quadratic = test::raised_block(test::block(test::even(-15, 15, 28), test::even(0, 4, 2), test::even(-15, 15, 27)));
-  for (const auto& [cells, kernel] : {std::pair{&linear, Kernel::packets}, {&linear, Kernel::one_by_one},
-                                      {&quadratic, Kernel::packets}, {&quadratic, Kernel::one_by_one}}) {
+  for (const auto& [cells, kernel] : {std::pair{&linear, Kernel::packets},
+                                      {&linear, Kernel::one_by_one},
+                                      {&quadratic, Kernel::packets},
+                                      {&quadratic, Kernel::one_by_one}}) {
     const Mesh& mesh = *cells;
     Equilibrium body(mesh, {skin}, usual_formulation(mesh.type), number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
     VecX u(3 * mesh.n_nodes());

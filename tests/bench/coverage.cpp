@@ -38,16 +38,19 @@ void add(Held& held, const FitProblem& q, const VecX& truth, double part, bool w
   held.rho += 0.01 * part * f.noise.rho, held.effective += 0.01 * part * f.noise.effective;
 }
 
-std::string range(const VecX& v, Eigen::Index n) { return fmt::format("{:.0f} to {:.0f}", v.head(n).minCoeff(), v.head(n).maxCoeff()); }
+std::string range(const VecX& v, Eigen::Index n) {
+  return fmt::format("{:.0f} to {:.0f}", v.head(n).minCoeff(), v.head(n).maxCoeff());
+}
 
 }  // namespace
 
 void measure_coverage() {
   constexpr int seeds = 200;
-  fmt::print("intervals of 95 %, held of 100 (lowest and highest of the parameters), {} sets, bootstrap in every fourth\n"
-             "| points a curve | rho | found | values count as | as if independent | standard errors | profiles | bootstrap |\n"
-             "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
-             seeds);
+  fmt::print(
+      "intervals of 95 %, held of 100 (lowest and highest of the parameters), {} sets, bootstrap in every fourth\n"
+      "| points a curve | rho | found | values count as | as if independent | standard errors | profiles | bootstrap |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+      seeds);
   for (int n : {20, 60})
     for (double rho : {0., 0.5, 0.9, 0.95}) {
       const FitProblem exact = test::protocols(n);
@@ -55,7 +58,8 @@ void measure_coverage() {
       for (int i = 0; i < 5; ++i) truth[i] = exact.free[static_cast<std::size_t>(i)].start;
       Held held;
       for (int seed = 0; seed < seeds; ++seed)
-        add(held, test::noisy(exact, 0.005 * test::largest_of(exact), rho, static_cast<std::uint64_t>(seed)), truth, 100. / seeds, seed % 4 == 0);
+        add(held, test::noisy(exact, 0.005 * test::largest_of(exact), rho, static_cast<std::uint64_t>(seed)), truth, 100. / seeds,
+            seed % 4 == 0);
       fmt::print("| {} | {:g} | {:.2f} | {:.0f} of {} | {} | {} | {} | {} |\n", n, rho, held.rho, held.effective, 6 * n,
                  range(held.white, 5), range(held.error, 5), range(held.profile, 5), range(held.bootstrap, 5));
       std::fflush(stdout);
@@ -68,7 +72,8 @@ void measure_coverage() {
   const VecX truth = fit(exact, {.starts = 3}).best.p;
   Held held;
   for (int seed = 0; seed < seeds; ++seed)
-    add(held, test::noisy(exact, 0.005 * test::largest_of(exact), 0, static_cast<std::uint64_t>(seed)), truth, 100. / seeds, seed % 4 == 0);
-  fmt::print("| 30, law misses by more than the noise | 0 | {:.2f} | {:.0f} of 180 | {} | {} | {} | {} |\n", held.rho, held.effective,
-             range(held.white, 4), range(held.error, 4), range(held.profile, 4), range(held.bootstrap, 4));
+    add(held, test::noisy(exact, 0.005 * test::largest_of(exact), 0, static_cast<std::uint64_t>(seed)), truth, 100. / seeds,
+        seed % 4 == 0);
+  fmt::print("| 30, law misses by more than the noise | 0 | {:.2f} | {:.0f} of 180 | {} | {} | {} | {} |\n", held.rho,
+             held.effective, range(held.white, 4), range(held.error, 4), range(held.profile, 4), range(held.bootstrap, 4));
 }

@@ -20,10 +20,9 @@ void measure_fit() {
     t.name = name, t.kind = TestKind::biaxial, t.measure = StressMeasure::nominal;
     for (int i = 1; i <= 90; ++i) t.first.push_back(1 + rx * 0.4 * i / 90), t.second.push_back(1 + rz * 0.4 * i / 90);
     std::vector<double> s(180);
-    if (!model_stress(
-            problem.law,
-            {name, t.kind, t.measure, t.shear, 0, 1, t.first, t.second, std::vector<double>(90), std::vector<double>(90)},
-            Dilatation::incompressible, s.data()))
+    if (!model_stress(problem.law,
+                      {name, t.kind, t.measure, t.shear, 0, 1, t.first, t.second, std::vector<double>(90), std::vector<double>(90)},
+                      Dilatation::incompressible, s.data()))
       return;
     Random random(3, problem.tests.size());
     for (double& x : s) x += 0.007 * random.normal();

@@ -75,17 +75,19 @@ VecX row(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const 
 }  // namespace
 
 void measure_solvers() {
-  for (const auto& [words, text] : {std::pair{"tension along the fibres", along}, {"tension at 45 degrees, ends clamped", across},
+  for (const auto& [words, text] : {std::pair{"tension along the fibres", along},
+                                    {"tension at 45 degrees, ends clamped", across},
                                     {"indentation, friction", pressed}}) {
     const SolveConfig config = read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config;
     const auto nowhere = [](const std::string&) { return Place{}; };
     const Mesh mesh = make_mesh(*config.mesh, nowhere).mesh;
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
-    fmt::print("{}: {} hexahedra, increments of {:g}\n| solver | iterations | evaluations | factorizations | CPU s |\n", words, mesh.n_cells(),
-               config.path.largest);
+    fmt::print("{}: {} hexahedra, increments of {:g}\n| solver | iterations | evaluations | factorizations | CPU s |\n", words,
+               mesh.n_cells(), config.path.largest);
     const VecX u = row(config, mesh, scene, "newton", NewtonOptions{});
     double differs = 0;
-    for (KinsolStrategy strategy : {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
+    for (KinsolStrategy strategy :
+         {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
       KinsolOptions options;
       options.strategy = strategy;
       const VecX other = row(config, mesh, scene, std::string("kinsol ") + names(strategy)[static_cast<int>(strategy)], options);

@@ -86,8 +86,7 @@ TEST_CASE("a bad config is refused with the right words at the right line and co
     CHECK(found.size() == bad.expected.size());
     for (const std::string& expected : bad.expected) {
       INFO("expected: " << expected);
-      CHECK(
-          std::any_of(found.begin(), found.end(), [&](const std::string& m) { return m.find(expected) != std::string::npos; }));
+      CHECK(std::any_of(found.begin(), found.end(), [&](const std::string& m) { return m.find(expected) != std::string::npos; }));
       // the place names this file, or the one it includes
       CHECK(std::all_of(found.begin(), found.end(),
                         [&](const std::string& m) { return m.rfind(path.parent_path().string(), 0) == 0; }));

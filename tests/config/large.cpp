@@ -36,11 +36,12 @@ constexpr double seconds = 10;  // with sanitizers, on a busy machine; a search 
 }  // namespace
 
 TEST_CASE("hundreds of thousands of keys, in blocks, in braces, twice the same: refused in seconds") {
-  for (const auto& [text, expected] : {std::pair{keys(300000, "k{}: 1", "\n"), "more than 100000 parts"},
-                                      {"{" + keys(300000, "k{}: 1", ", ") + "}", "more than 100000 parts"},
-                                      {keys(90000, "k{}: 1", "\n"), "unknown key \"k0\""},
-                                      {keys(45000, "k{}: 1", "\n") + "\n" + keys(45000, "k{}: 2", "\n"), "was already given at line 1"},
-                                      {keys(90000, "same: {}", "\n"), "the key \"same\" was already given"}}) {
+  for (const auto& [text, expected] :
+       {std::pair{keys(300000, "k{}: 1", "\n"), "more than 100000 parts"},
+        {"{" + keys(300000, "k{}: 1", ", ") + "}", "more than 100000 parts"},
+        {keys(90000, "k{}: 1", "\n"), "unknown key \"k0\""},
+        {keys(45000, "k{}: 1", "\n") + "\n" + keys(45000, "k{}: 2", "\n"), "was already given at line 1"},
+        {keys(90000, "same: {}", "\n"), "the key \"same\" was already given"}}) {
     const auto [said, took] = read(text);
     CAPTURE(expected);
     CHECK(said.find(expected) != std::string::npos);

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -20,9 +20,9 @@
 #include "config/reader.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/expand.hpp"
-#include "study/fit_config.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/scene.hpp"
+#include "study/fit_config.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;
@@ -39,10 +39,10 @@ std::string text_of(const fs::path& path) {
 
 // a key or a list item that stands in this very file, and where its value is if that is a scalar
 struct Spot {
-  std::string key;      // "" for a list item
-  std::string path;     // contacts.sphere.motion[0].t
-  int line = 0;         // from 1
-  std::size_t at = 0;   // of the key or item in the text
+  std::string key;                    // "" for a list item
+  std::string path;                   // contacts.sphere.motion[0].t
+  int line = 0;                       // from 1
+  std::size_t at = 0;                 // of the key or item in the text
   std::size_t value = 0, length = 0;  // of a scalar in the text; length 0: none
   bool number = false;
 };
@@ -120,9 +120,10 @@ std::vector<Mutation> mutations(const Spot& spot, const std::string& text) {
     value("another text", "no such thing");
     return all;
   }
-  for (const char* word : {".nan", "nan", "inf", "-.inf", "1e400"}) value(word, word, spot.number ? Must::refuse_here : Must::not_crash);
-  for (const char* word : {"1e308", "-1e308", "99999999999999999999", "2000000000", "0", "-1", "1e-300", "[1, 2]", "{a: 1}", "abc", "~",
-                           "true", "''"})
+  for (const char* word : {".nan", "nan", "inf", "-.inf", "1e400"})
+    value(word, word, spot.number ? Must::refuse_here : Must::not_crash);
+  for (const char* word :
+       {"1e308", "-1e308", "99999999999999999999", "2000000000", "0", "-1", "1e-300", "[1, 2]", "{a: 1}", "abc", "~", "true", "''"})
     value(word, word);
   if (spot.number) {
     const std::string number = text.substr(spot.value, spot.length);
@@ -170,7 +171,8 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
         for (const Error& e : failure.errors()) {
           // an error of the data themselves names the data's file
           named = named && !e.where.file.empty() && (e.where.line > 0 || failure.code() == Exit::input);
-          here = here || (e.where.file == file && e.where.line == m.line && (e.key + e.found).find(last_part(spot.key)) != std::string::npos);
+          here = here || (e.where.file == file && e.where.line == m.line &&
+                          (e.key + e.found).find(last_part(spot.key)) != std::string::npos);
           about = about || (e.key + e.found).find(last_part(spot.key)) != std::string::npos;
         }
       } catch (const std::exception& e) {
@@ -210,9 +212,11 @@ TEST_CASE("mutations of the shipped configs of fit sensitivity post and gather")
   Tally tally;
   for (const std::string stage : {"fit", "sensitivity", "post", "gather"})
     for (const fs::path& path : yaml_files("configs/" + stage))
-      run(path, [&](Tree tree) { effective_config(*find_stage(stage), std::move(tree), "."); }, tally);
+      run(
+          path, [&](Tree tree) { effective_config(*find_stage(stage), std::move(tree), "."); }, tally);
   for (const fs::path& path : yaml_files("configs/material"))
-    run(path, [&](Tree tree) { read_config<Material>(std::move(tree)); }, tally);
+    run(
+        path, [&](Tree tree) { read_config<Material>(std::move(tree)); }, tally);
   report("configs", tally);
 }
 

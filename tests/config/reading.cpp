@@ -117,10 +117,9 @@ TEST_CASE("written numbers are read back bit for bit") {
 }
 
 TEST_CASE("written texts are read back, whatever they hold") {
-  for (const std::string title :
-       {"",           "true", "null",       "~",     "1e5",     "010", "a: b",    "- a", "# no comment",
-        "say \"so\"", "a\\b", "two\nlines", "\ttab", " space ", "{x}", "[x]",     "*a",  "&a",
-        "!t",         "%",    "@",          "`",     "ü",       "yes", "include", "<<",  "key: [1, 2"}) {
+  for (const std::string title : {"",           "true", "null",       "~",     "1e5",     "010", "a: b",    "- a", "# no comment",
+                                  "say \"so\"", "a\\b", "two\nlines", "\ttab", " space ", "{x}", "[x]",     "*a",  "&a",
+                                  "!t",         "%",    "@",          "`",     "ü",       "yes", "include", "<<",  "key: [1, 2"}) {
     Sample s = read("part: {to: 1}");
     s.title = title;
     CAPTURE(to_yaml(s));
@@ -198,8 +197,8 @@ TEST_CASE("a value is set at a path, making maps on the way") {
   set_value(tree, "empty.a.b", parse_yaml("[1]", "set"));
   set_value(tree, "contacts[0].on", parse_yaml("{deep: 1}", "set"));
   CHECK(to_text(tree) == "contacts:\n  - on:\n      deep: 1\n    friction: 0.5\nempty:\n  a:\n    b: [1]\n");
-  for (const char* path : {"contacts[1].on", "contacts.on", "contacts[0].friction.x", "", "a..b", "[0]", "a[", "a[x]", "a.",
-                           ".a", "contacts[99999999999]"}) {
+  for (const char* path : {"contacts[1].on", "contacts.on", "contacts[0].friction.x", "", "a..b", "[0]", "a[", "a[x]", "a.", ".a",
+                           "contacts[99999999999]"}) {
     CAPTURE(path);
     CHECK_THROWS_AS(set_value(tree, path, parse_yaml("1", "set")), Failure);
   }
@@ -208,9 +207,9 @@ TEST_CASE("a value is set at a path, making maps on the way") {
 TEST_CASE("the reference names key, kind, unit, default, range and meaning of every line") {
   const std::string text = describe<Sample>();
   for (const char* part :
-       {"count", "a whole number >= 1; default 3", "a number > 0 in mm; default 1.5", "one of red, green; default green",
-        "part", "required", "exactly one of", "linear", "slope", "a number in MPa; required", "a number >= 0; optional",
-        "exponent", "a whole number >= 1 and <= 9; default 2"}) {
+       {"count", "a whole number >= 1; default 3", "a number > 0 in mm; default 1.5", "one of red, green; default green", "part",
+        "required", "exactly one of", "linear", "slope", "a number in MPa; required", "a number >= 0; optional", "exponent",
+        "a whole number >= 1 and <= 9; default 2"}) {
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
   }

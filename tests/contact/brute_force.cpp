@@ -74,7 +74,8 @@ class Combination {
     VecX f(n_);
     MatX J(n_, n_);
     for (int i = 0, at = 0; i < p_.n_contacts(); ++i) {
-      if (states_[i] == State::stick) f.segment<3>(at) = x.segment<3>(3 * i), J.middleRows<3>(at) = dx.middleRows<3>(3 * i), at += 3;
+      if (states_[i] == State::stick)
+        f.segment<3>(at) = x.segment<3>(3 * i), J.middleRows<3>(at) = dx.middleRows<3>(3 * i), at += 3;
       if (states_[i] == State::slip) {
         const double c = std::cos(z[at + 1]), s = std::sin(z[at + 1]);
         f[at] = x[3 * i], J.row(at) = dx.row(3 * i);

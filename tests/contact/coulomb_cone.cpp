@@ -9,8 +9,7 @@ using namespace langer;
 
 TEST_CASE("the projection gives the worked values at mu = 0.34") {
   // tau_t, tau_n -> r_t, r_n, by hand from r = tau - s (t - mu n)
-  const double cases[4][4] = {
-      {1, 1, 0.4084, 1.2011}, {1, 0.2, 0.1646, 0.4840}, {1, 0, 0.1036, 0.3048}, {1, -0.3, 0.0122, 0.0359}};
+  const double cases[4][4] = {{1, 1, 0.4084, 1.2011}, {1, 0.2, 0.1646, 0.4840}, {1, 0, 0.1036, 0.3048}, {1, -0.3, 0.0122, 0.0359}};
   for (const auto& c : cases) {
     const auto p = project_on_cone(Vec3(c[1], c[0], 0), 0.34);
     CHECK(p.status == ContactStatus::slip);

@@ -45,8 +45,8 @@ TEST_CASE("every reference problem is solved to 1e-10 in the relative position a
     VecX r = VecX::Zero(p.q.size()), reference(p.q.size()), x_reference(p.q.size());
     for (int i = 0; i < r.size(); ++i) reference[i] = j["r"][i], x_reference[i] = j["u"][i];
     const LocalReport report = solve_local(p, r);
-    MESSAGE(file.path().filename().string()
-            << ": " << report.sweeps << " sweeps, " << report.newton_steps << " Newton steps, residual " << report.residual);
+    MESSAGE(file.path().filename().string() << ": " << report.sweeps << " sweeps, " << report.newton_steps
+                                            << " Newton steps, residual " << report.residual);
     CHECK(report.converged);
     CHECK((p.W * r + p.q - x_reference).lpNorm<Eigen::Infinity>() <= 1e-10);
     CHECK((p.W * (r - reference)).lpNorm<Eigen::Infinity>() <= 1e-10);

@@ -46,8 +46,10 @@ TEST_CASE("a movement changes gap and slip by T d, and turns the reaction by D d
       const LinearisedContact law = linearise(contact, x, x0, c, c0, r);
       const double h = 1e-6;
       const ShapePoint at = shape_at(shape, x - c), ahead = shape_at(shape, x + h * d - c), behind = shape_at(shape, x - h * d - c);
-      if (at.gap < 0.05 || (ahead.curvature - at.curvature).norm() > 1e-3 || (behind.curvature - at.curvature).norm() > 1e-3) continue;
-      const Vec3 n = at.normal, dn = (ahead.normal - behind.normal) / (2 * h), v = (x - x0) - (c - c0), local = law.frame.transpose() * d;
+      if (at.gap < 0.05 || (ahead.curvature - at.curvature).norm() > 1e-3 || (behind.curvature - at.curvature).norm() > 1e-3)
+        continue;
+      const Vec3 n = at.normal, dn = (ahead.normal - behind.normal) / (2 * h), v = (x - x0) - (c - c0),
+                 local = law.frame.transpose() * d;
       const auto tangents = law.frame.rightCols<2>();
       CHECK((law.frame.transpose() * law.frame - Mat3::Identity()).norm() < 1e-12);
       CHECK((law.frame.col(0) - n).norm() < 1e-14);
@@ -124,6 +126,7 @@ TEST_CASE("Newton's method keeps its order where the contact turns: a small sphe
     REQUIRE(result.path.complete);
     CHECK(result.path.cuts == 0);
     CHECK(result.steps.size() == 10);
-    CHECK(result.path.iterations <= 43);  // 39 and 40; reactions that do not turn: 47 and 48; without their part of the tangent: 118
+    CHECK(result.path.iterations <=
+          43);  // 39 and 40; reactions that do not turn: 47 and 48; without their part of the tangent: 118
   }
 }

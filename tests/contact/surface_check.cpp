@@ -125,7 +125,8 @@ TEST_CASE("nodes inside that are no candidates are found, candidates are not cou
   const SurfaceCheck check(mesh);
   const std::vector<Vec3> u(mesh.X.size(), Vec3::Zero());
   for (int trial = 0; trial < 40; ++trial) {
-    RigidContact contact{"s", indenter(random, trial % 5, Vec3(between(random, -4, 4), 3.3, between(random, -4, 4)), 1.2), 0, {}, {}};
+    RigidContact contact{
+        "s", indenter(random, trial % 5, Vec3(between(random, -4, 4), 3.3, between(random, -4, 4)), 1.2), 0, {}, {}};
     std::vector<char> outer(mesh.X.size(), 0);
     for (const Facet& f : boundary(mesh))
       for (int n : facet_nodes(mesh, f)) outer[n] = 1;

@@ -88,8 +88,8 @@ Errors orders(CellType cells, Formulation formulation, std::array<int, 2> n) {
   const Errors coarse = errors_of(cells, formulation, material, n[0]), fine = errors_of(cells, formulation, material, n[1]);
   const double refined = std::log2(static_cast<double>(n[1]) / n[0]);
   const Errors order{std::log2(coarse.u / fine.u) / refined, std::log2(coarse.sigma / fine.sigma) / refined};
-  MESSAGE(std::string(names(formulation)[static_cast<int>(formulation)]) << ", n " << n[1] << ": errors " << fine.u << " mm, " << fine.sigma
-                                                            << " MPa, orders " << order.u << ", " << order.sigma);
+  MESSAGE(std::string(names(formulation)[static_cast<int>(formulation)])
+          << ", n " << n[1] << ": errors " << fine.u << " mm, " << fine.sigma << " MPa, orders " << order.u << ", " << order.sigma);
   return order;
 }
 

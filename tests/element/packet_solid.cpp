@@ -62,7 +62,8 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
         packet_solid(formulation, material, local, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
         for (int l = 0; l < 8; ++l) {
           SolidElement one;
-          REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true, one));
+          REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true,
+                        one));
           CHECK(out.W[l] == doctest::Approx(one.W).epsilon(1e-12));
           CHECK(out.J_min[l] == doctest::Approx(one.J_min).epsilon(1e-13));
           const double f = one.f.lpNorm<Eigen::Infinity>(), K = one.K.lpNorm<Eigen::Infinity>();

@@ -30,12 +30,8 @@ struct Kind {
   int n;
   Formulation formulation;
 };
-const Kind kinds[] = {{8, Formulation::mean_dilatation},
-                      {8, Formulation::displacement},
-                      {27, Formulation::linear_dilatation},
-                      {27, Formulation::mean_dilatation},
-                      {27, Formulation::displacement},
-                      {15, Formulation::linear_dilatation},
+const Kind kinds[] = {{8, Formulation::mean_dilatation},  {8, Formulation::displacement},  {27, Formulation::linear_dilatation},
+                      {27, Formulation::mean_dilatation}, {27, Formulation::displacement}, {15, Formulation::linear_dilatation},
                       {15, Formulation::displacement}};
 
 One distorted(int n_nodes, double d, unsigned seed = 5) {
@@ -69,13 +65,16 @@ TEST_CASE("the internal force is the gradient of the stored energy") {
     const One one = distorted(n, 1e-2);
     const ElementNodes u = some_displacement(n, 1);
     SolidElement at, plus, minus;
-    REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, false, at));
+    REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, false,
+                  at));
     const double h = 1e-6, scale = at.f.lpNorm<Eigen::Infinity>();
     for (int i = 0; i < 3 * n; ++i) {
       ElementNodes up = u, down = u;
       up(i / 3, i % 3) += h, down(i / 3, i % 3) -= h;
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false, plus);
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false, minus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
+            plus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
+            minus);
       CHECK(std::abs((plus.W - minus.W) / (2 * h) - at.f[i]) <= 1e-7 * scale);
     }
   }
@@ -87,14 +86,17 @@ TEST_CASE("the tangent is the derivative of the force, and symmetric") {
       const One one = distorted(n, d);
       const ElementNodes u = some_displacement(n, 2);
       SolidElement at, plus, minus;
-      REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, true, at));
+      REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr,
+                    true, at));
       const double scale = at.K.lpNorm<Eigen::Infinity>(), h = 3e-6;
       CHECK((at.K - at.K.transpose()).lpNorm<Eigen::Infinity>() <= 1e-13 * scale);
       for (int j = 0; j < 3 * n; ++j) {
         ElementNodes up = u, down = u;
         up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
-        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false, plus);
-        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false, minus);
+        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
+              plus);
+        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
+              minus);
         CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <= 1e-7 * scale);
       }
     }
@@ -111,8 +113,10 @@ TEST_CASE("the dilatation's gradient is its derivative") {
     for (int j = 0; j < 3 * n; ++j) {
       ElementNodes up = u, down = u;
       up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false, plus);
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false, minus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
+            plus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
+            minus);
       for (int k = 0; k < n_pressures(formulation, n); ++k)
         CHECK((plus.J_minus_1[k] - minus.J_minus_1[k]) / (2 * h) == doctest::Approx(at.dJ_du[k][j]).epsilon(1e-7).scale(1));
     }
@@ -123,7 +127,8 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
   for (const auto& [n, formulation] : kinds) {
     const One one = distorted(n, 1e-2);
     SolidElement rest;
-    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, ElementNodes::Zero(n, 3), nullptr, true, rest);
+    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, ElementNodes::Zero(n, 3),
+          nullptr, true, rest);
     const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest.K);
     const double largest = eigen.eigenvalues()[3 * n - 1];
     int zeros = 0;
@@ -183,7 +188,8 @@ TEST_CASE("an element turned inside out is refused") {
     ElementNodes u = ElementNodes::Zero(n, 3);
     u.row(0) = Eigen::RowVector3d(3, 3, 3);
     SolidElement out;
-    CHECK_FALSE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, true, out));
+    CHECK_FALSE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr,
+                      true, out));
   }
 }
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "material/uniaxial.hpp"
 #include "export/cards.hpp"
+#include "material/uniaxial.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -29,8 +29,7 @@ double stress_by_ccx(const std::string& card, double stretch, const std::string&
       << "*NODE, NSET=ALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
          "*NSET, NSET=X0\n1,4,5,8\n*NSET, NSET=X1\n2,3,6,7\n*NSET, NSET=Y0\n1,2,5,6\n*NSET, NSET=Z0\n1,2,3,4\n"
          "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n"
-      << card
-      << "*SOLID SECTION, ELSET=CUBE, MATERIAL="
+      << card << "*SOLID SECTION, ELSET=CUBE, MATERIAL="
       << (card.find("ELASTIC_FIBER") == std::string::npos ? "LANGER" : "ELASTIC_FIBER_LANGER, ORIENTATION=FIBRES")
       << "\n*BOUNDARY\nX0,1,1\nY0,2,2\nZ0,3,3\n"
          "*STEP, NLGEOM, INC=1000\n*STATIC\n0.02,1.,1e-6,0.05\n*BOUNDARY\nX1,1,1,"

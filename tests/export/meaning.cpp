@@ -31,9 +31,7 @@ class Dice {
 };
 Dice dice;
 
-Fibre family(double kappa = 0) {
-  return {HgoFibre{dice(0.05, 1), dice(0.05, 2)}, dice(-90, 90), FibreSwitch::I4_bar, kappa};
-}
+Fibre family(double kappa = 0) { return {HgoFibre{dice(0.05, 1), dice(0.05, 2)}, dice(-90, 90), FibreSwitch::I4_bar, kappa}; }
 Yeoh yeoh() { return {dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}; }
 Ogden ogden() { return {dice(0.1, 1), dice(1, 4), dice(0.01, 0.1), dice(4, 8), -dice(0.01, 0.1), -dice(1, 4)}; }
 
@@ -43,65 +41,161 @@ struct Kind {
   std::string held_by;  // first letters of Abaqus, aNsys, Febio, Calculix
 };
 const std::vector<Kind> kinds = {
-    {"neo_hooke", [] { return Material{{NeoHooke{dice(0.1, 1)}}, {}, {}}; }, "ANFC"},
-    {"mooney_rivlin", [] { return Material{{MooneyRivlin{dice(0.1, 1), dice(0.1, 1)}}, {}, {}}; }, "ANFC"},
-    {"yeoh", [] { return Material{{yeoh()}, {}, {}}; }, "ANFC"},
-    {"yeoh of two terms and neo_hooke", [] { return Material{{Yeoh{dice(0.1, 1), dice(0.1, 1), 0}, NeoHooke{0.1}}, {}, {}}; }, "ANFC"},
-    {"signorini", [] { return Material{{Signorini{dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}}, {}, {}}; }, "ANFC"},
-    {"yeoh and yeoh_I2", [] { return Material{{yeoh(), YeohI2{dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}}, {}, {}}; }, "ANC"},
-    {"yeoh and b1", [] { return Material{{yeoh(), YeohI2{dice(0.1, 1), 0, 0}}, {}, {}}; }, "ANFC"},
-    {"ogden", [] { return Material{{ogden()}, {}, {}}; }, "ANFC"},
-    {"ogden of one", [] { return Material{{Ogden{dice(0.1, 1), dice(1, 8)}}, {}, {}}; }, "ANFC"},
-    {"ogden with a power of 0", [] { return Material{{Ogden{dice(0.1, 1), dice(1, 8), 0.5, 0}}, {}, {}}; }, "ANFC"},
-    {"arruda_boyce", [] { return Material{{ArrudaBoyce{dice(0.1, 1), dice(1.5, 4)}}, {}, {}}; }, "ANC"},
-    {"gent", [] { return Material{{Gent{dice(0.1, 1), dice(20, 90)}}, {}, {}}; }, "NF"},
-    {"gent and yeoh", [] { return Material{{Gent{dice(0.1, 1), dice(20, 90)}, yeoh()}, {}, {}}; }, "F"},
-    {"neo_hooke, a family", [] { return Material{{NeoHooke{dice(0.1, 1)}}, {family()}, {}}; }, "ANFC"},
-    {"neo_hooke, two families", [] { return Material{{NeoHooke{dice(0.1, 1)}}, {family(), family()}, {}}; }, "NFC"},
-    {"neo_hooke, two alike", [] {
+    {"neo_hooke",
+     [] {
+       return Material{{NeoHooke{dice(0.1, 1)}}, {}, {}};
+     },
+     "ANFC"},
+    {"mooney_rivlin",
+     [] {
+       return Material{{MooneyRivlin{dice(0.1, 1), dice(0.1, 1)}}, {}, {}};
+     },
+     "ANFC"},
+    {"yeoh",
+     [] {
+       return Material{{yeoh()}, {}, {}};
+     },
+     "ANFC"},
+    {"yeoh of two terms and neo_hooke",
+     [] {
+       return Material{{Yeoh{dice(0.1, 1), dice(0.1, 1), 0}, NeoHooke{0.1}}, {}, {}};
+     },
+     "ANFC"},
+    {"signorini",
+     [] {
+       return Material{{Signorini{dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}}, {}, {}};
+     },
+     "ANFC"},
+    {"yeoh and yeoh_I2",
+     [] {
+       return Material{{yeoh(), YeohI2{dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}}, {}, {}};
+     },
+     "ANC"},
+    {"yeoh and b1",
+     [] {
+       return Material{{yeoh(), YeohI2{dice(0.1, 1), 0, 0}}, {}, {}};
+     },
+     "ANFC"},
+    {"ogden",
+     [] {
+       return Material{{ogden()}, {}, {}};
+     },
+     "ANFC"},
+    {"ogden of one",
+     [] {
+       return Material{{Ogden{dice(0.1, 1), dice(1, 8)}}, {}, {}};
+     },
+     "ANFC"},
+    {"ogden with a power of 0",
+     [] {
+       return Material{{Ogden{dice(0.1, 1), dice(1, 8), 0.5, 0}}, {}, {}};
+     },
+     "ANFC"},
+    {"arruda_boyce",
+     [] {
+       return Material{{ArrudaBoyce{dice(0.1, 1), dice(1.5, 4)}}, {}, {}};
+     },
+     "ANC"},
+    {"gent",
+     [] {
+       return Material{{Gent{dice(0.1, 1), dice(20, 90)}}, {}, {}};
+     },
+     "NF"},
+    {"gent and yeoh",
+     [] {
+       return Material{{Gent{dice(0.1, 1), dice(20, 90)}, yeoh()}, {}, {}};
+     },
+     "F"},
+    {"neo_hooke, a family",
+     [] {
+       return Material{{NeoHooke{dice(0.1, 1)}}, {family()}, {}};
+     },
+     "ANFC"},
+    {"neo_hooke, two families",
+     [] {
+       return Material{{NeoHooke{dice(0.1, 1)}}, {family(), family()}, {}};
+     },
+     "NFC"},
+    {"neo_hooke, two alike",
+     [] {
        Fibre a = family(), b = a;
        b.alpha_deg = dice(-90, 90);
        return Material{{NeoHooke{dice(0.1, 1)}}, {a, b}, {}};
-     }, "ANFC"},
-    {"a family that does nothing", [] {
+     },
+     "ANFC"},
+    {"a family that does nothing",
+     [] {
        Fibre none = family();
        none.hgo.c1 = 0;
        return Material{{yeoh()}, {none}, {}};
-     }, "ANFC"},
-    {"a family beside one that does nothing", [] {
+     },
+     "ANFC"},
+    {"a family beside one that does nothing",
+     [] {
        Fibre none = family();
        none.hgo.c1 = 0;
        return Material{{NeoHooke{dice(0.1, 1)}}, {none, family()}, {}};
-     }, "ANFC"},
-    {"yeoh, a family", [] { return Material{{yeoh()}, {family()}, {}}; }, "NF"},
-    {"yeoh, two families", [] { return Material{{yeoh()}, {family(), family()}, {}}; }, "NF"},
-    {"signorini, three families", [] { return Material{{Signorini{0.1, 0.2, 0.3}}, {family(), family(), family()}, {}}; }, "F"},
-    {"c2 = 0", [] {
+     },
+     "ANFC"},
+    {"yeoh, a family",
+     [] {
+       return Material{{yeoh()}, {family()}, {}};
+     },
+     "NF"},
+    {"yeoh, two families",
+     [] {
+       return Material{{yeoh()}, {family(), family()}, {}};
+     },
+     "NF"},
+    {"signorini, three families",
+     [] {
+       return Material{{Signorini{0.1, 0.2, 0.3}}, {family(), family(), family()}, {}};
+     },
+     "F"},
+    {"c2 = 0",
+     [] {
        Fibre f = family();
        f.hgo.c2 = 0;
        return Material{{yeoh()}, {f}, {}};
-     }, "F"},
-    {"GOH", [] { return Material{{NeoHooke{dice(0.1, 1)}}, {family(dice(0.01, 0.3))}, {}}; }, "AF"},
-    {"GOH, two alike", [] {
+     },
+     "F"},
+    {"GOH",
+     [] {
+       return Material{{NeoHooke{dice(0.1, 1)}}, {family(dice(0.01, 0.3))}, {}};
+     },
+     "AF"},
+    {"GOH, two alike",
+     [] {
        Fibre a = family(dice(0.01, 0.3)), b = a;
        b.alpha_deg = dice(-90, 90);
        return Material{{NeoHooke{dice(0.1, 1)}}, {a, b}, {}};
-     }, "AF"},
-    {"GOH, two that fall together", [] {
+     },
+     "AF"},
+    {"GOH, two that fall together",
+     [] {
        const Fibre a = family(dice(0.01, 0.3));
        return Material{{NeoHooke{dice(0.1, 1)}}, {a, a}, {}};
-     }, "AF"},
-    {"dispersed in yeoh, two families", [] { return Material{{yeoh()}, {family(dice(0.01, 0.3)), family(0.2)}, {}}; }, "F"},
-    {"c1 < 0", [] {
+     },
+     "AF"},
+    {"dispersed in yeoh, two families",
+     [] {
+       return Material{{yeoh()}, {family(dice(0.01, 0.3)), family(0.2)}, {}};
+     },
+     "F"},
+    {"c1 < 0",
+     [] {
        Fibre f = family();
        f.hgo.c1 = -0.3;
        return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
-     }, "ANC"},
-    {"fibres that push", [] {
+     },
+     "ANC"},
+    {"fibres that push",
+     [] {
        Fibre f = family();
        f.tension_switch = FibreSwitch::off;
        return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
-     }, "N"},
+     },
+     "N"},
 };
 
 constexpr double tolerance = 2e-8;  // ten digits in a card
@@ -117,7 +211,8 @@ void compare(const Card& card, const Material& m, const Mat3& F) {
   }
   // no switch in ANSYS: compared where all families are stretched, or act anyway
   for (std::size_t k = 0; card.program == "ANSYS" && k < a.size(); ++k)
-    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && m.fibres[k].hgo.c1 != 0 && m.fibres[k].tension_switch != FibreSwitch::off) return;
+    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && m.fibres[k].hgo.c1 != 0 && m.fibres[k].tension_switch != FibreSwitch::off)
+      return;
   const foreign::Energies theirs = card.program == "ANSYS" ? foreign::by_ansys(card.text, F) : foreign::by_keywords(card.text, F);
   const double own = isochoric(m, C, a).W;
   // twelve digits of two components leave the third, their length's rest, to 1e-6
@@ -159,7 +254,8 @@ TEST_CASE("the formulas tell FEBio's own Yeoh and Arruda-Boyce from the laws of 
   const std::string head = "<material id=\"1\" name=\"x\" type=\"", k = "\"><k>1</k><pressure_model>2</pressure_model>";
   const Material table1{{Yeoh{0.269, 0.376, 0.415}}, {}, {}}, chains{{ArrudaBoyce{0.3, 1.2}}, {}, {}};
   // coefficients as they are: half the stress, and half as much again
-  CHECK(ratio(head + "Yeoh" + k + "<c1>0.269</c1><c2>0.376</c2><c3>0.415</c3></material>", table1) == doctest::Approx(0.503).epsilon(0.02));
+  CHECK(ratio(head + "Yeoh" + k + "<c1>0.269</c1><c2>0.376</c2><c3>0.415</c3></material>", table1) ==
+        doctest::Approx(0.503).epsilon(0.02));
   CHECK(ratio(head + "Arruda-Boyce" + k + "<mu>0.3</mu><N>1.44</N></material>", chains) > 1.5);
 }
 

@@ -68,11 +68,11 @@ TEST_CASE("all bad cells are told at once, up to ten lines") {
 
 TEST_CASE("columns that are missing, doubled or without unit are refused") {
   starts(refusal("strain,stress\n0,0\n"), "c.csv:1:8: stress_unit: no unit for the column \"stress\"");
-  starts(refusal("strain,stress_MPa\n0,0\n"), "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
+  starts(refusal("strain,stress_MPa\n0,0\n"),
+         "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
   starts(refusal("time,force\n0,0\n"), "c.csv:1:1: columns: found time, force; expected one column of strain");
   starts(refusal("strain,cauchy_stress_psi\n0,0\n"), "c.csv:1:1: columns: found strain, cauchy_stress_psi");
-  starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"),
-         "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
+  starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"), "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
   starts(refusal("strain,cauchy_stress_MPa\n0,0\n"), "c.csv: found 1 points; expected two at least");
   starts(refusal(""), "c.csv: found 0 points");
   starts(refusal(std::string("\0\1\2\xff\n", 5)), "c.csv:1:1: columns: found ");

@@ -168,7 +168,8 @@ TEST_CASE("quality of a test without stress: no percentage, no R2, and the other
   CHECK(std::isnan(f.of_test[0].mean_error_percent));
   CHECK(std::isnan(f.of_test[0].max_error_percent));
   CHECK(f.of_test[1].mean_error_percent > 0.1);
-  CHECK(f.quality.mean_error_percent == doctest::Approx(f.of_test[1].mean_error_percent).epsilon(1e-14));  // another order of one sum
+  CHECK(f.quality.mean_error_percent ==
+        doctest::Approx(f.of_test[1].mean_error_percent).epsilon(1e-14));  // another order of one sum
   CHECK(f.quality.max_error_percent == f.of_test[1].max_error_percent);
 }
 

@@ -80,8 +80,7 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
   CHECK(s.correlation(0, 1) == doctest::Approx(-45 / std::sqrt(2850.)).epsilon(1e-9));
   CHECK(s.singular[0] >= s.singular[1]);
   // the product of the singular values is the determinant of the scaled Jacobian
-  CHECK(s.singular[0] * s.singular[1] ==
-        doctest::Approx(std::sqrt(825.) * std::abs(best.p[0] * best.p[1]) / 0.01).epsilon(1e-9));
+  CHECK(s.singular[0] * s.singular[1] == doctest::Approx(std::sqrt(825.) * std::abs(best.p[0] * best.p[1]) / 0.01).epsilon(1e-9));
   ProfileOptions options;
   const auto all = profiles([&] { return line(y); }, best.p, s.error, 0.1, options);
   for (int i = 0; i < 2; ++i) {
@@ -91,8 +90,7 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
     CHECK(!profile.low_open);
     CHECK(std::is_sorted(profile.value.begin(), profile.value.end()));
     for (std::size_t k = 0; k < profile.value.size(); ++k)
-      CHECK(profile.rise[k] ==
-            doctest::Approx(std::pow((profile.value[k] - best.p[i]) / s.error[i], 2)).epsilon(1e-6).scale(1));
+      CHECK(profile.rise[k] == doctest::Approx(std::pow((profile.value[k] - best.p[i]) / s.error[i], 2)).epsilon(1e-6).scale(1));
   }
   // a bound inside the interval ends it, and says so
   const auto boxed = profiles([&] { return line(y, -100, best.p[0] + 0.5 * s.error[0]); }, best.p, s.error, 0.1, options);
@@ -213,7 +211,8 @@ TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
   const VecX best = vec({0.05, 0.10}), error = vec({0.002, 0.004});
   BootstrapOptions one, three;
   one.samples = three.samples = 20, three.threads = 3;
-  const Bootstrap a = bootstrap(maker, best, white_noise(0.005, 20), one), b = bootstrap(maker, best, white_noise(0.005, 20), three);
+  const Bootstrap a = bootstrap(maker, best, white_noise(0.005, 20), one),
+                  b = bootstrap(maker, best, white_noise(0.005, 20), three);
   CHECK(a.samples.rows() == 20);
   CHECK((a.samples.array() == b.samples.array()).all());
   ProfileOptions p1, p3;

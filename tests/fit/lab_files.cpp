@@ -53,20 +53,22 @@ void is_the_test(const std::string& text, const TestFormat& format = {}) {
 
 TEST_CASE("separators, decimal commas, quotes, preambles, units below the names: one test in many dialects") {
   is_the_test("strain,nominal_stress_MPa\n0,0\n0.25,0.5\n");
-  is_the_test("strain;nominal_stress_MPa\n0,00;0,00\n0,25;0,5\n");                               // German, French
-  is_the_test("\xEF\xBB\xBFstrain\tnominal_stress_MPa\r\n0,0\t0,0\r\n2,5e-1\t5E-1\r\n");         // Excel: BOM, tabs, CRLF
-  is_the_test("\"strain\",\"nominal_stress_MPa\"\n\"0,0\",\"0,0\"\n\"0,25\",\"0,5\"\n");         // quoted cells
-  is_the_test("sep=;\nstrain;nominal_stress_MPa\n0;0\n0,25;0,5\n");                              // Excel
-  is_the_test("strain;nominal_stress_MPa;\n0,0;0,0;\n\n0,25;0,5;\n;;\n");                         // trailing separators, blank lines
-  is_the_test("# made by numpy\n# strain,nominal_stress_MPa\n0.0,0.0\n0.25,0.5\n");              // numpy.savetxt(delimiter=",")
-  is_the_test("# strain nominal_stress_MPa\n0.000e+00 0.0e+00\n2.500e-01 5.0e-01\n");            // numpy.savetxt
-  is_the_test("strain  nominal_stress_MPa\n 0   0\n 0.25   0.5\n");                              // columns of blanks
-  is_the_test("strain;nominal stress\n%;kPa\n0;0\n25,0;500,0\n");                                // units below
+  is_the_test("strain;nominal_stress_MPa\n0,00;0,00\n0,25;0,5\n");                        // German, French
+  is_the_test("\xEF\xBB\xBFstrain\tnominal_stress_MPa\r\n0,0\t0,0\r\n2,5e-1\t5E-1\r\n");  // Excel: BOM, tabs, CRLF
+  is_the_test("\"strain\",\"nominal_stress_MPa\"\n\"0,0\",\"0,0\"\n\"0,25\",\"0,5\"\n");  // quoted cells
+  is_the_test("sep=;\nstrain;nominal_stress_MPa\n0;0\n0,25;0,5\n");                       // Excel
+  is_the_test("strain;nominal_stress_MPa;\n0,0;0,0;\n\n0,25;0,5;\n;;\n");                 // trailing separators, blank lines
+  is_the_test("# made by numpy\n# strain,nominal_stress_MPa\n0.0,0.0\n0.25,0.5\n");       // numpy.savetxt(delimiter=",")
+  is_the_test("# strain nominal_stress_MPa\n0.000e+00 0.0e+00\n2.500e-01 5.0e-01\n");     // numpy.savetxt
+  is_the_test("strain  nominal_stress_MPa\n 0   0\n 0.25   0.5\n");                       // columns of blanks
+  is_the_test("strain;nominal stress\n%;kPa\n0;0\n25,0;500,0\n");                         // units below
   is_the_test("Strain (%),Nominal stress [kPa]\n0,0\n25,500\n");
   is_the_test("Nominal stress / kPa\tStretch\n0\t1\n500\t1.25\n");
-  is_the_test("Machine: Zwick\nDate;22.11.2026\nWidth;10;mm\n\nTechnische Dehnung [%];Technische Spannung [N/mm\xC2\xB2]\n0,0;0,0\n25,0;0,5\n");
-  is_the_test("strain,nominal_stress_MPa\r0,0\r0.25,0.5\r");                                     // old Macintosh
-  is_the_test("t;strain;nominal_stress_MPa\n0,5;0;0\n1,234;0,25;0,5\n");                          // 1,234 among decimal commas
+  is_the_test(
+      "Machine: Zwick\nDate;22.11.2026\nWidth;10;mm\n\nTechnische Dehnung [%];Technische Spannung "
+      "[N/mm\xC2\xB2]\n0,0;0,0\n25,0;0,5\n");
+  is_the_test("strain,nominal_stress_MPa\r0,0\r0.25,0.5\r");              // old Macintosh
+  is_the_test("t;strain;nominal_stress_MPa\n0,5;0;0\n1,234;0,25;0,5\n");  // 1,234 among decimal commas
 }
 
 TEST_CASE("forces and elongations become nominal stresses and stretches by the sizes of the specimen") {
@@ -84,7 +86,8 @@ TEST_CASE("forces and elongations become nominal stresses and stretches by the s
   holds(refusal("Extension (mm),Force (N)\n0,0\n10,10\n"), "thickness: missing");
   f = sized();
   f.stress = StressMeasure::cauchy;
-  holds(refusal("Extension (mm),Force (N)\n0,0\n10,10\n", f), "stress: cauchy for the column \"Force (N)\"; expected the measure of a force");
+  holds(refusal("Extension (mm),Force (N)\n0,0\n10,10\n", f),
+        "stress: cauchy for the column \"Force (N)\"; expected the measure of a force");
   holds(refusal("Extension,Force (N)\n0,0\n10,10\n", sized()), "strain_unit: no unit for the column \"Extension\"");
   holds(refusal("Extension (in),Force (lbf)\n0,0\n10,10\n", sized()), "columns: found Extension (in), Force (lbf)");
   // each axis of a biaxial test by its own width and length
@@ -110,17 +113,21 @@ TEST_CASE("what can be read in two ways is asked about, and the key that is name
   const std::string both = "strain;nominal_stress_MPa\n0,1;0.5\n0,2;0.6\n";
   holds(refusal(both), "l.csv:2:1: found 0,1 in a file with 0.5 (line 2)");
   holds(refusal(both, f), "l.csv:2:5: found 0.5; expected a finite number");
-  holds(refusal("strain;nominal_stress_MPa\n0,1;0,5\n0,2;1.234,5\n"), "l.csv:3:5: found 1.234,5; expected a finite number\n  hint: decimal commas are read here");
-  holds(refusal("strain,nominal_stress_MPa\n0,1,0,5\n"), "l.csv:2:1: found 4 cells; expected 2, as in the line that names the columns\n  hint: decimal commas need");
+  holds(refusal("strain;nominal_stress_MPa\n0,1;0,5\n0,2;1.234,5\n"),
+        "l.csv:3:5: found 1.234,5; expected a finite number\n  hint: decimal commas are read here");
+  holds(refusal("strain,nominal_stress_MPa\n0,1,0,5\n"),
+        "l.csv:2:1: found 4 cells; expected 2, as in the line that names the columns\n  hint: decimal commas need");
   holds(refusal("0,0\n0.25,0.5\n"), "l.csv:1:1: found numbers where the columns should have their names");
   holds(refusal(std::string("\xFF\xFEs\0t\0", 6)), "l.csv:1:1: found text in UTF-16");
-  holds(refusal("Extension (mm),Strain (%),Load (N),Stress (MPa)\n0,0,0,0\n1,2,3,4\n"), "a second column of deformation: \"Strain (%)\"");
+  holds(refusal("Extension (mm),Strain (%),Load (N),Stress (MPa)\n0,0,0,0\n1,2,3,4\n"),
+        "a second column of deformation: \"Strain (%)\"");
   f = {};
   f.strain_x = "Strain (%)", f.stress_x = "Stress (MPa)", f.stress = StressMeasure::nominal;
   is_the_test("Extension (mm),Strain (%),Load (N),Stress (MPa)\n0,0,0,0\n1,25,3,0.5\n", f);
 }
 
-TEST_CASE("a measure that nobody told is read off the first value, said, or asked for; never engineering and Cauchy without a word") {
+TEST_CASE(
+    "a measure that nobody told is read off the first value, said, or asked for; never engineering and Cauchy without a word") {
   TestFormat f;
   f.strain_x = "a", f.stress_x = "b_MPa";
   const auto read = [&](const std::string& rows) { return parse_tests("a,b_MPa\n" + rows, "l.csv", f)[0]; };
@@ -143,7 +150,8 @@ TEST_CASE("a measure that nobody told is read off the first value, said, or aske
   f.strain = StrainMeasure::stretch;
   CHECK(parse_tests("strain,cauchy_stress_MPa\n1,0\n1.25,0.5\n", "l.csv", f)[0].first[1] == 1.25);
   f.strain = StrainMeasure::log;
-  holds(refusal("stretch,cauchy_stress_MPa\n1,0\n1.25,0.5\n", f), "strain: log for the column \"stretch\"; expected the measure that");
+  holds(refusal("stretch,cauchy_stress_MPa\n1,0\n1.25,0.5\n", f),
+        "strain: log for the column \"stretch\"; expected the measure that");
   CHECK(parse_tests("True strain (%),true_stress_kPa\n0,0\n10,5\n", "l.csv", {})[0].first[1] == doctest::Approx(std::exp(0.1)));
 }
 
@@ -214,7 +222,8 @@ TEST_CASE("any table of numbers in any dialect is read back to the last digit, o
     const std::string end = any(2) ? "\r\n" : "\n", tail = any(3) ? "" : separator;
     std::string text = any(2) ? "\xEF\xBB\xBF" : "";
     for (int i = any(3); i > 0; --i) text += "Specimen" + std::string(any(2) ? separator + "A" : "") + end;
-    text += "no" + separator + "Stretch" + separator + "Nominal stress" + (any(2) ? " [kPa]" + tail + end : tail + end + separator + "-" + separator + "kPa" + tail + end);
+    text += "no" + separator + "Stretch" + separator + "Nominal stress" +
+            (any(2) ? " [kPa]" + tail + end : tail + end + separator + "-" + separator + "kPa" + tail + end);
     std::vector<double> stretch, stress;
     const int digits = 1 + any(6);
     for (int i = 0; i < 4; ++i) {

@@ -49,7 +49,8 @@ Profile profile_of(const FitProblem& q, const FitResult& f, Eigen::Index which) 
   ProfileOptions options;
   options.factor = interval_factors(f.columns, f.left_out, f.noise);
   const VecX error = f.covariance.diagonal().cwiseSqrt();
-  return profiles([&] { return least_squares_problem(q); }, f.best.p, error, f.noise.total(), options)[static_cast<std::size_t>(which)];
+  return profiles([&] { return least_squares_problem(q); }, f.best.p, error, f.noise.total(),
+                  options)[static_cast<std::size_t>(which)];
 }
 
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 180)); }
@@ -138,8 +139,8 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
   const FitProblem one = goh_fit(tests, 80, 0, 180), other = goh_fit(tests, 80, -90, 90);
   const FitResult a = fit(one, {.starts = 6}), b = fit(other, {.starts = 6});
   const Profile x = profile_of(one, a, 3), y = profile_of(other, b, 3);
-  MESSAGE("GOH: residuals correlated by " << a.noise.rho << ", 900 values count as " << a.noise.effective << "; alpha " << b.best.p[3]
-                                         << ", interval " << y.low << " to " << y.high);
+  MESSAGE("GOH: residuals correlated by " << a.noise.rho << ", 900 values count as " << a.noise.effective << "; alpha "
+                                          << b.best.p[3] << ", interval " << y.low << " to " << y.high);
   CHECK(a.noise.rho > 0.8);
   CHECK(a.noise.effective < 90);
   CHECK(apart(a.best.p[3], b.best.p[3]) <= 0.05);
@@ -149,7 +150,7 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
   CHECK(b.best.p[3] - y.low == doctest::Approx(a.best.p[3] - x.low).epsilon(0.02));
   FitProblem yeoh = other;
   yeoh.law = {{Yeoh{0.01, 0.1, 0.1}}, {hgo_fibre(0.1, 1, 80)}, volume};
-  yeoh.free = {{"matrix.yeoh.a1", 0.01, 0, 10},   {"matrix.yeoh.a2", 0.1, 0, 10},   {"matrix.yeoh.a3", 0.1, 0, 10},
+  yeoh.free = {{"matrix.yeoh.a1", 0.01, 0, 10},  {"matrix.yeoh.a2", 0.1, 0, 10},  {"matrix.yeoh.a3", 0.1, 0, 10},
                {"fibres[0].hgo.c1", 0.1, 0, 10}, {"fibres[0].hgo.c2", 1, 0, 100}, {"fibres[0].alpha", 80, -90, 90}};
   const FitResult c = fit(yeoh, {.starts = 2});
   for (const auto& [q, f] : {std::pair{&other, &b}, {&yeoh, &c}}) {
@@ -198,7 +199,9 @@ TEST_CASE("a tie to a number that is not fitted, and one with factor and offset"
   Material law{{NeoHooke{0.05}}, {hgo_fibre(0.2, 2, 20), hgo_fibre(9, 9, 9)}, volume};
   FitProblem q = goh_fit({}, 20, -90, 90);
   q.law = law, q.free = {{"fibres[0].hgo.c1", 0.1, 0, 10}};
-  q.ties = {{"fibres[1].hgo.c1", "fibres[0].hgo.c1", 0.5, 0.01}, {"fibres[1].alpha", "fibres[0].alpha", 1, 90}, {"fibres[1].hgo.c2", "fibres[0].hgo.c2", 1, 0}};
+  q.ties = {{"fibres[1].hgo.c1", "fibres[0].hgo.c1", 0.5, 0.01},
+            {"fibres[1].alpha", "fibres[0].alpha", 1, 90},
+            {"fibres[1].hgo.c2", "fibres[0].hgo.c2", 1, 0}};
   const Material truth = with_parameters(q, VecX::Constant(1, 0.3));
   CHECK(truth.fibres[1].hgo.c1 == 0.5 * 0.3 + 0.01);
   CHECK(truth.fibres[1].alpha_deg == 110);

@@ -161,11 +161,11 @@ TEST_CASE("95 % intervals under correlated noise hold the true parameters 90 to 
       for (int i = 0; i < 5; ++i) {
         const double truth = q.free[static_cast<std::size_t>(i)].start, off = std::abs(f.best.p[i] - truth);
         // error = (J_i beyond the others)^-1: white error times the factor, Student's included
-        const double white_error = std::sqrt(covariance(f.best.J, f.left_out, white_noise(f.noise.deviation, f.best.r.size()))(i, i));
+        const double white_error =
+            std::sqrt(covariance(f.best.J, f.left_out, white_noise(f.noise.deviation, f.best.r.size()))(i, i));
         held[i] += off <= 1.96 * factor[i] * white_error;
         held_white[i] += off <= 1.96 * std::sqrt(white(i, i));
-        if (seed < 100)
-          held_by_profile[i] += profile_rise(problem, i, truth, f.best.p, f.noise.deviation * factor[i]) <= 3.8415;
+        if (seed < 100) held_by_profile[i] += profile_rise(problem, i, truth, f.best.p, f.noise.deviation * factor[i]) <= 3.8415;
       }
     }
     for (int i = 0; i < 5; ++i) {

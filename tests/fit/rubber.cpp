@@ -24,9 +24,7 @@ std::vector<Test> treloar(const std::vector<std::string>& modes) {
   for (const std::string& mode : modes) {
     TestFormat f;
     f.like.name = mode, f.like.measure = StressMeasure::nominal;
-    f.like.kind = mode == "uniaxial"      ? TestKind::uniaxial
-                  : mode == "equibiaxial" ? TestKind::equibiaxial
-                                          : TestKind::pure_shear;
+    f.like.kind = mode == "uniaxial" ? TestKind::uniaxial : mode == "equibiaxial" ? TestKind::equibiaxial : TestKind::pure_shear;
     f.strain = StrainMeasure::stretch, f.strain_x = "lambda_1", f.stress_x = "P_1_MPa", f.where = {{"mode", mode}};
     all.push_back(tests_of(read_table(folder + "treloar1944.csv"), f)[0]);
   }
@@ -54,8 +52,7 @@ void gives(const char* name, const Material& law, const std::vector<FreeParamete
   CHECK(f.quality.r2 == doctest::Approx(r2).epsilon(6e-4));
 }
 
-const Material yeoh{{Yeoh{0.2, 0, 0}}, {}, volume}, gent{{Gent{0.3, 90}}, {}, volume},
-    chains{{ArrudaBoyce{0.3, 5}}, {}, volume};
+const Material yeoh{{Yeoh{0.2, 0, 0}}, {}, volume}, gent{{Gent{0.3, 90}}, {}, volume}, chains{{ArrudaBoyce{0.3, 5}}, {}, volume};
 const Material ogden{{Ogden{0.4, 2, 1e-3, 6, -0.01, -2}}, {}, volume};
 const std::vector<FreeParameter> of_yeoh{
     {"matrix.yeoh.a1", 0.2, -10, 10}, {"matrix.yeoh.a2", 0, -10, 10}, {"matrix.yeoh.a3", 0, -10, 10}};
@@ -69,8 +66,8 @@ TEST_CASE("Neo-Hooke and Mooney-Rivlin fitted to single tests of Treloar are tho
   if (!here("treloar1944.csv")) return;
   // Steinmann, Hossain, Possart (2012), as quoted in a public example; docs/identification.md has those that differ, and why
   const auto neo_hooke = [](const char* mode) {
-    return 2 * fit({{{NeoHooke{0.2}}, {}, volume}, {{"matrix.neo_hooke.a1", 0.2, 0, 10}}, treloar({mode})}, {.starts = 1})
-                   .best.p[0];
+    return 2 *
+           fit({{{NeoHooke{0.2}}, {}, volume}, {{"matrix.neo_hooke.a1", 0.2, 0, 10}}, treloar({mode})}, {.starts = 1}).best.p[0];
   };
   CHECK(neo_hooke("uniaxial") == doctest::Approx(0.5673).epsilon(0.01));
   CHECK(neo_hooke("pure_shear") == doctest::Approx(0.3360).epsilon(0.02));

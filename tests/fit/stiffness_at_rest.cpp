@@ -24,7 +24,8 @@ Test pulled(const Material& truth, double angle, double reach, int points, doubl
   return t;
 }
 
-FitProblem problem_of(const Material& truth, const Material& law, std::vector<FreeParameter> free, double noise, std::uint64_t stream = 0) {
+FitProblem problem_of(const Material& truth, const Material& law, std::vector<FreeParameter> free, double noise,
+                      std::uint64_t stream = 0) {
   FitProblem problem;
   problem.law = law, problem.free = std::move(free);
   problem.tests = {pulled(truth, 0, 0.4, 15, noise, stream), pulled(truth, 90, 0.5, 15, noise, stream + 1)};
@@ -33,7 +34,9 @@ FitProblem problem_of(const Material& truth, const Material& law, std::vector<Fr
 
 Material yeoh_and_fibre(double a1) { return {{Yeoh{a1, 0.05, 0}}, {Fibre{{0.05, 1}, 0}}, {QuadraticVolume{1e-3}}}; }
 std::vector<FreeParameter> yeoh_parameters() {
-  return {{"matrix.yeoh.a1", 0.01, 0, 10, true}, {"matrix.yeoh.a2", 0.01, 0, 10, true}, {"fibres[0].hgo.c1", 0.01, 0, 10, true},
+  return {{"matrix.yeoh.a1", 0.01, 0, 10, true},
+          {"matrix.yeoh.a2", 0.01, 0, 10, true},
+          {"fibres[0].hgo.c1", 0.01, 0, 10, true},
           {"fibres[0].hgo.c2", 0.1, 0, 10}};
 }
 const FitOptions few{3, 1, {}};
@@ -81,7 +84,8 @@ TEST_CASE("tests that tell the stiffness at rest are left alone, and so is a bou
 }
 
 TEST_CASE("the least modulus is the standard error of a neo-Hookean modulus alone") {
-  const FitProblem problem = problem_of(yeoh_and_fibre(0), {{NeoHooke{1}}, {}, {QuadraticVolume{1e-3}}}, {{"matrix.neo_hooke.a1", 1, 0, 10, true}}, 0);
+  const FitProblem problem =
+      problem_of(yeoh_and_fibre(0), {{NeoHooke{1}}, {}, {QuadraticVolume{1e-3}}}, {{"matrix.neo_hooke.a1", 1, 0, 10, true}}, 0);
   const FitResult found = fit(problem, few);
   // covariance = s^2 (J^T J)^-1, and mu = 2 a1
   const double s = std::sqrt(2 * found.best.cost / static_cast<double>(found.best.r.size() - 1));
@@ -97,11 +101,14 @@ TEST_CASE("every law of the matrix gets stiffness at rest by one of its numbers"
     std::vector<FreeParameter> free;
   };
   const Case cases[] = {
-      {law(MooneyRivlin{0.01, 0.01}), {{"matrix.mooney_rivlin.c10", 0.01, 0, 10, true}, {"matrix.mooney_rivlin.c01", 0.01, 0, 10, true}, c1, c2}},
+      {law(MooneyRivlin{0.01, 0.01}),
+       {{"matrix.mooney_rivlin.c10", 0.01, 0, 10, true}, {"matrix.mooney_rivlin.c01", 0.01, 0, 10, true}, c1, c2}},
       {law(Ogden{.mu1 = 0.01, .alpha1 = 8}), {{"matrix.ogden.mu1", 0.01, 0, 10, true}, {"matrix.ogden.alpha1", 8, 1, 20}, c1, c2}},
-      {law(Ogden{.mu1 = -0.01, .alpha1 = -8}), {{"matrix.ogden.mu1", -0.01, -10, 0, true}, {"matrix.ogden.alpha1", -8, -20, -1}, c1, c2}},
+      {law(Ogden{.mu1 = -0.01, .alpha1 = -8}),
+       {{"matrix.ogden.mu1", -0.01, -10, 0, true}, {"matrix.ogden.alpha1", -8, -20, -1}, c1, c2}},
       {law(Gent{0.01, 2}), {{"matrix.gent.mu", 0.01, 0, 10, true}, {"matrix.gent.Jm", 2, 1.2, 200}, c1, c2}},
-      {law(ArrudaBoyce{0.01, 2}), {{"matrix.arruda_boyce.mu", 0.01, 0, 10, true}, {"matrix.arruda_boyce.locking_stretch", 2, 1, 20}, c1, c2}},
+      {law(ArrudaBoyce{0.01, 2}),
+       {{"matrix.arruda_boyce.mu", 0.01, 0, 10, true}, {"matrix.arruda_boyce.locking_stretch", 2, 1, 20}, c1, c2}},
   };
   for (const Case& one : cases) {
     CAPTURE(one.free[0].key);

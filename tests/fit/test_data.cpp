@@ -81,8 +81,7 @@ TEST_CASE("what does not fit is refused with its place") {
   holds(refusal(two_protocols, f), "t.csv:2:1: columns.strain_z: no column \"lambda\"; expected one of protocol, lx, lz");
   f = biaxial();
   f.stress_unit = StressUnit::MPa;
-  holds(refusal(two_protocols, f),
-        "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries");
+  holds(refusal(two_protocols, f), "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries");
   f = biaxial();
   f.split = "specimen";
   holds(refusal(two_protocols, f), "split: no column \"specimen\"");

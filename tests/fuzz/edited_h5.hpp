@@ -121,12 +121,23 @@ inline void write_edited(const std::string& good, const std::string& path, Bytes
     const std::vector<std::string> all = objects(file);
     const std::string object = all[bytes.below(all.size())];
     switch (bytes.below(8)) {
-      case 0: H5Ldelete(file, object.c_str(), H5P_DEFAULT); break;
-      case 1: replace(file, object, bytes); break;
-      case 2: spoil_attribute(file, object, bytes); break;
-      case 3: spoil_attribute(file, ".", bytes); break;
-      case 4: H5Lmove(file, object.c_str(), file, all[bytes.below(all.size())].c_str(), H5P_DEFAULT, H5P_DEFAULT); break;
-      default: put(file, object, bytes);
+      case 0:
+        H5Ldelete(file, object.c_str(), H5P_DEFAULT);
+        break;
+      case 1:
+        replace(file, object, bytes);
+        break;
+      case 2:
+        spoil_attribute(file, object, bytes);
+        break;
+      case 3:
+        spoil_attribute(file, ".", bytes);
+        break;
+      case 4:
+        H5Lmove(file, object.c_str(), file, all[bytes.below(all.size())].c_str(), H5P_DEFAULT, H5P_DEFAULT);
+        break;
+      default:
+        put(file, object, bytes);
     }
   }
   H5Fclose(file);

@@ -18,9 +18,7 @@ MadeMesh made(Tree tree) {
   const auto loaded = read_config<MeshConfig>(std::move(tree));
   return make_mesh(loaded.config, loaded.where);
 }
-MadeMesh from_file(const std::string& name) {
-  return made(load_yaml(std::string(SOURCE_DIR) + "/configs/mesh/" + name + ".yaml"));
-}
+MadeMesh from_file(const std::string& name) { return made(load_yaml(std::string(SOURCE_DIR) + "/configs/mesh/" + name + ".yaml")); }
 MadeMesh from_text(const std::string& text) { return made(parse_yaml(text, "mesh.yaml")); }
 
 std::string refusal(const std::string& text) {
@@ -198,8 +196,8 @@ TEST_CASE("sets: the contact candidates are the top nodes near the axis, with th
 TEST_CASE("what a mesh config gets wrong is said at its line") {
   const std::string block = "geometry:\n  block:\n    size: [4, 4, 4]\n    divisions: [2, 2, 2]\n";
   CHECK(refusal(block) == "");
-  CHECK(holds(refusal(block + "points:\n  A: [5, 4, 0]\n"),
-              "mesh.yaml:6:3: points.A: x = 5 is outside the block; expected 0 to 4"));
+  CHECK(
+      holds(refusal(block + "points:\n  A: [5, 4, 0]\n"), "mesh.yaml:6:3: points.A: x = 5 is outside the block; expected 0 to 4"));
   CHECK(holds(refusal(block + "points:\n  A: [1.9, 0, 0]\n  B: [2.1, 0, 0]\n"),
               "mesh.yaml:7:3: points.B: no grid line is left for x = 2.1"));
   CHECK(holds(refusal(block + "points:\n  top: [0, 0, 0]\n"), "mesh.yaml:6:3: points.top: found the name of a side"));
@@ -221,8 +219,8 @@ TEST_CASE("an O-grid that cannot be is refused: order of radii, odd core, points
            "\n    rings: " + rings + "\n    outer_cells: 3\n    layers: 1\n" + rest;
   };
   CHECK(refusal(ring("{half_width: 1, cells: 4}", "[{radius: 2, cells: 2}]")) == "");
-  CHECK(holds(refusal(ring("{half_width: 1, cells: 5}", "[{radius: 2, cells: 2}]")),
-              "core.cells: found 5; expected an even number"));
+  CHECK(
+      holds(refusal(ring("{half_width: 1, cells: 5}", "[{radius: 2, cells: 2}]")), "core.cells: found 5; expected an even number"));
   CHECK(holds(refusal(ring("{half_width: 1, cells: 4}", "[{radius: 1.2, cells: 2}]")),
               "rings[0].radius: found 1.2; expected more than 1.41421"));
   CHECK(holds(refusal(ring("{half_width: 1, cells: 4}", "[{radius: 3, cells: 2}, {radius: 2, cells: 1}]")), "rings[1].radius"));

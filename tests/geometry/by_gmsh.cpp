@@ -54,7 +54,8 @@ Made block_by_gmsh(const std::array<std::vector<double>, 3>& lines) {
     std::vector<double> heights;
     for (std::size_t k = 1; k < x.size(); ++k) heights.push_back((x[k] - x.front()) / length);
     gmsh::vectorpair extruded, next;
-    geo::extrude(shape, i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0, extruded, std::vector<int>(heights.size(), 1), heights, true);
+    geo::extrude(shape, i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0, extruded,
+                 std::vector<int>(heights.size(), 1), heights, true);
     for (const auto& [dim, tag] : extruded)
       if (dim == shape[0].first + 1) next.push_back({dim, tag});
     shape = {next.at(0)};
@@ -67,13 +68,16 @@ Made block_by_gmsh(const std::array<std::vector<double>, 3>& lines) {
 Made o_grid_by_gmsh(const GradedBlock& b, double growth) {
   using Corners = std::array<int, 4>;
   const GmshSession session;
-  const double y = b.origin[1], half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2], x0 = b.origin[0] + half_x, z0 = b.origin[2] + half_z;
+  const double y = b.origin[1], half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2], x0 = b.origin[0] + half_x,
+               z0 = b.origin[2] + half_z;
   const auto square = [&](double dx, double dz) {
-    return Corners{geo::addPoint(x0 + dx, y, z0 - dz), geo::addPoint(x0 + dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 - dz)};
+    return Corners{geo::addPoint(x0 + dx, y, z0 - dz), geo::addPoint(x0 + dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 + dz),
+                   geo::addPoint(x0 - dx, y, z0 - dz)};
   };
   const auto closed = [&](const Corners& corners, auto curve) {
     Corners curves;
-    for (std::size_t s = 0; s < 4; ++s) geo::mesh::setTransfiniteCurve(curves[s] = curve(corners[s], corners[(s + 1) % 4]), b.core.cells + 1);
+    for (std::size_t s = 0; s < 4; ++s)
+      geo::mesh::setTransfiniteCurve(curves[s] = curve(corners[s], corners[(s + 1) % 4]), b.core.cells + 1);
     return curves;
   };
   const auto surface = [](const std::vector<int>& loop) {
@@ -89,8 +93,10 @@ Made o_grid_by_gmsh(const GradedBlock& b, double growth) {
   gmsh::vectorpair surfaces{{2, surface({inner_curves[0], inner_curves[1], inner_curves[2], inner_curves[3]})}}, extruded;
   const auto surround = [&](const Corners& outer, const Corners& curves, int cells, double ratio) {
     Corners spokes;
-    for (std::size_t s = 0; s < 4; ++s) geo::mesh::setTransfiniteCurve(spokes[s] = geo::addLine(inner[s], outer[s]), cells + 1, "Progression", ratio);
-    for (std::size_t s = 0; s < 4; ++s) surfaces.push_back({2, surface({spokes[s], curves[s], -spokes[(s + 1) % 4], -inner_curves[s]})});
+    for (std::size_t s = 0; s < 4; ++s)
+      geo::mesh::setTransfiniteCurve(spokes[s] = geo::addLine(inner[s], outer[s]), cells + 1, "Progression", ratio);
+    for (std::size_t s = 0; s < 4; ++s)
+      surfaces.push_back({2, surface({spokes[s], curves[s], -spokes[(s + 1) % 4], -inner_curves[s]})});
     inner = outer, inner_curves = curves;
   };
   for (const Ring& ring : b.rings) {

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "geometry/exchange.hpp"
 #include "base/traps.hpp"
+#include "element/surface.hpp"
+#include "geometry/exchange.hpp"
 #include "geometry/gmsh/session.hpp"
 #include "mesh/facets.hpp"
-#include "element/surface.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/select.hpp"
 #include "support/block.hpp"
@@ -124,10 +124,12 @@ TEST_CASE("S1 to S6 are the sides of a C3D8 as Abaqus numbers their nodes") {
 
 TEST_CASE("what an .inp may say of a mesh is read, what it says of a model is left out by name") {
   std::vector<std::string> notes;
-  const Mesh mesh = parse_inp(cube + "*NSET, NSET=Odd, GENERATE\n1, 7, 2\n*NSET,NSET=both\nodd, 2\n*ELSET, ELSET=E\n10\n"
-                                     "*SURFACE, NAME=base, TYPE=ELEMENT\ne, s1\n*SURFACE, NAME=dots, TYPE=NODE\nodd\n"
-                                     "*SOLID SECTION, ELSET=CUBE, MATERIAL=skin\n1.\n*MATERIAL, NAME=skin\n*HYPERELASTIC\n1, 2\n*STEP\n*STATIC\n*END STEP\n",
-                              "m.inp", notes);
+  const Mesh mesh = parse_inp(
+      cube +
+          "*NSET, NSET=Odd, GENERATE\n1, 7, 2\n*NSET,NSET=both\nodd, 2\n*ELSET, ELSET=E\n10\n"
+          "*SURFACE, NAME=base, TYPE=ELEMENT\ne, s1\n*SURFACE, NAME=dots, TYPE=NODE\nodd\n"
+          "*SOLID SECTION, ELSET=CUBE, MATERIAL=skin\n1.\n*MATERIAL, NAME=skin\n*HYPERELASTIC\n1, 2\n*STEP\n*STATIC\n*END STEP\n",
+      "m.inp", notes);
   CHECK(mesh.n_nodes() == 8);  // node 99 is of no cell
   CHECK(mesh.n_cells() == 1);
   CHECK(mesh.bodies == std::vector<std::string>{"Cube"});
@@ -145,8 +147,10 @@ TEST_CASE("an .inp that is wrong is refused with its line") {
   CHECK(refusal("*NODE\n1, 0, 0, 0\n") == "m.inp: no 8-node hexahedra; expected *ELEMENT, TYPE=C3D8 and its like");
   CHECK(refusal("*NODE\n1, 0, zero, 0\n").starts_with("m.inp:2:1: found \"zero\"; expected a number"));
   CHECK(refusal("*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n").starts_with("m.inp:3:1: node 1 is there twice"));
-  CHECK(refusal("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10\n").starts_with("m.inp:1:1: found elements C3D10; expected 8-node hexahedra"));
-  CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n").starts_with("m.inp:2:1: element 1 has the node 1, which is not there"));
+  CHECK(refusal("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10\n")
+            .starts_with("m.inp:1:1: found elements C3D10; expected 8-node hexahedra"));
+  CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n")
+            .starts_with("m.inp:2:1: element 1 has the node 1, which is not there"));
   CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4\n*NODE\n").starts_with("m.inp:2:1: an element of 4 nodes; expected 8 nodes"));
   CHECK(refusal(cube + "*NSET, NSET=n\nm\n").starts_with("m.inp:19:1: there is no set \"m\" above"));
   CHECK(refusal(cube + "*NSET, NSET=n, GENERATE\n5, 1, 1\n").starts_with("m.inp:19:1: a range that does not ascend"));
@@ -170,7 +174,8 @@ TEST_CASE("a .msh without hexahedra, or none at all, is refused") {
     return "";
   };
   const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
-  CHECK(said(head + "$Elements\n1\n1 7 2 1 1 1 2 3 4 4\n$EndElements\n").find("found cells of the kind Pyramid 5; expected 8-node hexahedra only") != std::string::npos);
+  CHECK(said(head + "$Elements\n1\n1 7 2 1 1 1 2 3 4 4\n$EndElements\n")
+            .find("found cells of the kind Pyramid 5; expected 8-node hexahedra only") != std::string::npos);
   CHECK(said(head).find("no cells") != std::string::npos);
   CHECK(said("no mesh\n") != "");
 }
@@ -258,7 +263,8 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
   CHECK(quality(box).least_jacobian > 0);
   CHECK(box.facet_sets.size() >= 6);  // gmsh may cut a face of triangles into several
   meshed([] { gmsh::model::occ::addSphere(0, 0, 0, 5); });
-  CHECK(quality(read_solid(facets, true, 1, CellType::hex8, notes)).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  CHECK(quality(read_solid(facets, true, 1, CellType::hex8, notes)).volume ==
+        doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
   std::ofstream(folder() + "/no.stl") << "nothing";
   CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, CellType::hex8, notes), Failure);
   std::ofstream(folder() + "/no.step") << "nothing";

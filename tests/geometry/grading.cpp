@@ -85,8 +85,7 @@ TEST_CASE("lines in another number are graded alike: exactly where cells are eve
 TEST_CASE("lines moved through points hit them, stay in order and stay mirror images") {
   const auto lines = lines_to_centre(-15, 15, 22, 0.36, 2.2, "edge");
   const Moved moved = through(lines, {{4, "A"}, {-4, "C"}, {0, "M"}, {0, "B"}}, "x", "divisions");
-  for (double at : {-4.0, 0.0, 4.0, -15.0, 15.0})
-    CHECK(std::find(moved.lines.begin(), moved.lines.end(), at) != moved.lines.end());
+  for (double at : {-4.0, 0.0, 4.0, -15.0, 15.0}) CHECK(std::find(moved.lines.begin(), moved.lines.end(), at) != moved.lines.end());
   for (double s : steps(moved.lines)) CHECK(s > 0);
   for (int i = 0; i <= 22; ++i) CHECK(moved.lines[i] == -moved.lines[22 - i]);
   CHECK(moved.furthest > 0);

@@ -59,7 +59,8 @@ TEST_CASE("a text of triangles is a surface whose triangles share their corners"
 TEST_CASE("a binary file of triangles is the same surface") {
   const SurfaceFile text = parse_surface(tetrahedron, "t.stl");
   const SurfaceFile surface = parse_surface(
-      binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}, {0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}), "t.stl");
+      binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}, {0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}),
+      "t.stl");
   CHECK(surface.points == text.points);
   CHECK(surface.corners == text.corners);
 }

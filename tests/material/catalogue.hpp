@@ -13,8 +13,7 @@ struct NamedMaterial {
   Material material;
 };
 
-inline Fibre hgo_fibre(double c1, double c2, double alpha_deg, FibreSwitch tension_switch = FibreSwitch::I4_bar,
-                       double kappa = 0) {
+inline Fibre hgo_fibre(double c1, double c2, double alpha_deg, FibreSwitch tension_switch = FibreSwitch::I4_bar, double kappa = 0) {
   return {HgoFibre{c1, c2}, alpha_deg, tension_switch, kappa};
 }
 

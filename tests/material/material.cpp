@@ -119,8 +119,8 @@ TEST_CASE("rotations about the fibre and half turns across it are symmetries of 
     ++seen;
     const Response r = response(material, C, a);
     const auto turned = [&](const Mat3& Q) { return response(material, right_cauchy_green(F * Q), a); };
-    for (const Mat3& Q : {Eigen::AngleAxisd(0.1 + seen, a[0]).toRotationMatrix(),
-                          Eigen::AngleAxisd(std::acos(-1), across).toRotationMatrix()}) {
+    for (const Mat3& Q :
+         {Eigen::AngleAxisd(0.1 + seen, a[0]).toRotationMatrix(), Eigen::AngleAxisd(std::acos(-1), across).toRotationMatrix()}) {
       CHECK(turned(Q).W == doctest::Approx(r.W).epsilon(1e-12));
       CHECK((cauchy(F * Q, turned(Q).S) - cauchy(F, r.S)).norm() <= 1e-12 * cauchy(F, r.S).norm());
     }

@@ -125,7 +125,8 @@ TEST_CASE("laws meet where one is a special case of another") {
   same(ArrudaBoyce{0.6, 1e5}, NeoHooke{0.3}, 1e-9);
 }
 
-TEST_CASE("an exponential of a fibre that leaves the range of forces is no number, alone and eight at once, and changes nothing else") {
+TEST_CASE(
+    "an exponential of a fibre that leaves the range of forces is no number, alone and eight at once, and changes nothing else") {
   const HgoFibre fibre{0.1, 1000};  // exp(300) at I4_bar = 1.5477
   for (double I4 : {0.5, 1., 1.21, 1.547}) CHECK(nan_outside_domain(fibre, I4) == I4);
   for (double I4 : {1.548, 2., 1e200}) CHECK(std::isnan(fibre(nan_outside_domain(fibre, I4)).ddW));

@@ -32,7 +32,8 @@ TEST_CASE("ties are read as they are written: sign, factor, offset, blanks") {
     CHECK(back->factor == tie->factor);
     CHECK(back->offset == tie->offset);
   }
-  for (const char* text : {"", "-", "3", "2 *", "a b*2", "a*2", "a + b", "a + ", "a - -1", "--a", "nan * a", "1e999 * a", "2a", "a+1+1", "a;b", "2 fibres[0].alpha"}) {
+  for (const char* text : {"", "-", "3", "2 *", "a b*2", "a*2", "a + b", "a + ", "a - -1", "--a", "nan * a", "1e999 * a", "2a",
+                           "a+1+1", "a;b", "2 fibres[0].alpha"}) {
     CAPTURE(text);
     CHECK(!parse_tie("k", text));
   }

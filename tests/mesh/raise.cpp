@@ -54,7 +54,8 @@ TEST_CASE("hex27: facets list corners from outside, the middles between them, th
   }
 }
 
-TEST_CASE("tet15: shape functions are 1 at their node and 0 at the others, sum to 1, hold quadratic fields; gradients are derivatives") {
+TEST_CASE(
+    "tet15: shape functions are 1 at their node and 0 at the others, sum to 1, hold quadratic fields; gradients are derivatives") {
   const ReferenceCell& cell = reference(15);
   REQUIRE(cell.node.size() == 15);
   for (int a = 0; a < 15; ++a) {
@@ -183,8 +184,8 @@ TEST_CASE("nodes have their positive shares of a surface: 1, 4 and 16 parts of 3
     CHECK(areas.sum() == doctest::Approx(12).epsilon(1e-14));
     for (int i = 0; i < mesh.n_nodes(); ++i) {
       const Vec3& X = mesh.X[i];
-      const double expected = X[1] < 1 ? 0
-                              : X == Vec3(0, 1, 0) ? (type == CellType::hex8 ? 6.0 / 4 : 6.0 / 36)
+      const double expected = X[1] < 1               ? 0
+                              : X == Vec3(0, 1, 0)   ? (type == CellType::hex8 ? 6.0 / 4 : 6.0 / 36)
                               : X == Vec3(1, 1, 1.5) ? 6 * 16.0 / 36
                               : X == Vec3(2, 1, 1.5) ? 6 * 4.0 / 36 + 3 * 4.0 / 36
                                                      : areas[i];

@@ -146,8 +146,7 @@ TEST_CASE("folders of numbers sort like the numbers, every folder is safe for ma
 }
 
 TEST_CASE("the way a number is typed does not change its member") {
-  const auto steps =
-      steps_of("pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {key: a, values: [1.0e+1, +2.50, word]}}}\n");
+  const auto steps = steps_of("pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {key: a, values: [1.0e+1, +2.50, word]}}}\n");
   CHECK(folders(steps, "mesh") == Words{"n_10/mesh", "n_2.5/mesh", "n_word/mesh"});
 }
 

@@ -47,11 +47,10 @@ struct Project {
     write("configs/mesh.yaml", "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\n");
     write("configs/solve.yaml",
           "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, displacement: {x: 0.1}}]\nthreads: 1\n");
-    write(
-        "p.yaml",
-        "pipeline: p\nnodes:\n  fit: {stage: fit, config: configs/fit.yaml}\n  mesh: {stage: mesh, config: configs/mesh.yaml}\n"
-        "  solve: {stage: solve, config: configs/solve.yaml, mesh: mesh, material: law.yaml,\n"
-        "          sweep: {x: {key: \"loads[0].displacement.x\", values: [0.1, 0.2]}}}\n");
+    write("p.yaml",
+          "pipeline: p\nnodes:\n  fit: {stage: fit, config: configs/fit.yaml}\n  mesh: {stage: mesh, config: configs/mesh.yaml}\n"
+          "  solve: {stage: solve, config: configs/solve.yaml, mesh: mesh, material: law.yaml,\n"
+          "          sweep: {x: {key: \"loads[0].displacement.x\", values: [0.1, 0.2]}}}\n");
   }
   ~Project() {
     fs::current_path(before);

@@ -70,9 +70,9 @@ TEST_CASE("a YAML file at a port counts by its values") {
 TEST_CASE("a file that a config names must be there") {
   Folder folder;
   fs::remove(folder.at("here/c.csv"));
-  CHECK_THROWS_WITH_AS(
-      identity(folder.at("here/a.yaml")),
-      (folder.at("here/a.yaml") + ":2:1: curve: " + folder.at("here/c.csv") + ": there is no such file").c_str(), Failure);
+  CHECK_THROWS_WITH_AS(identity(folder.at("here/a.yaml")),
+                       (folder.at("here/a.yaml") + ":2:1: curve: " + folder.at("here/c.csv") + ": there is no such file").c_str(),
+                       Failure);
 }
 
 TEST_CASE("an output may not be a folder, replace what it is made from, or lie below a file") {
@@ -80,8 +80,8 @@ TEST_CASE("an output may not be a folder, replace what it is made from, or lie b
   const std::string config = folder.at("here/a.yaml");
   need_output(folder.at("new/deep/out.h5"), config, {});
   CHECK(fs::is_directory(folder.at("new/deep")));
-  for (const std::string& bad : {folder.at("there"), config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv"),
-                                 folder.at("here/c.csv/out.h5")}) {
+  for (const std::string& bad :
+       {folder.at("there"), config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv"), folder.at("here/c.csv/out.h5")}) {
     CAPTURE(bad);
     CHECK_THROWS_AS(need_output(bad, config, {{"curve", {folder.at("here/c.csv")}}}), Failure);
   }

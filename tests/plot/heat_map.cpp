@@ -81,8 +81,7 @@ TEST_CASE("Bars are as high as their values, intervals stand on them, a missing 
   for (const char* text : {"zone", "a1", "c1", "c2"}) CHECK(label(labels, text) != nullptr);
   int vertical = 0;
   for (const Stroke& s : marks_of<Stroke>(d))
-    if (s.points[0][0] == s.points[1][0] &&
-        std::abs(s.points[0][1] - s.points[1][1]) == doctest::Approx(0.5 * height(patches[0])))
+    if (s.points[0][0] == s.points[1][0] && std::abs(s.points[0][1] - s.points[1][1]) == doctest::Approx(0.5 * height(patches[0])))
       ++vertical;
   CHECK(vertical == 1);
 }

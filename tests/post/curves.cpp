@@ -42,13 +42,17 @@ struct Sample {
     }
     s.t = 0.25, s.increment = 0.05, s.iterations = 4, s.residual = 1e-10;
     s.stick = 3, s.slip = 2;
-    s.histories = {{"penetration", 1e-11}, {"cone", 2e-9}, {"complementarity", 3e-9}, {"energy", 0.5},
-                   {"negative_eigenvalues", 1}, {"shear_stiffness_min", -0.2}, {"unstable_volume", 0.1},
-                   {"outside_fit", 0.3}, {"driving_force", 7}};
+    s.histories = {{"penetration", 1e-11},      {"cone", 2e-9},
+                   {"complementarity", 3e-9},   {"energy", 0.5},
+                   {"negative_eigenvalues", 1}, {"shear_stiffness_min", -0.2},
+                   {"unstable_volume", 0.1},    {"outside_fit", 0.3},
+                   {"driving_force", 7}};
     return s;
   }();
-  Available available{true, true, {"complementarity", "cone", "driving_force", "energy", "negative_eigenvalues", "outside_fit",
-                                   "penetration", "shear_stiffness_min", "unstable_volume"}};
+  Available available{true,
+                      true,
+                      {"complementarity", "cone", "driving_force", "energy", "negative_eigenvalues", "outside_fit", "penetration",
+                       "shear_stiffness_min", "unstable_volume"}};
 
   Measures look(const std::string& list) const { return look_up(choices(list), "columns", body, available); }
   std::vector<double> values(const std::string& list, StressAt at = StressAt::nodal_average) const {
@@ -90,7 +94,8 @@ TEST_CASE("the list of columns says unit and meaning of every quantity and every
     CHECK(std::string(line.meaning).size() >= 6);
     CHECK(text.find(std::string("\n  ") + line.word + " ") != std::string::npos);
   }
-  CHECK(text.find("pressure                     MPa   mean stress: tr(sigma)/3, the mean stress: positive in tension") != std::string::npos);
+  CHECK(text.find("pressure                     MPa   mean stress: tr(sigma)/3, the mean stress: positive in tension") !=
+        std::string::npos);
   // a history has the unit of the quantity of its name
   for (const QuantityLine& line : quantity_lines)
     if (const solution::HistoryLine* history = solution::line_of(std::string_view(line.word)); history && line.of != Of::point)
@@ -196,8 +201,7 @@ TEST_CASE("names that the mesh or the solution lacks are complaints with their k
   s.available.contact = false;
   CHECK(bad("{quantity: u_ind}").at(0).key == "columns[0].quantity");
   const Body isotropic(s.mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
-  CHECK(look_up(choices("{quantity: fibre_stretch_max}"), "further", isotropic, {}).complaints.at(0).key ==
-        "further[0].quantity");
+  CHECK(look_up(choices("{quantity: fibre_stretch_max}"), "further", isotropic, {}).complaints.at(0).key == "further[0].quantity");
 }
 
 TEST_CASE("what is wrong with a config is known before there is a solution") {
@@ -280,7 +284,6 @@ TEST_CASE("the table of an indentation has the columns that others rely on") {
   const auto config = read_config<PostConfig>(load_yaml(std::string(SOURCE_DIR) + "/configs/post/indentation.yaml")).config;
   std::string head;
   for (const ColumnChoice& c : config.columns) head += (head.empty() ? "" : ",") + csv_name(column_name(c), unit_of(c));
-  CHECK(
-      head ==
-      "u_ind_mm,force_N,von_mises_M_MPa,von_mises_max_MPa,u_y_A_mm,u_y_B_mm,u_y_C_mm,u_y_D_mm,newton_iterations,contact_nodes");
+  CHECK(head ==
+        "u_ind_mm,force_N,von_mises_M_MPa,von_mises_max_MPa,u_y_A_mm,u_y_B_mm,u_y_C_mm,u_y_D_mm,newton_iterations,contact_nodes");
 }

@@ -71,8 +71,7 @@ TEST_CASE("values of a homogeneous deformation are those of the law: stress, J, 
   CHECK((sigma_of(row) - sigma).norm() < rounding);
   CHECK(J_of(row) == doctest::Approx(some_F.determinant()).epsilon(rounding));
   const double I4 = (some_F * a[0]).squaredNorm();
-  CHECK(fibre_stretch_of(row, 0) ==
-        doctest::Approx(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3))).epsilon(rounding));
+  CHECK(fibre_stretch_of(row, 0) == doctest::Approx(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3))).epsilon(rounding));
 }
 
 TEST_CASE("a linear field is reproduced exactly by nodal averages, on distorted elements too") {

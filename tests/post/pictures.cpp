@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "plot/drawing.hpp"
-#include "post/figure.hpp"
 #include "plot/gnuplot.hpp"
+#include "post/figure.hpp"
 #include "post/map.hpp"
 #include "post/render.hpp"
 #include "support/block.hpp"
@@ -163,7 +163,7 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
   CHECK(s.find("a &lt;b&gt; &amp; 'c' `touch broken`") != std::string::npos);
   const std::string script = gnuplot_script(drawing, "p");
   CHECK(count(script, "0.00 50.00 16711680\n10.00 50.00 16711680\n10.00 40.00 16711680\n\n") == 1);  // the patch, y upwards, red
-  CHECK(count(script, ".50 0\n") == 4);                                                              // the stroke as a black rectangle
+  CHECK(count(script, ".50 0\n") == 4);  // the stroke as a black rectangle
   CHECK(count(script, "\n\n") == 2);
   CHECK(script.find("set label 'a <b> & ''c'' `touch broken` \"d\"'") != std::string::npos);
   if (!has_gnuplot()) return;
@@ -176,7 +176,8 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
 
 TEST_CASE("labels of quantities have subscripts in both pictures, other labels stand as they are") {
   Drawing drawing{100, 50, {}};
-  drawing.marks = {Label{{5, 5}, "stress σ_{xx} (mm^2, a\\_b) < u_y", 20, Label::Anchor::end, true}, Label{{5, 25}, "my_file_{x}", 12}};
+  drawing.marks = {Label{{5, 5}, "stress σ_{xx} (mm^2, a\\_b) < u_y", 20, Label::Anchor::end, true},
+                   Label{{5, 25}, "my_file_{x}", 12}};
   const std::string s = svg(drawing);
   CHECK(s.find(">stress σ<tspan dy=\"5.00\" font-size=\"14.00\">xx</tspan><tspan dy=\"-5.00\" font-size=\"20.00\"> (mm</tspan>"
                "<tspan dy=\"-5.00\" font-size=\"14.00\">2</tspan><tspan dy=\"5.00\" font-size=\"20.00\">, a_b) &lt; u</tspan>"
@@ -251,7 +252,8 @@ TEST_CASE("names of files that gnuplot would take for a pipe, a stream or a bloc
     CHECK(run_gnuplot(where, name + ".gp") == "");
     CHECK(text_of(where + "/" + name + ".svg").find("</svg>") != std::string::npos);
     CHECK(text_of(where + "/" + name + ".png").starts_with("\x89PNG"));
-    for (const auto& file : std::filesystem::directory_iterator(where)) CHECK_FALSE(file.path().filename().string().starts_with("run"));
+    for (const auto& file : std::filesystem::directory_iterator(where))
+      CHECK_FALSE(file.path().filename().string().starts_with("run"));
   }
 }
 

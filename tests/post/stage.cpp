@@ -53,7 +53,8 @@ StepRecord step(const SolutionHeader& h, double t) {
     r.u.emplace_back(0.1 * t * X[0], -0.05 * t * X[1], -0.04 * t * X[2]);
     r.reaction.emplace_back(X[0] == 3 ? t : 0, 0, 0);
   }
-  r.scalars = {{"penetration", 1e-12}, {"cone", 0}, {"complementarity", 1e-11}, {"energy", t * t},
+  r.scalars = {{"penetration", 1e-12},      {"cone", 0},
+               {"complementarity", 1e-11},  {"energy", t * t},
                {"negative_eigenvalues", 0}, {"shear_stiffness_min", 0.3 - 0.1 * t}};
   r.u_ind = Vec3(0, -0.1 * t, 0), r.force_ind = Vec3(0, 2 * t, 0);
   r.contacts["ball"] = {{{0, -t, 0}, {0, -t, 0}, {0, 0, 0}}, {1, 2, 0}, {0, 0, 0.1}};
@@ -76,8 +77,8 @@ struct Run {
 };
 Run post(const std::string& where, const std::string& config, const std::string& options = "") {
   std::ofstream(where + "/post.yaml") << config;
-  const std::string command = "cd " + where + " && " + BIN_DIR +
-                              "/langer-post post.yaml --solution solution.h5 -o out/curves.h5 " + options + " > said 2>&1";
+  const std::string command = "cd " + where + " && " + BIN_DIR + "/langer-post post.yaml --solution solution.h5 -o out/curves.h5 " +
+                              options + " > said 2>&1";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(where + "/said")};
 }
@@ -157,7 +158,9 @@ TEST_CASE("snapshots are the states asked for, with fields at points and in cell
   CHECK(cells.read<double>("J", {3}).values[2] == doctest::Approx(1.1 * 0.95 * 0.96));
 }
 
-TEST_CASE("layers with laws and fibre angles of their own: each shows the stress of its law, and the stiffest point is in the stiff one") {
+TEST_CASE(
+    "layers with laws and fibre angles of their own: each shows the stress of its law, and the stiffest point is in the stiff "
+    "one") {
   const std::string where = folder("layers");
   SolutionHeader layered = header();
   layered.mesh.bodies = {"deep", "shallow"};
@@ -217,8 +220,8 @@ TEST_CASE("figures and the picture stand beside the table, without gnuplot it sa
     for (const char* name : {"force.svg", "force.png", "render.png"}) CHECK(fs::exists(where + "/out/" + name));
 
   std::ofstream(where + "/post.yaml") << config;
-  const std::string command = "cd " + where + " && PATH=nothing " + BIN_DIR +
-                              "/langer-post post.yaml --solution solution.h5 -o bare/curves.h5 > said 2>&1";
+  const std::string command =
+      "cd " + where + " && PATH=nothing " + BIN_DIR + "/langer-post post.yaml --solution solution.h5 -o bare/curves.h5 > said 2>&1";
   CHECK(std::system(command.c_str()) == 0);
   const std::string said = text_of(where + "/said");
   CHECK(said.find("not drawn: force, render (there is no gnuplot on the PATH)") != std::string::npos);
@@ -237,8 +240,7 @@ TEST_CASE("names that do not exist end with code 2 at their key, all together, a
   CHECK(run.said.find("post.yaml:4:4: columns[2].history: the solution has no history \"enrgy\"") != std::string::npos);
   CHECK(run.said.find("did you mean \"energy\"?") != std::string::npos);
   CHECK(text_of(where + "/out/curves.h5") == before);
-  CHECK(post(where, columns + "snapshots: [9]\n").said.find("snapshots[0]: 9; expected a row from 0 to 4") !=
-        std::string::npos);
+  CHECK(post(where, columns + "snapshots: [9]\n").said.find("snapshots[0]: 9; expected a row from 0 to 4") != std::string::npos);
   CHECK(post(where, columns + "snapshots: [9]\n").code == 2);
   CHECK(text_of(where + "/out/curves.h5") == before);
 }

@@ -42,10 +42,13 @@ TEST_CASE("the estimated error of the force is within a factor of three of the t
     CellType cells;
     double edge, right;
   };
-  for (const Case& c : {Case{"isotropic", CellType::hex8, 0.35, 10.763}, {"isotropic", CellType::hex8, 0.2, 10.763},
-                        {"isotropic", CellType::hex27, 0.6, 10.763}, {"isotropic", CellType::hex27, 0.3536, 10.763},
+  for (const Case& c : {Case{"isotropic", CellType::hex8, 0.35, 10.763},
+                        {"isotropic", CellType::hex8, 0.2, 10.763},
+                        {"isotropic", CellType::hex27, 0.6, 10.763},
+                        {"isotropic", CellType::hex27, 0.3536, 10.763},
                         {"isotropic", CellType::hex27, 0.25, 10.763},
-                        {"table1", CellType::hex8, 0.175, 9.362}, {"positive", CellType::hex8, 0.2, 12.67}}) {
+                        {"table1", CellType::hex8, 0.175, 9.362},
+                        {"positive", CellType::hex8, 0.2, 12.67}}) {
     CAPTURE(c.scene);
     CAPTURE(static_cast<int>(c.cells));
     CAPTURE(c.edge);
@@ -88,7 +91,8 @@ TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
 }
 
 TEST_CASE("two meshes that agree by chance do not pass for right") {
-  const ErrorEstimate force = estimates_of(rung("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
+  const ErrorEstimate force =
+      estimates_of(rung("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
   CHECK(force.total() > std::abs(force.of.value - 10.763));
 }
 
@@ -117,12 +121,12 @@ TEST_CASE("what a stress lacks to be smooth tells the error of the stored energy
     double energy;
   };
   const auto bar = [](int per_mm, const char* cells) {
-    const SolveConfig config = test::config_of(fmt::format(
-        "mesh: {{cells: {}, geometry: {{block: {{size: [4, 1, 1], divisions: [{}, {}, {}]}}}}}}\n"
-        "material: {{matrix: {{yeoh: {{a1: 0.3, a2: 0.1, a3: 0}}}}, volume: {{quadratic: {{d: 1.0e-4}}}}}}\n"
-        "supports: [{{on: x_min, hold: [x, y, z]}}, {{on: x_max, hold: [x, z]}}]\n"
-        "loads: [{{on: x_max, displacement: {{y: 0.8}}}}]\npath: {{first: 0.5, largest: 0.5}}\n",
-        cells, 4 * per_mm, per_mm, per_mm));
+    const SolveConfig config = test::config_of(
+        fmt::format("mesh: {{cells: {}, geometry: {{block: {{size: [4, 1, 1], divisions: [{}, {}, {}]}}}}}}\n"
+                    "material: {{matrix: {{yeoh: {{a1: 0.3, a2: 0.1, a3: 0}}}}, volume: {{quadratic: {{d: 1.0e-4}}}}}}\n"
+                    "supports: [{{on: x_min, hold: [x, y, z]}}, {{on: x_max, hold: [x, z]}}]\n"
+                    "loads: [{{on: x_max, displacement: {{y: 0.8}}}}]\npath: {{first: 0.5, largest: 0.5}}\n",
+                    cells, 4 * per_mm, per_mm, per_mm));
     const Mesh mesh = test::mesh_in(config);
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
     const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();

@@ -13,7 +13,7 @@ namespace {
 
 struct Case {
   CellType cells = CellType::hex8;
-  std::vector<double> angles{0};                 // of the fibres [deg]
+  std::vector<double> angles{0};  // of the fibres [deg]
   Formulation formulation = Formulation::mean_dilatation;
   bool distorted = true;
 };
@@ -70,13 +70,20 @@ std::vector<StepRecord> at_a_point(HomogeneousScene& point, const SolveConfig& c
   return steps;
 }
 
-bool is_homogeneous(const Mesh& mesh, const Scene& scene) { return HomogeneousScene::find(mesh, scene, in_four_steps()) != nullptr; }
+bool is_homogeneous(const Mesh& mesh, const Scene& scene) {
+  return HomogeneousScene::find(mesh, scene, in_four_steps()) != nullptr;
+}
 
 }  // namespace
 
 TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy of the whole mesh to 1e-8") {
-  for (const Case& c : {Case{}, {CellType::hex8, {}}, {CellType::hex8, {90}}, {CellType::hex8, {40, -40}}, {CellType::hex27, {0}, {}, false},
-                        {CellType::tet15, {0}, {}, false}, {CellType::hex8, {0}, Formulation::displacement}}) {
+  for (const Case& c : {Case{},
+                        {CellType::hex8, {}},
+                        {CellType::hex8, {90}},
+                        {CellType::hex8, {40, -40}},
+                        {CellType::hex27, {0}, {}, false},
+                        {CellType::tet15, {0}, {}, false},
+                        {CellType::hex8, {0}, Formulation::displacement}}) {
     CAPTURE(static_cast<int>(c.cells));
     CAPTURE(c.angles.size());
     const Mesh mesh = mesh_of(c);
@@ -124,7 +131,8 @@ TEST_CASE("what does not deform alike everywhere is solved as it is") {
   SUBCASE("fibres that turn the body, between faces that do not") {
     CHECK_FALSE(is_homogeneous(mesh, scene_of({CellType::hex8, {45}}, mesh)));
   }
-  SUBCASE("ends that may not become thinner: one hexahedron stays linear, the mesh does not balance; clamped ends leave it nothing") {
+  SUBCASE(
+      "ends that may not become thinner: one hexahedron stays linear, the mesh does not balance; clamped ends leave it nothing") {
     for (const int components : {1, 2}) {
       std::vector<Prescribed> held = scene.dofs.prescribed;
       for (const char* face : {"x_min", "x_max"})

@@ -24,8 +24,9 @@ Mesh mesh_of(const std::string& text) {
 Mesh mesh_for(const std::string& name, const SolveConfig& config) {
   if (name == "axisymmetric") return test::mesh_in(config);
   if (name == "scratch")
-    return mesh_of("{geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [14, 3, 14], centre: {edge: 0.6, within: 3}}}, "
-                   "sets: {track: {of: top, within: {box: {from: [-3.7, 4, -2.2], to: [3.7, 4, 2.2]}}}}}");
+    return mesh_of(
+        "{geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [14, 3, 14], centre: {edge: 0.6, within: 3}}}, "
+        "sets: {track: {of: top, within: {box: {from: [-3.7, 4, -2.2], to: [3.7, 4, 2.2]}}}}}");
   if (!config.contacts.empty()) return mesh_of("{include: smoke.yaml}");
   return mesh_of("{include: cube_1_8.yaml}");
 }
@@ -62,7 +63,8 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
       if (!follows) REQUIRE(found.size() == expected.size());
       double most = 0;
       for (const StepRecord& step : expected) {
-        const auto same = std::find_if(found.begin(), found.end(), [&](const StepRecord& s) { return std::abs(s.t - step.t) < 1e-12; });
+        const auto same =
+            std::find_if(found.begin(), found.end(), [&](const StepRecord& s) { return std::abs(s.t - step.t) < 1e-12; });
         REQUIRE(same != found.end());
         for (std::size_t i = 0; i < step.u.size(); ++i) most = std::max(most, (same->u[i] - step.u[i]).norm());
       }

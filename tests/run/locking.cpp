@@ -14,9 +14,9 @@ namespace {
 
 struct Scene {
   std::string name;
-  Vec3 move;         // of the upper face, the lower one held
-  double turn;       // of it about its middle, bent besides
-  double sphere;     // radius of one that is pressed into a larger block instead
+  Vec3 move;      // of the upper face, the lower one held
+  double turn;    // of it about its middle, bent besides
+  double sphere;  // radius of one that is pressed into a larger block instead
   Material material;
 };
 
@@ -32,7 +32,9 @@ Found sphere(const Scene& scene, CellType cells, std::optional<Formulation> form
   indentation.nx = indentation.nz = 12 / q, indentation.ny = 4 / q, indentation.h = 0.5 * q;
   indentation.radius = scene.sphere, indentation.depth = 0.4, indentation.step = 0.2;
   Found out;
-  indentation.after = [&](const Statics& statics, const Equilibrium& body) { out.said = locking(body, statics.accepted().u).share; };
+  indentation.after = [&](const Statics& statics, const Equilibrium& body) {
+    out.said = locking(body, statics.accepted().u).share;
+  };
   const auto result = indentation.run(scene.material);
   REQUIRE(result.path.complete);
   out.force = result.steps.back().force;
@@ -99,7 +101,9 @@ TEST_CASE("locking: what is said of displacement and of mean_dilatation on quadr
                           {CellType::tet15, Formulation::mean_dilatation, {1e-2}}})
     for (double d : c.d)
       for (const Scene& scene : scenes(d)) {
-        const auto run = [&](std::optional<Formulation> f) { return scene.sphere > 0 ? sphere(scene, c.cells, f) : block(scene, c.cells, f); };
+        const auto run = [&](std::optional<Formulation> f) {
+          return scene.sphere > 0 ? sphere(scene, c.cells, f) : block(scene, c.cells, f);
+        };
         const Found right = run(std::nullopt), other = run(c.formulation);
         const double off = other.force / right.force - 1;
         CAPTURE(scene.name);

@@ -18,8 +18,8 @@ std::string block(const std::string& cells, const std::string& divisions) {
          "supports: [{on: bottom, hold: [x, y, z]}]\n";
 }
 std::string ball(const std::string& centre, const std::string& motion) {
-  return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: " + centre + "}}, friction: 0.34, motion: " + motion +
-         "}}\npath: {first: 0.1, largest: 0.1}\n";
+  return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: " + centre +
+         "}}, friction: 0.34, motion: " + motion + "}}\npath: {first: 0.1, largest: 0.1}\n";
 }
 
 bool same(const std::vector<Vec3>& a, const std::vector<Vec3>& b) { return a == b; }
@@ -59,7 +59,8 @@ TEST_CASE("a continued run is the run: hex8, whole, half turn, quarter and pulle
   check(block("hex8", "[8, 3, 8]") + "material: " + skin + press + "symmetry: none\n");
   check(block("hex8", "[8, 3, 8]") + "material: " + skin + press);
   check(block("hex8", "[8, 3, 8]") + "material: " + yeoh + press);
-  check(block("hex8", "[8, 3, 8]") + "material: " + skin + ball("[6, 6.5, 6]", "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.4, -0.5, 0.1]}]"));
+  check(block("hex8", "[8, 3, 8]") + "material: " + skin +
+        ball("[6, 6.5, 6]", "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.4, -0.5, 0.1]}]"));
 }
 
 TEST_CASE("a continued run is the run: hex27, whose cells are propped by their pressures") {
@@ -71,16 +72,19 @@ TEST_CASE("a continued run is the run: hex27, whose cells are propped by their p
 TEST_CASE("a continued run is the run: sections") {
   for (const char* cells : {"hex8", "hex27"}) {
     const std::string sets = "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 3.1}}}}\n";
-    check("mesh:\n  geometry: {section: {of: axisymmetric, size: [8, 4], divisions: [12, 5]}}\n  cells: " + std::string(cells) + sets +
-          "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " + yeoh + ball("[0, 6.5, 0]", "[{t: 1, to: [0, -0.6, 0]}]"));
+    check("mesh:\n  geometry: {section: {of: axisymmetric, size: [8, 4], divisions: [12, 5]}}\n  cells: " + std::string(cells) +
+          sets + "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " + yeoh +
+          ball("[0, 6.5, 0]", "[{t: 1, to: [0, -0.6, 0]}]"));
     check("mesh: {geometry: {section: {of: plane_strain, size: [4, 2], divisions: [6, 3]}}, cells: " + std::string(cells) +
           "}\nsupports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.4, y: -0.3}}]\nmaterial: " + yeoh);
   }
 }
 
 TEST_CASE("a continued run is the run: KINSOL, the paper's pointwise dilatation, a pull along oblique fibres") {
-  const std::string pull = "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [6, 3, 3]}}}\nsupports: [{on: x_min, hold: [x, y, z]}]\n"
-                           "loads: [{on: x_max, displacement: {x: 0.8}}]\nmaterial: " + skin;
+  const std::string pull =
+      "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [6, 3, 3]}}}\nsupports: [{on: x_min, hold: [x, y, z]}]\n"
+      "loads: [{on: x_max, displacement: {x: 0.8}}]\nmaterial: " +
+      skin;
   check(pull + "solver: {kinsol: {strategy: newton}}\n");
   check(pull + "formulation: displacement\n");
   check(pull);

@@ -23,7 +23,9 @@ struct Run {
 Run run(const std::string& text, const Mesh& mesh) {
   const SolveConfig config = config_of(text);
   Run out{make_scene(config, mesh, config.material, nowhere), {}, 0};
-  out.last = test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver}).steps.back();
+  out.last =
+      test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver})
+          .steps.back();
   for (int n : mesh.node_sets.at("x_max")) out.force += out.last.reaction[n][0];
   return out;
 }
@@ -45,7 +47,8 @@ const std::string pulled =
 
 std::string family(double c1, double alpha) { return fmt::format("{{hgo: {{c1: {}, c2: 0.3}}, alpha: {}}}", c1, alpha); }
 std::string law(const std::vector<std::string>& families) {
-  return fmt::format("{{matrix: {{neo_hooke: {{a1: 0.05}}}}, fibres: [{}], volume: {{quadratic: {{d: 1e-3}}}}}}", fmt::join(families, ", "));
+  return fmt::format("{{matrix: {{neo_hooke: {{a1: 0.05}}}}, fibres: [{}], volume: {{quadratic: {{d: 1e-3}}}}}}",
+                     fmt::join(families, ", "));
 }
 
 // lower and upper half in y
@@ -63,7 +66,8 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
   const Mesh mesh = test::cube(2);
   // ../shared/cases/fibre_c1_zero.yaml
   const auto known = [&](double c1) {
-    return run("material: " + law({family(c1, 0), family(0.3, 90)}) + "\nfibre_field: {formula: {alpha: \"0\"}}\n" + pulled, mesh).force;
+    return run("material: " + law({family(c1, 0), family(0.3, 90)}) + "\nfibre_field: {formula: {alpha: \"0\"}}\n" + pulled, mesh)
+        .force;
   };
   CHECK(known(0) == doctest::Approx(0.0506).epsilon(2e-3));
   CHECK(known(0) == doctest::Approx(known(1e-9)).epsilon(1e-6));
@@ -73,7 +77,8 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
   for (int n = 0; n < 8; ++n) {
     const int families = 2 + n % 2, slack = n % families;
     const double at[] = {angle(random), angle(random), angle(random)};
-    const std::string field = fmt::format("fibre_field: {{formula: {{alpha: \"{} + {}*x + {}*z\"}}}}\n", angle(random), slope(random), slope(random));
+    const std::string field =
+        fmt::format("fibre_field: {{formula: {{alpha: \"{} + {}*x + {}*z\"}}}}\n", angle(random), slope(random), slope(random));
     const auto with = [&](double c1) {
       std::vector<std::string> all;
       for (int k = 0; k < families; ++k) all.push_back(family(k == slack ? c1 : 0.1 + 0.1 * k, at[k]));
@@ -90,7 +95,8 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
     for (const auto& [name, values] : little.last.cell_fields) {
       CAPTURE(name);
       REQUIRE(none.last.cell_fields.count(name) == 1);
-      for (std::size_t e = 0; e < values.size(); ++e) CHECK(none.last.cell_fields.at(name)[e] == doctest::Approx(values[e]).epsilon(1e-6));
+      for (std::size_t e = 0; e < values.size(); ++e)
+        CHECK(none.last.cell_fields.at(name)[e] == doctest::Approx(values[e]).epsilon(1e-6));
     }
     CHECK(none.scene.families() == families - 1);
   }
@@ -99,18 +105,22 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
 TEST_CASE("Families with c1 = 0 cost nothing and refuse nothing: the state is that of a law without them, to the last bit") {
   const Mesh mesh = test::cube(2);
   const Run without = run("material: " + law({family(0.2, 30)}) + "\n" + pulled, mesh);
-  const Run with = run("material: " + law({family(0, 10), family(0.2, 30), family(0, 77), family(0, 1), family(0, 2)}) + "\n" + pulled, mesh);
+  const Run with =
+      run("material: " + law({family(0, 10), family(0.2, 30), family(0, 77), family(0, 1), family(0, 2)}) + "\n" + pulled, mesh);
   REQUIRE(with.last.u.size() == without.last.u.size());
   for (std::size_t i = 0; i < with.last.u.size(); ++i) CHECK(with.last.u[i] == without.last.u[i]);
   // their directions break no symmetry
-  const std::string slanted = "material: " + law({family(0, 30)}) + "\nsymmetry: mirror_x\nloads: [{on: y_max, displacement: {y: 0.1}}]\n"
+  const std::string slanted = "material: " + law({family(0, 30)}) +
+                              "\nsymmetry: mirror_x\nloads: [{on: y_max, displacement: {y: 0.1}}]\n"
                               "supports: [{on: y_min, hold: [x, y, z]}]\n";
-  CHECK(ReducedScene::find(SymmetryChoice::mirror_x, mesh, make_scene(config_of(slanted), mesh, config_of(slanted).material, nowhere), nowhere));
+  CHECK(ReducedScene::find(SymmetryChoice::mirror_x, mesh,
+                           make_scene(config_of(slanted), mesh, config_of(slanted).material, nowhere), nowhere));
 }
 
 TEST_CASE("A body's own angles, or those of its own material, hold under a field or angles at the top") {
   const Mesh mesh = two_layers();
-  const std::string stiff = law({family(0.3, 0)}), top = "material: " + stiff + "\n", field = "fibre_field: {formula: {alpha: \"90\"}}\n";
+  const std::string stiff = law({family(0.3, 0)}), top = "material: " + stiff + "\n",
+                    field = "fibre_field: {formula: {alpha: \"90\"}}\n";
   const auto in_a_and_b = [&](const std::string& text) {
     const Scene scene = make_scene(config_of(text + pulled), mesh, config_of(text + pulled).material, nowhere);
     std::array<double, 2> along{-1, -1};  // share of the direction along x
@@ -129,7 +139,10 @@ TEST_CASE("A body's own angles, or those of its own material, hold under a field
   is(in_a_and_b(top + "fibre_angles: [60]\nmaterials: {b: {material: " + stiff + "}}\n"), 0.5, 1);
   // a field alone in both, body by body: forces of the layers add up
   const auto force = [&](double a, double b) {
-    return run(top + fmt::format("fibre_field: {{formula: {{alpha: \"{}\"}}}}\nmaterials: {{b: {{fibre_angles: [{}]}}}}\n", a, b) + pulled, mesh).force;
+    return run(top + fmt::format("fibre_field: {{formula: {{alpha: \"{}\"}}}}\nmaterials: {{b: {{fibre_angles: [{}]}}}}\n", a, b) +
+                   pulled,
+               mesh)
+        .force;
   };
   CHECK(force(90, 0) == doctest::Approx(force(0, 90)).epsilon(1e-6));
   CHECK(force(90, 0) > 1.2 * force(90, 90));

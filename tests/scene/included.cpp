@@ -41,7 +41,8 @@ std::string said(Tree tree) {
 
 std::string terms(const Material& m) {
   std::string all;
-  for (const MatrixTerm& term : m.matrix) all += (all.empty() ? "" : " ") + std::visit([](const auto& t) { return std::string(t.key); }, term);
+  for (const MatrixTerm& term : m.matrix)
+    all += (all.empty() ? "" : " ") + std::visit([](const auto& t) { return std::string(t.key); }, term);
   return all;
 }
 
@@ -52,8 +53,10 @@ const std::string moved = "supports: [{on: y_min, hold: [y]}]\nloads: [{on: y_ma
 
 TEST_CASE("A matrix beside an include replaces the included one, whatever the two are") {
   const Folder folder;
-  const std::vector<std::pair<std::string, std::string>> laws{
-      {"neo_hooke", "{a1: 0.3}"}, {"yeoh", "{a1: 0.2, a2: 0.1}"}, {"mooney_rivlin", "{c10: 0.1, c01: 0.1}"}, {"gent", "{mu: 0.3, Jm: 40}"}};
+  const std::vector<std::pair<std::string, std::string>> laws{{"neo_hooke", "{a1: 0.3}"},
+                                                              {"yeoh", "{a1: 0.2, a2: 0.1}"},
+                                                              {"mooney_rivlin", "{c10: 0.1, c01: 0.1}"},
+                                                              {"gent", "{mu: 0.3, Jm: 40}"}};
   for (const auto& [below, b] : laws)
     for (const auto& [above, a] : laws) {
       folder.write("law.yaml", fmt::format("matrix: {{{}: {}}}\n{}", below, b, rest));
@@ -106,12 +109,17 @@ TEST_CASE("Every key that chooses takes the choice beside the include") {
                                   "contacts: {tip: {rigid: {plane: {point: [0, 1, 0], normal: [0, -1, 0]}}}}\n");
   CHECK(std::holds_alternative<Plane>(indenter.contacts.at("tip").rigid));
   CHECK(std::get<Sphere>(of("contacts: {tip: {rigid: {sphere: {radius: 1, centre: [0, 2, 0]}}" + motion + "}}\n",
-                            "contacts: {tip: {rigid: {sphere: {radius: 3}}}}\n").contacts.at("tip").rigid).radius == 3);
+                            "contacts: {tip: {rigid: {sphere: {radius: 3}}}}\n")
+                             .contacts.at("tip")
+                             .rigid)
+            .radius == 3);
   CHECK(std::holds_alternative<KinsolOptions>(of("solver: {newton: {relative: 1e-9}}\n", "solver: {kinsol: {}}\n").solver));
   CHECK(std::holds_alternative<PointField>(
       *of("fibre_field: {formula: {alpha: \"3\"}}\n", "fibre_field: {points: {file: a.csv}}\n").fibre_field));
-  const SolveConfig mesh = of("mesh: {geometry: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}, sets: {s: {of: top, within: {cylinder: {axis: y, radius: 2}}}}}\n",
-                              "mesh: {geometry: {indented_block: {size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.5}}}\n");
+  const SolveConfig mesh =
+      of("mesh: {geometry: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}, sets: {s: {of: top, within: {cylinder: {axis: y, "
+         "radius: 2}}}}}\n",
+         "mesh: {geometry: {indented_block: {size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.5}}}\n");
   CHECK(std::holds_alternative<IndentedBlock>(mesh.mesh->geometry));
 }
 

@@ -33,7 +33,9 @@ struct Run {
 
 Run run(const SolveConfig& config, const Mesh& mesh) {
   Run out{mesh, make_scene(config, mesh, config.material, nowhere), {}};
-  out.steps = test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver}).steps;
+  out.steps =
+      test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver})
+          .steps;
   return out;
 }
 Run run(const std::string& text) { return run(config_of(text), mesh_in(config_of(text))); }
@@ -74,7 +76,8 @@ std::string ball(double mu, double depth = 1) {
 }
 // of the same area as the block of 30 x 30 mm
 std::string disc(double edge, const char* cells) {
-  return "{indented_disc: {size: [16.925687506432689, 4], radius: 2.5, depth: 1, edge: " + std::to_string(edge) + "}}\n  cells: " + cells;
+  return "{indented_disc: {size: [16.925687506432689, 4], radius: 2.5, depth: 1, edge: " + std::to_string(edge) +
+         "}}\n  cells: " + cells;
 }
 
 }  // namespace
@@ -86,8 +89,8 @@ TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a poi
       CAPTURE(way);
       const SolveConfig config = config_of(
           "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [3, 4]}}, cells: " + std::string(cells) + "}\n" +
-          yeoh + tight +
-          "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: " + std::to_string(way) + "}}]\n");
+          yeoh + tight + "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: " + std::to_string(way) +
+          "}}]\n");
       Mesh mesh = mesh_in(config);
       distort(mesh, 0.15);
       const Run r = run(config, mesh);
@@ -112,7 +115,7 @@ TEST_CASE("a cylinder stretched along its radius and its axis stores the energy 
     CAPTURE(cells);
     const SolveConfig config = config_of(
         "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [4, 3]}}, cells: " + std::string(cells) + "}\n" +
-          yeoh + tight +
+        yeoh + tight +
         "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: -0.75}}, {on: x_max, displacement: {x: 0.3}}]\n");
     Mesh mesh = mesh_in(config);
     distort(mesh, 0.1);
@@ -144,11 +147,10 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
     CAPTURE(cells);
     std::vector<double> errors;
     for (int divisions : {3, 6}) {  // beyond, what rounding leaves at this d is seen
-      const Run r = run("mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" +
-                        std::to_string(divisions) + ", 1]}}, cells: " + cells +
-                        "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-7}}}\n" +
-                        tight +
-                        "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, displacement: {x: 0.5}}]\n");
+      const Run r = run(
+          "mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" + std::to_string(divisions) +
+          ", 1]}}, cells: " + cells + "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-7}}}\n" + tight +
+          "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, displacement: {x: 0.5}}]\n");
       errors.push_back(std::abs(r.reaction("x_min")[0] / force - 1));
       for (int i : r.mesh.node_sets.at("x_max")) CHECK(r.last().u[i][0] == doctest::Approx(std::sqrt(4 + C) - 2).epsilon(1e-6));
     }
@@ -160,10 +162,10 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
 
 TEST_CASE("plane strain is a layer of the block held along z on both faces") {
   for (const CellType cells : {CellType::hex8, CellType::hex27}) {
-    const SolveConfig config = config_of(
-        "mesh: {geometry: {section: {of: plane_strain, size: [3, 2], divisions: [4, 3], thickness: 0.7}}, cells: " +
-        std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
-        "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
+    const SolveConfig config =
+        config_of("mesh: {geometry: {section: {of: plane_strain, size: [3, 2], divisions: [4, 3], thickness: 0.7}}, cells: " +
+                  std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
+                  "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
     const Mesh mesh = mesh_in(config);
     const Run flat = run(config, mesh);
     Mesh layer = test::block(test::even(0, 3, 4), test::even(0, 2, 3), {0, 0.7});
@@ -209,9 +211,9 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
     for (const char* of : {"axisymmetric", "plane_strain"}) {
       CAPTURE(cells);
       CAPTURE(of);
-      const SolveConfig config = config_of("mesh: {geometry: {section: {of: " + std::string(of) +
-                                           ", size: [2, 1], divisions: [2, 2]}}, cells: " + cells + "}\n" + yeoh +
-                                           "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: 0.1}}]\n");
+      const SolveConfig config =
+          config_of("mesh: {geometry: {section: {of: " + std::string(of) + ", size: [2, 1], divisions: [2, 2]}}, cells: " + cells +
+                    "}\n" + yeoh + "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: 0.1}}]\n");
       Mesh mesh = mesh_in(config);
       distort(mesh, 0.05);
       const Scene whole = make_scene(config, mesh, config.material, nowhere);
@@ -255,7 +257,7 @@ TEST_CASE("a disc under a sphere gives the reference force, and that of the bloc
   // converged forces of an axisymmetric model of other elements, +-0.3 %
   SolveConfig config = config_of(indentation(disc(0.125, "hex27"), ball(0)));
   config.contacts.at("ball").motion.clear();
-  const std::vector<std::pair<double, double>> reference{{0.1, 0.1668}, {0.2, 0.511},  {0.3, 1.0095},
+  const std::vector<std::pair<double, double>> reference{{0.1, 0.1668}, {0.2, 0.511}, {0.3, 1.0095},
                                                          {0.5, 2.507},  {0.7, 4.842}, {1, 10.76}};
   for (const auto& [depth, force] : reference) config.contacts.at("ball").motion.push_back({depth, {0, -depth, 0}});
   const Run r = run(config, mesh_in(config));
@@ -300,10 +302,10 @@ TEST_CASE("a shallow indentation of a deep body gives the force of Hertz") {
 
 TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
   // an ellipsoid so long that it is a bar for the block too
-  const std::string rest =
-      yeoh + "supports: [{on: bottom, hold: [x, y]}]\ncontacts: {bar: {on: top, "
-             "rigid: {ellipsoid: {half_axes: [1, 1, 500], centre: [0, 2, 0]}}, "
-             "motion: [{t: 1, to: [0.1, -0.3, 0]}], friction: 0.2}}\npath: {first: 0.25, largest: 0.25}\n";
+  const std::string rest = yeoh +
+                           "supports: [{on: bottom, hold: [x, y]}]\ncontacts: {bar: {on: top, "
+                           "rigid: {ellipsoid: {half_axes: [1, 1, 500], centre: [0, 2, 0]}}, "
+                           "motion: [{t: 1, to: [0.1, -0.3, 0]}], friction: 0.2}}\npath: {first: 0.25, largest: 0.25}\n";
   const SolveConfig config =
       config_of("mesh: {geometry: {section: {of: plane_strain, origin: [-2, 0], size: [4, 1], divisions: [16, 4]}}}\n" + rest);
   const Run flat = run(config, mesh_in(config));
@@ -319,10 +321,10 @@ TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
 
 TEST_CASE("what has no section is refused by name") {
   const auto words = [](const std::string& of, const std::string& more, const std::string& contact = "") -> std::string {
-    const SolveConfig config = config_of("mesh: {geometry: {section: {of: " + of + ", size: [5, 2], divisions: [4, 2]}}}\n" +
-                                         (more.find("material") == std::string::npos ? yeoh : "") + more +
-                                         "supports: [{on: bottom, hold: [x, y, z]}]\n" +
-                                         (contact.empty() ? "" : "contacts: {tool: {on: top, " + contact + "}}\n"));
+    const SolveConfig config =
+        config_of("mesh: {geometry: {section: {of: " + of + ", size: [5, 2], divisions: [4, 2]}}}\n" +
+                  (more.find("material") == std::string::npos ? yeoh : "") + more + "supports: [{on: bottom, hold: [x, y, z]}]\n" +
+                  (contact.empty() ? "" : "contacts: {tool: {on: top, " + contact + "}}\n"));
     try {
       make_scene(config, mesh_in(config), config.material, nowhere);
       return "taken";
@@ -340,19 +342,21 @@ TEST_CASE("what has no section is refused by name") {
   CHECK(holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0.1, -0.1, 0]}]"),
               "contacts.tool.motion[0].to: found [0.1, -0.1, 0], on an axisymmetric section; expected a movement along y"));
   CHECK(words("axisymmetric", "", "rigid: {plane: {point: [0, 2, 0], normal: [0, -1, 0]}}, " + down) == "taken");
-  CHECK(holds(words("axisymmetric", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, " + down), "contacts.tool.rigid"));
-  CHECK(holds(words("axisymmetric", "", "rigid: {ellipsoid: {half_axes: [1, 1, 2], centre: [0, 3, 0]}}, " + down), "contacts.tool.rigid"));
+  CHECK(
+      holds(words("axisymmetric", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, " + down), "contacts.tool.rigid"));
+  CHECK(holds(words("axisymmetric", "", "rigid: {ellipsoid: {half_axes: [1, 1, 2], centre: [0, 3, 0]}}, " + down),
+              "contacts.tool.rigid"));
   CHECK(holds(words("axisymmetric", "", "rigid: {cylinder: {radius: 1, edge: 0.1, face: [0, 2, 0], axis: [1, 0, 0]}}, " + down),
               "contacts.tool.rigid"));
-  CHECK(words("plane_strain", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, "
+  CHECK(words("plane_strain", "",
+              "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, "
               "motion: [{t: 1, to: [0.1, -0.1, 0]}]") == "taken");
   CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 1]}}, " + down), "contacts.tool.rigid"));
   CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0, -0.1, 0.1]}]"),
               "motion[0].to"));
   const auto fibres = [](double c1, double alpha, double kappa) {
-    return "material: {matrix: {neo_hooke: {a1: 0.5}}, fibres: [{hgo: {c1: " + std::to_string(c1) + ", c2: 1}, alpha: " +
-           std::to_string(alpha) +
-           ", kappa: " + (kappa > 0 ? std::string("0.33333333333333331") : "0") +
+    return "material: {matrix: {neo_hooke: {a1: 0.5}}, fibres: [{hgo: {c1: " + std::to_string(c1) +
+           ", c2: 1}, alpha: " + std::to_string(alpha) + ", kappa: " + (kappa > 0 ? std::string("0.33333333333333331") : "0") +
            "}], volume: {quadratic: {d: 1.0e-3}}}\nloads: [{on: top, displacement: {y: 0.1}}]\n";
   };
   CHECK(holds(words("axisymmetric", fibres(0.1, 0, 0)), "fibres in the body \"skin\""));

@@ -14,10 +14,10 @@ namespace {
 
 struct Case {
   int nx = 8, nz = 8;
-  double alpha = 60;                  // [deg]
-  Vec3 to = Vec3(0, -0.5, 0);         // of the indenter [mm]
+  double alpha = 60;           // [deg]
+  Vec3 to = Vec3(0, -0.5, 0);  // of the indenter [mm]
   double mu = 0.34;
-  Vec3 side = Vec3::Zero();           // of the indenter's place
+  Vec3 side = Vec3::Zero();  // of the indenter's place
   SymmetryChoice symmetry = SymmetryChoice::automatic;
   CellType cells = CellType::hex8;
 };
@@ -126,7 +126,8 @@ TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked fo
   CHECK(words({.to = Vec3(0.1, -0.4, 0)}) == "none");  // oblique fibres
   CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::none}) == "none");
   CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::mirror_x}).find("fibres") != std::string::npos);
-  CHECK(words({.alpha = 0, .side = Vec3(0.1, 0, 0), .symmetry = SymmetryChoice::quarter}).find("indenter \"ball\"") != std::string::npos);
+  CHECK(words({.alpha = 0, .side = Vec3(0.1, 0, 0), .symmetry = SymmetryChoice::quarter}).find("indenter \"ball\"") !=
+        std::string::npos);
   CHECK(words({.alpha = 0, .to = Vec3(0.1, -0.4, 0), .symmetry = SymmetryChoice::half_turn}).find("path") != std::string::npos);
 
   const Case c{.alpha = 0};

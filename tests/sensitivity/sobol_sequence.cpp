@@ -47,7 +47,8 @@ TEST_CASE("the first two axes are even together, and the sequence is Sobol's: it
   // a (0, 6, 2) net: one point in every elementary box of volume 1/64
   for (int a = 0; a <= 6; ++a) {
     std::map<std::pair<int, int>, int> count;
-    for (int i = 0; i < n; ++i) ++count[{static_cast<int>(points(i, 0) * (1 << a)), static_cast<int>(points(i, 1) * (1 << (6 - a)))}];
+    for (int i = 0; i < n; ++i)
+      ++count[{static_cast<int>(points(i, 0) * (1 << a)), static_cast<int>(points(i, 1) * (1 << (6 - a)))}];
     CHECK(count.size() == n);
   }
   // Joe and Kuo's points 0, 1, 2, 3 in three dimensions, in Gray code's order: exclusive ors of the leading bits

@@ -99,8 +99,7 @@ Words differences(const fs::path& expected, const fs::path& found) {
   const auto files = [&](const fs::path& folder) {
     std::map<std::string, fs::path> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && !is_left_over(entry.path()))
-        names[fs::relative(entry.path(), folder).string()] = entry.path();
+      if (entry.is_regular_file() && !is_left_over(entry.path())) names[fs::relative(entry.path(), folder).string()] = entry.path();
     return names;
   };
   const auto in_expected = files(expected), in_found = files(found);
@@ -125,7 +124,8 @@ Words differences(const fs::path& expected, const fs::path& found) {
 struct Pages {
   int scanned = 0, wrong = 0, failed = 0;
 };
-Pages scan_pages(const fs::path& project, const Job& solve, double duration, const fs::path& expected, const fs::path& log, unsigned seed) {
+Pages scan_pages(const fs::path& project, const Job& solve, double duration, const fs::path& expected, const fs::path& log,
+                 unsigned seed) {
   constexpr std::size_t page = 4096;
   const fs::path out = project / "out", part = out / "solution.h5.part", steps = out / "solution.h5.steps";
   for (double share = 0.6; share > 0.05 && !fs::exists(steps); share *= 0.8) {
@@ -178,8 +178,17 @@ int main(int argc, char** argv) {
   for (const char* folder : {"configs", "pipelines", "data"})
     fs::copy(root / folder, project / folder, fs::copy_options::recursive);
   const auto program = [&](const std::string& stage) { return (bin / ("langer-" + stage)).string(); };
-  const Words solve{program("solve"), "configs/solve/smoke.yaml", "--mesh", "in/mesh.h5", "--material",
-                    "configs/material/abdomen_hgo_yeoh.yaml", "--set", "path.first=0.01", "--set", "path.largest=0.01", "-o"};
+  const Words solve{program("solve"),
+                    "configs/solve/smoke.yaml",
+                    "--mesh",
+                    "in/mesh.h5",
+                    "--material",
+                    "configs/material/abdomen_hgo_yeoh.yaml",
+                    "--set",
+                    "path.first=0.01",
+                    "--set",
+                    "path.largest=0.01",
+                    "-o"};
   const auto ended = [&](Words command) {
     const fs::path log = work / "input.log";
     if (!run(project, std::move(command), "in", 0, log).exited()) throw std::runtime_error(bytes(log));
@@ -202,10 +211,14 @@ int main(int argc, char** argv) {
   const std::vector<Job> jobs{
       {"mesh", {program("mesh"), "configs/mesh/indentation.yaml", "-o", "OUT/mesh.h5"}, "mesh.h5"},
       {"fit", {program("fit"), "configs/fit/abdomen_hgo.yaml", "--set", "starts=2", "-o", "OUT/material.h5"}, "material.h5"},
-      {"sensitivity", {program("sensitivity"), "ranks.yaml", "--material", "in/material.h5", "-o", "OUT/sensitivity.h5"}, "sensitivity.h5"},
+      {"sensitivity",
+       {program("sensitivity"), "ranks.yaml", "--material", "in/material.h5", "-o", "OUT/sensitivity.h5"},
+       "sensitivity.h5"},
       {"solve", solve_to("OUT/solution.h5"), "solution.h5"},
       {"post", {program("post"), "configs/post/smoke.yaml", "--solution", "in/solution.h5", "-o", "OUT/curves.h5"}, "curves.h5"},
-      {"gather", {program("gather"), "table.yaml", "--curves", "in/curves.h5", "--curves", "in/curves.h5", "-o", "OUT/sweep.h5"}, "sweep.h5"},
+      {"gather",
+       {program("gather"), "table.yaml", "--curves", "in/curves.h5", "--curves", "in/curves.h5", "-o", "OUT/sweep.h5"},
+       "sweep.h5"},
       {"plan", {program("plan"), "pipelines/indentation_angles.yaml", "-o", "OUT"}, "Makefile"},
       {"make", {"make", "-j2", "-C", "OUT"}, "table/sweep.h5"},
   };
@@ -262,21 +275,24 @@ int main(int argc, char** argv) {
                                       : Words{fmt::format("ended with status {}\n{}", last.status, bytes(log))};
     if (wrong.empty()) continue;
     ++failures;
-    std::printf("FAILED %s, seed %u, killed after %s s:\n%s\n", job.name.c_str(), seed, fmt::format("{}", fmt::join(times, ", ")).c_str(),
-                fmt::format("{}", fmt::join(wrong, "\n")).c_str());
+    std::printf("FAILED %s, seed %u, killed after %s s:\n%s\n", job.name.c_str(), seed,
+                fmt::format("{}", fmt::join(times, ", ")).c_str(), fmt::format("{}", fmt::join(wrong, "\n")).c_str());
   }
-  std::string text = "| program | a run alone, s | kills that met it running | runs that ended before | unfinished files left | "
-                     "runs to the end, all equal |\n"
-                     "| --- | --- | --- | --- | --- | --- |\n";
+  std::string text =
+      "| program | a run alone, s | kills that met it running | runs that ended before | unfinished files left | "
+      "runs to the end, all equal |\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
   for (const Job& job : jobs)
     if (const auto c = counts.find(job.name); c != counts.end())
-      text += fmt::format("| {} | {:.2f} | {} | {} | {} | {} |\n", job.name, c->second.seconds, c->second.kills, c->second.ended_before,
-                          c->second.with_part, c->second.runs);
+      text += fmt::format("| {} | {:.2f} | {} | {} | {} | {} |\n", job.name, c->second.seconds, c->second.kills,
+                          c->second.ended_before, c->second.with_part, c->second.runs);
   text += fmt::format("\n{} kills, {} failures, seed {}\n", done, failures, seed);
   if (pages) {
     const Pages scan = scan_pages(project, jobs[3], duration["solve"], work / "expected_solve", work / "pages.log", seed);
-    text += fmt::format("\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did not end well\n",
-                        scan.scanned, scan.wrong, scan.failed);
+    text += fmt::format(
+        "\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did "
+        "not end well\n",
+        scan.scanned, scan.wrong, scan.failed);
     failures += scan.wrong + scan.failed + (scan.scanned == 0);
   }
   std::printf("%s", text.c_str());

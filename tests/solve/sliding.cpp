@@ -20,8 +20,7 @@ struct EnergyOf {
       const BodyState& state = statics.accepted();
       const VecX reactions = statics.reactions();
       std::vector<Vec3> u, f;
-      for (Eigen::Index i = 0; i < state.u.size(); i += 3)
-        u.push_back(state.u.segment<3>(i)), f.push_back(reactions.segment<3>(i));
+      for (Eigen::Index i = 0; i < state.u.size(); i += 3) u.push_back(state.u.segment<3>(i)), f.push_back(reactions.segment<3>(i));
       if (!path) {
         path = std::make_unique<EnergyPath>(body.mesh(), statics.contacts());
         const std::vector<Vec3> rest(body.mesh().n_nodes(), Vec3::Zero());
@@ -122,7 +121,8 @@ TEST_CASE("energy where sticking gives way to sliding: in balance to 1e-3 all al
   CHECK(coarse > 3 * fine);
 }
 
-TEST_CASE("a node that touches within an increment slips from there on: the force of an indentation hardly depends on the increments") {
+TEST_CASE(
+    "a node that touches within an increment slips from there on: the force of an indentation hardly depends on the increments") {
   const auto force = [](double step) {
     test::Indentation scene;
     scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4, scene.step = step;

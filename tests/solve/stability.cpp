@@ -180,8 +180,10 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
           std::vector<double> values = body.K();
           const MatX plain = dense(body);
           const VecX own = Eigen::SelfAdjointEigenSolver<MatX>(plain).eigenvalues();
-          const double middle = shift == 0 ? 0 : 0.5 * (own[static_cast<int>(shift * (own.size() - 2))] +
-                                                        own[static_cast<int>(shift * (own.size() - 2)) + 1]);
+          const double middle =
+              shift == 0
+                  ? 0
+                  : 0.5 * (own[static_cast<int>(shift * (own.size() - 2))] + own[static_cast<int>(shift * (own.size() - 2)) + 1]);
           if (shift == 0 && loose) continue;  // singular
           for (int c = 0; c < body.pattern().n; ++c) values[body.pattern().column_start[c]] -= middle;
           CHECK(linear.negative_pivots(values) == (own.array() < middle).count());

@@ -129,7 +129,8 @@ TEST_CASE("two signs turned over, records of another journal, records in another
   CHECK(records(path).empty());
   write_bytes(path, whole.substr(0, begin + length) + other.substr(begin + length));
   CHECK(records(path).size() == 1);
-  write_bytes(path, whole.substr(0, begin + length) + whole.substr(begin + 2 * length, length) + whole.substr(begin + length, length));
+  write_bytes(path,
+              whole.substr(0, begin + length) + whole.substr(begin + 2 * length, length) + whole.substr(begin + length, length));
   CHECK(records(path).size() == 1);
   {  // what is written behind damage stays readable, and the damage is gone
     Journal journal(path);

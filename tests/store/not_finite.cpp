@@ -90,9 +90,12 @@ TEST_CASE("a number that is not finite is refused in every dataset of every inpu
       for (int i = 0; i < 3; ++i) writer.append(example::step(i, true));
       writer.finish();
     }
-    CHECK(words(taken(solution, value, [&] {
-            const SolutionReader reader(solution);
-            for (int i = 0; i < reader.n_steps(); ++i) reader.step(i);
-          })) == "VTKHDF/Steps/Values history/reactions/M history/reactions/x_min ");  // copies of history/t and reaction that no stage reads
+    CHECK(
+        words(taken(solution, value,
+                    [&] {
+                      const SolutionReader reader(solution);
+                      for (int i = 0; i < reader.n_steps(); ++i) reader.step(i);
+                    })) ==
+        "VTKHDF/Steps/Values history/reactions/M history/reactions/x_min ");  // copies of history/t and reaction that no stage reads
   }
 }

@@ -38,7 +38,8 @@ TEST_CASE("what a run reads is not replaced, whatever name leads to it") {
   std::filesystem::create_hard_link(data, folder + "/same.csv");
   never_replace(data);
   for (const std::string name : {"/fit.csv", "/same.csv", "/../spared/fit.csv"}) {
-    CHECK(holds(refusal([&] { write_text_file(folder + name, "strain,stress_MPa\n"); }), "is read by this run and would be replaced"));
+    CHECK(holds(refusal([&] { write_text_file(folder + name, "strain,stress_MPa\n"); }),
+                "is read by this run and would be replaced"));
     CHECK(holds(refusal([&] { h5::File::create(folder + name); }), "is read by this run"));
     CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is read by this run"));
   }
@@ -53,8 +54,11 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
   REQUIRE(mkfifo((folder + "/fifo").c_str(), 0600) == 0);
   std::filesystem::create_symlink(folder + "/target.h5", folder + "/link");
   std::filesystem::create_symlink(folder + "/nowhere", folder + "/dangling");
-  const std::vector<std::array<std::string, 2>> cases{
-      {"/dev/null", "is no plain file"}, {folder + "/fifo", "is no plain file"}, {folder, "is a folder"}, {folder + "/link", "is a link to " + folder + "/target.h5"}, {folder + "/dangling", "is a link to"}};
+  const std::vector<std::array<std::string, 2>> cases{{"/dev/null", "is no plain file"},
+                                                      {folder + "/fifo", "is no plain file"},
+                                                      {folder, "is a folder"},
+                                                      {folder + "/link", "is a link to " + folder + "/target.h5"},
+                                                      {folder + "/dangling", "is a link to"}};
   for (const auto& [path, found] : cases) {
     CAPTURE(path);
     CHECK(holds(refusal([&] { need_own_output(path); }), found));
@@ -74,15 +78,18 @@ TEST_CASE("an output or a log that is there has to be ours") {
   write_bytes(folder + "/cut.h5", example::bytes(folder + "/mesh.h5").substr(0, 9000));
   write_bytes(folder + "/report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n");
   write_bytes(folder + "/solve.log", "# langer-solve solve.yaml\n");
-  for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"}) CHECK(refusal([&] { need_own_output(folder + name); }) == "");
+  for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"})
+    CHECK(refusal([&] { need_own_output(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/solve.log"})
     CHECK(holds(refusal([&] { need_own_output(folder + name); }), "is there already and was not made by langer"));
   for (const char* name : {"/solve.log", "/none.log"}) CHECK(refusal([&] { need_own_log(folder + name); }) == "");
-  for (const char* name : {"/notes.txt", "/mesh.h5"}) CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is no log of langer"));
+  for (const char* name : {"/notes.txt", "/mesh.h5"})
+    CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is no log of langer"));
 }
 
 TEST_CASE("beside an output that is made for the first time, a text with another first line is somebody else's") {
-  const std::string folder = example::folder("beside"), ours = "strain,stress_MPa,model_MPa\n0,0,0\n", theirs = "strain,stress_MPa\n0,0\n";
+  const std::string folder = example::folder("beside"), ours = "strain,stress_MPa,model_MPa\n0,0,0\n",
+                    theirs = "strain,stress_MPa\n0,0\n";
   begin_beside(folder + "/material.h5");
   write_bytes(folder + "/fit.csv", theirs);
   CHECK(holds(refusal([&] { write_text_file(folder + "/fit.csv", ours); }), "was not made by this step"));

@@ -42,8 +42,8 @@ inline bool same(const StepRecord& a, const StepRecord& b) {
                c.gap == found->second.gap;
   }
   return contacts && a.t == b.t && a.increment == b.increment && a.iterations == b.iterations && a.residual == b.residual &&
-         a.u == b.u && a.reaction == b.reaction && a.cell_fields == b.cell_fields && a.scalars == b.scalars &&
-         a.u_ind == b.u_ind && a.force_ind == b.force_ind;
+         a.u == b.u && a.reaction == b.reaction && a.cell_fields == b.cell_fields && a.scalars == b.scalars && a.u_ind == b.u_ind &&
+         a.force_ind == b.force_ind;
 }
 
 }  // namespace langer::example

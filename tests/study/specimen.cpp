@@ -111,8 +111,9 @@ TEST_CASE("A config beside a CSV of its name is not taken for what the CSV says;
   write("fit.yaml", config);
   CHECK(read_config<FitConfig>(load_yaml(folder + "/fit.yaml")).config.data[0].file.path == folder + "/fit.csv");
   CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);  // and from another config
-  for (const char* other : {"parameters: [{key: matrix.neo_hooke.a1, around: 0.5}]\nstrain: {from: 0, to: 0.4, points: 3}\nsteps: 10\n",
-                            "columns: [force]\n", "pipeline: fit\nnodes: {}\n", "- a list\n", "just a text\n", "\n"}) {
+  for (const char* other :
+       {"parameters: [{key: matrix.neo_hooke.a1, around: 0.5}]\nstrain: {from: 0, to: 0.4, points: 3}\nsteps: 10\n",
+        "columns: [force]\n", "pipeline: fit\nnodes: {}\n", "- a list\n", "just a text\n", "\n"}) {
     CAPTURE(std::string(other));
     write("fit.yaml", other);
     CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);
@@ -134,6 +135,8 @@ TEST_CASE("A force in N over an elongation in mm, described in the config, in th
   fs::remove(folder + "/lab.yaml");
   holds(refusal("{file: lab.csv, thickness: 2, gauge_length: 40}"), "lab.csv:1:10: width: missing, for the column \"Kraft [N]\"");
   holds(refusal("{file: lab.csv, width: 0, thickness: 2, gauge_length: 40}"), "data[0].width: found 0");
-  holds(refusal("{file: lab.csv, kind: simple_shear, toe: 1, columns: {strain_x: \"Weg [mm]\", stress_x: \"Kraft [N]\"}}"), "toe: found in simple shear");
-  holds(refusal("{file: lab.csv, columns: {strain_x: \"Weg [mm]\", strain_z: b, stress_x: \"Kraft [N]\"}}"), "kind: biaxial, equibiaxial or pure_shear");
+  holds(refusal("{file: lab.csv, kind: simple_shear, toe: 1, columns: {strain_x: \"Weg [mm]\", stress_x: \"Kraft [N]\"}}"),
+        "toe: found in simple shear");
+  holds(refusal("{file: lab.csv, columns: {strain_x: \"Weg [mm]\", strain_z: b, stress_x: \"Kraft [N]\"}}"),
+        "kind: biaxial, equibiaxial or pure_shear");
 }

@@ -11,10 +11,10 @@
 #include <sstream>
 
 #include "base/random.hpp"
-#include "study/fit_report.hpp"
-#include "study/study_files.hpp"
 #include "store/h5.hpp"
 #include "store/material_file.hpp"
+#include "study/fit_report.hpp"
+#include "study/study_files.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -135,8 +135,7 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     CHECK(identifiability.text_attribute("order") == "a1 c1 c2");
     CHECK(identifiability.text_attribute("words") == r.words);
     CHECK(identifiability.read_scalar("noise") == r.noise);
-    const auto error = identifiability.read_finite("error", {3}),
-               correlation = identifiability.read_finite("correlation", {3, 3});
+    const auto error = identifiability.read_finite("error", {3}), correlation = identifiability.read_finite("correlation", {3, 3});
     for (int i = 0; i < 3; ++i) {
       CHECK(error[static_cast<std::size_t>(i)] == r.error[i]);
       for (int j = 0; j < 3; ++j) CHECK(correlation[static_cast<std::size_t>(3 * i + j)] == r.correlation(i, j));
@@ -173,8 +172,7 @@ TEST_CASE("A study: what it finds, keeps and draws") {
       return;
     }
     CHECK(said.empty());
-    for (const char* name :
-         {"correlation.png", "profiles.png", "profiles.svg", "stability_plane.png", "stability_directions.png"})
+    for (const char* name : {"correlation.png", "profiles.png", "profiles.svg", "stability_plane.png", "stability_directions.png"})
       CHECK(fs::file_size(folder + "/" + name) > 1000);
     // without figures the tables alone
     fs::remove_all(folder);

@@ -261,7 +261,8 @@ inline Energies by_ansys(const std::string& text, const Mat3& F) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("TB,", 0) == 0) option = line.substr(line.rfind(',') + 1);
-    if (line.rfind("TB,HYPER", 0) == 0) option += numbers(line.substr(line.find(",1,1,") + 5)).empty() ? "" : line.substr(line.find(",1,1,") + 5, 1);
+    if (line.rfind("TB,HYPER", 0) == 0)
+      option += numbers(line.substr(line.find(",1,1,") + 5)).empty() ? "" : line.substr(line.find(",1,1,") + 5, 1);
     if (line.rfind("TBDATA,", 0) != 0) continue;
     const std::vector<double> n = numbers(line.substr(7));
     REQUIRE(n.size() >= 2);

@@ -28,7 +28,7 @@ struct Indentation {
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   bool loose_base = false;  // the bottom may glide in x
   NewtonOptions newton;
-  std::optional<KinsolOptions> kinsol;  // in place of newton
+  std::optional<KinsolOptions> kinsol;                                                    // in place of newton
   std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
   std::function<void(const Statics&, const Equilibrium&)> after;                          // told after each step
 
@@ -66,8 +66,7 @@ struct Indentation {
     if (quarter)
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
-    RigidContact contact{
-        "sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, motion};
+    RigidContact contact{"sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, motion};
     if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);

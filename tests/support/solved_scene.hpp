@@ -8,8 +8,8 @@
 
 #include "config/reader.hpp"
 #include "run/equilibrium_by.hpp"
-#include "scene/make_mesh.hpp"
 #include "run/step_record.hpp"
+#include "scene/make_mesh.hpp"
 #include "scene/symmetry.hpp"
 #include "solve/load_path.hpp"
 

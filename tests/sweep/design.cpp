@@ -77,8 +77,7 @@ TEST_CASE("Sobol's shares of a product through a design are those of the closed 
   CHECK(values.size() == 4096 * 5 + 1);
   const QuantityEffects e = effects_of(d, "force", "N", values);
   // y = a b, independent: V = Va Vb + Va mb^2 + Vb ma^2 with ma = 2, Va = 1/3, mb = 0.3, Vb = 0.04/3
-  const double Va = 1. / 3, Vb = 0.16 / 12, V = Va * Vb + Va * 0.09 + Vb * 4, first = Va * 0.09 / V,
-               total = first + Va * Vb / V;
+  const double Va = 1. / 3, Vb = 0.16 / 12, V = Va * Vb + Va * 0.09 + Vb * 4, first = Va * 0.09 / V, total = first + Va * Vb / V;
   CHECK(e.sobol->first.low(0, 0) <= first);
   CHECK(e.sobol->first.high(0, 0) >= first);
   CHECK(e.sobol->total.value(0, 0) == doctest::Approx(total).epsilon(0.05));

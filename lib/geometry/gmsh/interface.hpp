@@ -34,8 +34,8 @@ struct Model {
 
 // Both throw std::runtime_error: gmsh's last words.
 struct Functions {
-  const char* made_with;                          // version of the source; the program's own, or they do not fit together
-  Model (*read)(const std::string& path);         // a .msh of any version
+  const char* made_with;                   // version of the source; the program's own, or they do not fit together
+  Model (*read)(const std::string& path);  // a .msh of any version
   Model (*solid)(const std::string& path, bool facets, double edge, bool hexahedra);  // a .step, or triangles (.stl), meshed
 };
 
