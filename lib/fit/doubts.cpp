@@ -26,10 +26,9 @@ Reach reach(const Test& test) {
 void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) {
   constexpr double most_strain = 9, least_strain = 0.01;  // rubber breaks at 8 to 10
   if (r.strain > most_strain)
-    all.push_back(
-        fmt::format("test {}: strains up to {:.3g}, {:.3g} %: if the file gives percent, say strain_unit: percent (or name the "
-                    "column strain_percent)",
-                    test.name, r.strain, 100 * r.strain));
+    all.push_back(fmt::format(
+        "test {}: strains up to {:.3g}, {:.3g} %: if the file gives percent, say strain_unit: percent (or name the column strain_percent)",
+        test.name, r.strain, 100 * r.strain));
   else if (r.strain > 0 && r.strain < least_strain)
     all.push_back(fmt::format("test {}: strains of {:.2g} % at most: if the file gives fractions, its unit is not percent",
                               test.name, 100 * r.strain));
@@ -37,10 +36,9 @@ void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) 
   // tendon and cartilage have up to some 1000 MPa at strains of 0.1, skin and rubber 0.01 to 100, brain and fat some 0.001
   const double most = r.strain > 0.15 ? 100 : 5000, least = 1e-5;
   if (r.strain <= most_strain && r.secant() > most)
-    all.push_back(
-        fmt::format("test {}: {:.3g} MPa at a strain of {:.2g}, {:.2g} MPa a unit of strain: more than soft tissue or rubber; is "
-                    "the stress in kPa?",
-                    test.name, r.stress, r.strain, r.secant()));
+    all.push_back(fmt::format(
+        "test {}: {:.3g} MPa at a strain of {:.2g}, {:.2g} MPa a unit of strain: more than soft tissue or rubber; is the stress in kPa?",
+        test.name, r.stress, r.strain, r.secant()));
   else if (r.secant() < least)
     all.push_back(fmt::format("test {}: {:.2g} MPa at a strain of {:.2g}: less than the softest gel; is the stress in MPa, or kPa?",
                               test.name, r.stress, r.strain));

@@ -132,9 +132,11 @@ struct Reading {
                     "stress: cauchy (true) or nominal (force over the area at rest)",
                     "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
     } else if (format.like.measure == StressMeasure::cauchy) {
-      note(column, fmt::format("the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force "
-                               "over the area at rest)",
-                               name(column)));
+      note(
+          column,
+          fmt::format(
+              "the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force over the area at rest)",
+              name(column)));
       format.stress = StressMeasure::cauchy;  // once
     }
   }

@@ -113,8 +113,7 @@ struct FromFile {
   double scale = 1;
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
-      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) "
-      "or .inp of Abaqus or CalculiX; or a solid "
+      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) or .inp of Abaqus or CalculiX; or a solid "
       "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...",
       required);
     v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step or .stl is meshed with, about", positive);

@@ -15,8 +15,7 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
       ".SUFFIXES:\n"
       "MAKEFLAGS += --no-builtin-rules\n"
       "LAUNCH ?=\n"
-      "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would burn 0.07 s of CPU each, "
-      "waiting\n"
+      "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would burn 0.07 s of CPU each, waiting\n"
       "export OPENBLAS_NUM_THREADS ?= 1\n";
   text += fmt::format("BIN ?= {}\n\n.PHONY: all\nall: {}\n", bin, fmt::join(finals, " "));
   for (const Rule& rule : rules) {

@@ -30,8 +30,7 @@ const std::vector<StageSpec>& stages() {
        {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
        "curves.h5",
        false,
-       "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be "
-       "repeated, "
+       "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
        "and wants --solution only"},
       {"gather",
        "Collects one quantity or several over a sweep.",

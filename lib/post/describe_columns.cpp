@@ -39,16 +39,15 @@ std::string line(const std::string& name, const std::string& unit, const std::st
 
 std::string columns_text() {
   std::string s =
-      "Columns of curves: name, unit, meaning with its sign. In a CSV table a column is called name_unit, name alone without "
-      "unit.\n";
+      "Columns of curves: name, unit, meaning with its sign. In a CSV table a column is called name_unit, name alone without unit.\n";
   const char* group = "";
   for (const QuantityLine& q : quantity_lines) {
     if (const char* of = words(q.of); of != std::string(group)) s += fmt::format("\nquantity: {}\n", group = of);
     s += line(q.word, q.unit, fmt::format("{}: {}", plain(q.label), q.meaning));
   }
   s += "\nquotient: of two columns of one unit, by name, without unit; empty where the second is 0\n";
-  s += "\nhistory: what the solver wrote for every step, /history of a solution (of those with three numbers: quantities), and "
-       "fields of cells\n";
+  s +=
+      "\nhistory: what the solver wrote for every step, /history of a solution (of those with three numbers: quantities), and fields of cells\n";
   for (const solution::HistoryLine& h : solution::history_lines) s += line(h.name, h.unit, h.meaning);
   return s;
 }

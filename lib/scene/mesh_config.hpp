@@ -67,8 +67,7 @@ struct MeshConfig {
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
     v(&MeshConfig::sets, "sets", unit::none, "further sets by name: nodes, and the facets of the surface between them");
     v(&MeshConfig::exports, "export", unit::none,
-      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are "
-      "kept");
+      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
   }
   Points positions() const {
     Points positions;

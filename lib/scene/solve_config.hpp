@@ -148,16 +148,13 @@ struct SolveConfig {
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
-      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and "
-      "the "
+      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and the "
       "symmetry from what was measured (pipelines/trade.yaml)");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
-      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer "
-      "by "
+      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
       "1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
-      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh "
-      "and at once: what the stress lacks to be smooth; of force "
+      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own",
@@ -181,8 +178,7 @@ struct SolveConfig {
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
-      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike "
-      "everywhere, "
+      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike everywhere, "
       "one hexahedron is solved in place of the mesh; every state is put to the mesh, which has to balance");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,

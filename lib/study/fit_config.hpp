@@ -54,8 +54,7 @@ struct FitData {
     v(&FitData::kind, "kind", unit::none, "what the test imposes");
     v(&FitData::columns, "columns", unit::none,
       "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
-      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure "
-      "shear "
+      "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure shear "
       "tests");
     v(&FitData::stress, "stress", unit::none,
       "measure of the stress where its column's name does not tell; in `columns` without either cauchy is taken, and said");

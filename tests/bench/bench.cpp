@@ -37,8 +37,7 @@ void measure(const std::string& name, const test::Indentation& scene, const Mate
              result.path.complete ? "complete" : "stopped (" + result.path.why + ")",
              result.steps.empty() ? 0 : result.steps.back().depth, result.steps.empty() ? 0 : result.steps.back().force);
   fmt::print(
-      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, "
-      "{:.0f} MB\n",
+      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, {:.0f} MB\n",
       result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), result.path.again,
       double(result.path.again) / std::max(1, result.path.steps), seconds, wall, 1e-6 * peak_bytes());
   const double rate = multiplication_rate();

@@ -81,8 +81,7 @@ void measure_growth(const Material& skin) {
     const double megabytes = usage.ru_maxrss / 1024.0, iteration = r.assembly + r.factor + r.solve + r.contact;
     const double gflops = 1e-9 * r.flops / r.factor;
     fmt::print(
-        "  {:7.0f}  {:9.0f}  {:7.0f} ({:7.0f})        {:8.3f} ({:8.3f})      {:8.3f}{:8.3f}{:8.3f}{:9.3f}{:10.2f}  {:7.1f} "
-        "({:.1f})\n",
+        "  {:7.0f}  {:9.0f}  {:7.0f} ({:7.0f})        {:8.3f} ({:8.3f})      {:8.3f}{:8.3f}{:8.3f}{:9.3f}{:10.2f}  {:7.1f} ({:.1f})\n",
         r.dofs, r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve,
         r.contact, r.analysis, gflops, 1e-9 * r.rate);
     std::fflush(stdout);

@@ -65,8 +65,7 @@ TEST_CASE("separators, decimal commas, quotes, preambles, units below the names:
   is_the_test("Strain (%),Nominal stress [kPa]\n0,0\n25,500\n");
   is_the_test("Nominal stress / kPa\tStretch\n0\t1\n500\t1.25\n");
   is_the_test(
-      "Machine: Zwick\nDate;22.11.2026\nWidth;10;mm\n\nTechnische Dehnung [%];Technische Spannung "
-      "[N/mm\xC2\xB2]\n0,0;0,0\n25,0;0,5\n");
+      "Machine: Zwick\nDate;22.11.2026\nWidth;10;mm\n\nTechnische Dehnung [%];Technische Spannung [N/mm\xC2\xB2]\n0,0;0,0\n25,0;0,5\n");
   is_the_test("strain,nominal_stress_MPa\r0,0\r0.25,0.5\r");              // old Macintosh
   is_the_test("t;strain;nominal_stress_MPa\n0,5;0;0\n1,234;0,25;0,5\n");  // 1,234 among decimal commas
 }

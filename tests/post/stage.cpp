@@ -159,8 +159,7 @@ TEST_CASE("snapshots are the states asked for, with fields at points and in cell
 }
 
 TEST_CASE(
-    "layers with laws and fibre angles of their own: each shows the stress of its law, and the stiffest point is in the stiff "
-    "one") {
+    "layers with laws and fibre angles of their own: each shows the stress of its law, and the stiffest point is in the stiff one") {
   const std::string where = folder("layers");
   SolutionHeader layered = header();
   layered.mesh.bodies = {"deep", "shallow"};

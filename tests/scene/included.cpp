@@ -116,10 +116,9 @@ TEST_CASE("Every key that chooses takes the choice beside the include") {
   CHECK(std::holds_alternative<KinsolOptions>(of("solver: {newton: {relative: 1e-9}}\n", "solver: {kinsol: {}}\n").solver));
   CHECK(std::holds_alternative<PointField>(
       *of("fibre_field: {formula: {alpha: \"3\"}}\n", "fibre_field: {points: {file: a.csv}}\n").fibre_field));
-  const SolveConfig mesh =
-      of("mesh: {geometry: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}, sets: {s: {of: top, within: {cylinder: {axis: y, "
-         "radius: 2}}}}}\n",
-         "mesh: {geometry: {indented_block: {size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.5}}}\n");
+  const SolveConfig mesh = of(
+      "mesh: {geometry: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}, sets: {s: {of: top, within: {cylinder: {axis: y, radius: 2}}}}}\n",
+      "mesh: {geometry: {indented_block: {size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.5}}}\n");
   CHECK(std::holds_alternative<IndentedBlock>(mesh.mesh->geometry));
 }
 

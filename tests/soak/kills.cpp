@@ -290,8 +290,7 @@ int main(int argc, char** argv) {
   if (pages) {
     const Pages scan = scan_pages(project, jobs[3], duration["solve"], work / "expected_solve", work / "pages.log", seed);
     text += fmt::format(
-        "\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did "
-        "not end well\n",
+        "\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did not end well\n",
         scan.scanned, scan.wrong, scan.failed);
     failures += scan.wrong + scan.failed + (scan.scanned == 0);
   }
