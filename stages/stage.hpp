@@ -47,7 +47,7 @@ struct Job {
   bool quiet = false;
   bool verbose = false;
   bool json = false;
-  bool dry_run = false;  // only with stages that foretell
+  bool dry_run = false;  // only with stages that forecast
 
   bool has(const std::string& port) const { return inputs.count(port) > 0; }
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
@@ -195,7 +195,7 @@ inline void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
     }
 }
 
-// --dry-run of the stages that cannot foretell more
+// --dry-run of the stages without a forecast
 inline void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output,
                         const InputFiles& inputs) {
   say_line("{}: dry run, nothing is computed or written", spec.name);
@@ -267,7 +267,7 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
     if (!job.dry_run) need_replaceable(job.output);  // by now it is known what the config names
     begin_beside(job.output);
     if (job.verbose) say_inputs(job.identity, program);
-    if (job.dry_run && !spec.foretells) {
+    if (job.dry_run && !spec.forecasts) {
       need_kinds(spec, job.inputs);
       if (!job.quiet) say_dry_run(spec, parts_of(job.config), job.output, job.inputs);
       if (job.json) put_out(json_text(job.identity, {}));
