@@ -8,14 +8,14 @@ LAUNCH   ?=
 
 # SANITIZE=1 and TRAPS=1 build in folders of their own
 build   := build$(if $(SANITIZE),-sanitize)$(if $(TRAPS),-traps)
-options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON)
+options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON) $(if $(WERROR),-DLANGER_WERROR=ON)
 run      = runs/$(basename $(notdir $(PIPELINE)))
 programs := $(patsubst langer-langer,langer,$(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp)))
 packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -59,6 +59,22 @@ test: configure
 	@cmake --build $(build) --parallel $(JOBS)
 	@ASAN_OPTIONS=allocator_may_return_null=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/support/leaks.txt:print_suppressions=0 \
 	  ctest --test-dir $(build) --output-on-failure -j2
+
+# those that take less than 0.8 s each, a minute of CPU in all; the tests' programs have to be built all the same
+test-fast: configure
+	@cmake --build $(build) --parallel $(JOBS)
+	@ctest --test-dir $(build) --output-on-failure -j$(JOBS) -L fast
+
+# after `make test` on a quiet machine: which tests are not fast, from what they took
+slow-tests:
+	@{ head -1 tests/slow.txt; awk '/^---/ { exit } $$NF >= 0.8 { sub(/ [0-9]+ [0-9.e+-]+$$/, ""); print }' \
+	  $(build)/Testing/Temporary/CTestCostData.txt | LC_ALL=C sort; } > $(build)/slow.txt && cp $(build)/slow.txt tests/slow.txt
+
+# everything by clang (Debian 12 has 14), in build-clang, warnings as errors
+clang:
+	@$(MAKE) --no-print-directory deps packages="$(packages) clang libomp-dev"
+	@[ -f build-clang/CMakeCache.txt ] || cmake --preset clang -DLANGER_WERROR=ON > /dev/null
+	@cmake --build build-clang --parallel $(JOBS)
 
 # kill -9 at random times in every program; KILLS and SEED may be given
 KILLS ?= 200
@@ -144,6 +160,9 @@ help:
 	@echo "make test                     set up, build, run every test"
 	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"
 	@echo "         TRAPS=1              ... stopping at the first NaN or overflow, in build-traps"
+	@echo "         WERROR=1             ... where warnings are errors (in a new build folder)"
+	@echo "make test-fast                the tests labelled fast, a minute of CPU; make slow-tests: write tests/slow.txt again"
+	@echo "make clang                    build everything with clang, in build-clang"
 	@echo "make format                   the style of .clang-format in every source; make tidy: what clang-tidy finds"
 	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
 	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
