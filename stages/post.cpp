@@ -129,7 +129,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [name, choice] : config.renders) renders[name] = {"renders." + name, choice};
   for (const auto& [name, keyed] : renders) {
     const auto& [key, choice] = keyed;
-    if (choice.field == Quantity::fibre_stretch && choice.family > body.n_families())
+    if (choice.field && line_of(*choice.field).needs.fibres && choice.family > body.n_families())
       complaints.push_back({key + ".family", "a fibre family that the material lacks", "another field", ""});
     for (std::size_t i = 0; i < choice.points.size(); ++i)
       if (const auto set = header.mesh.node_sets.find(choice.points[i]);

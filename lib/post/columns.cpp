@@ -44,10 +44,10 @@ std::vector<Complaint> ColumnChoice::complaints() const {
   std::vector<Complaint> found;
   const std::string column = column_name(*this);
   if (!is_column_name(column)) found.push_back({name ? "name" : "at", "the column name \"" + column + "\"", column_letters, ""});
-  if (quantity && needs_place(*quantity) && !at)
+  if (quantity && needs_place(line_of(*quantity)) && !at)
     found.push_back({"at", "missing", "the name of an observation point or node set",
                      fmt::format("{} is measured at a place", line_of(*quantity).word)});
-  if (at && !(quantity && needs_place(*quantity)))
+  if (at && !(quantity && needs_place(line_of(*quantity))))
     found.push_back({"at", *at, "no place",
                      fmt::format("{} belongs to the whole body", quantity  ? line_of(*quantity).word
                                                                  : history ? "a history"
@@ -128,20 +128,15 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                  did_you_mean(m.history, available.histories));
     } else {
       const QuantityLine& line = line_of(*c.quantity);
-      if (line.of == Of::indenter && !available.contact)
+      if (line.needs.contact && !available.contact)
         complain("quantity", fmt::format("{} of a solution without contact", line.word), "a quantity that needs no indenter", "");
-      const bool of_contact_law = *c.quantity >= Quantity::penetration && *c.quantity <= Quantity::complementarity;
-      const bool of_energy = *c.quantity >= Quantity::energy && *c.quantity <= Quantity::balance;
-      const bool of_shapes = (of_energy && *c.quantity != Quantity::energy) || *c.quantity == Quantity::path;
-      if (of_shapes && !available.energy)
+      if (line.needs.shapes && !available.energy)
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
                  "a solution whose config this version can read", "");
-      const bool of_stored = *c.quantity == Quantity::energy || *c.quantity == Quantity::balance;
-      const bool of_stability = *c.quantity >= Quantity::negative_eigenvalues && *c.quantity <= Quantity::driving_force;
-      const std::string needed = of_stored ? "energy" : of_stability || (of_contact_law && available.contact) ? line.word : "";
-      if (!needed.empty() && !has_history(needed))
-        complain("quantity", fmt::format("the solution has no history \"{}\"", needed), "one of " + known(available.histories), "");
-      if (c.at && needs_place(*c.quantity)) {
+      if (line.needs.history && (available.contact || !line.needs.contact) && !has_history(line.needs.history))
+        complain("quantity", fmt::format("the solution has no history \"{}\"", line.needs.history),
+                 "one of " + known(available.histories), "");
+      if (c.at && needs_place(line)) {
         const auto set = body.mesh().node_sets.find(*c.at);
         if (set == body.mesh().node_sets.end() || set->second.empty())
           complain("at", fmt::format("the mesh has no nodes called \"{}\"", *c.at), "one of " + known(sets),
@@ -150,13 +145,12 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
           m.nodes = set->second;
       }
       m.family = c.family - 1;
-      if (*c.quantity == Quantity::fibre_stretch && c.family > body.n_families())
+      if (is<OfPoint>(line) && line.needs.fibres && c.family > body.n_families())
         complain("family", fmt::format("family {} of a material with {}", c.family, body.n_families()), "a family that is there",
                  "");
-      if (*c.quantity == Quantity::fibre_stretch_max && body.n_families() == 0)
-        complain("quantity", "fibre_stretch_max of a material without fibres", "another quantity", "");
-      if (line.of == Of::set && *c.quantity < Quantity::reaction_x)
-        m.length = c.length ? *c.length : extent(body.mesh(), component_of(*c.quantity, Quantity::eps_xx));
+      if (is<OfBody>(line) && line.needs.fibres && body.n_families() == 0)
+        complain("quantity", fmt::format("{} of a material without fibres", line.word), "another quantity", "");
+      if (line.needs.extent >= 0) m.length = c.length ? *c.length : extent(body.mesh(), line.needs.extent);
     }
     out.measures.push_back(std::move(m));
   }

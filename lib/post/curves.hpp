@@ -88,6 +88,6 @@ std::vector<double> measured(const Body& body, const std::vector<Measure>& measu
                              GaussValues& gauss);
 
 // Value of a quantity in a row of values (post/fields.hpp).
-double value_of(Quantity quantity, const VecX& row, int family = 0);
+double value_of(Quantity quantity, const VecX& row, int family = 0);  // of a point
 
 }  // namespace langer

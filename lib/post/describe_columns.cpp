@@ -9,20 +9,11 @@ namespace langer {
 
 namespace {
 
-const char* words(Of of) {
-  switch (of) {
-    case Of::step:
-      return "of the whole state";
-    case Of::indenter:
-      return "of the indenter; needs a contact";
-    case Of::nodes:
-    case Of::point:
-      return "at a place (`at:` a node set or observation point), mean over its nodes";
-    case Of::set:
-      return "of a node set (`at:`)";
-    default:
-      return "extreme over the whole body";
-  }
+const char* where(const QuantityLine& line) {
+  if (is_field(line)) return "at a place (`at:` a node set or observation point), mean over its nodes";
+  if (is<OfSet>(line)) return "of a node set (`at:`)";
+  if (is<OfBody>(line)) return "extreme over the whole body";
+  return line.needs.contact ? "of the indenter; needs a contact" : "of the whole state";
 }
 
 // labels are gnuplot's: x_{y} for an index
@@ -41,8 +32,8 @@ std::string columns_text() {
   std::string s =
       "Columns of curves: name, unit, meaning with its sign. In a CSV table a column is called name_unit, name alone without unit.\n";
   const char* group = "";
-  for (const QuantityLine& q : quantity_lines) {
-    if (const char* of = words(q.of); of != std::string(group)) s += fmt::format("\nquantity: {}\n", group = of);
+  for (const QuantityLine& q : quantity_lines()) {
+    if (const char* of = where(q); of != std::string(group)) s += fmt::format("\nquantity: {}\n", group = of);
     s += line(q.word, q.unit, fmt::format("{}: {}", plain(q.label), q.meaning));
   }
   s += "\nquotient: of two columns of one unit, by name, without unit; empty where the second is 0\n";

@@ -16,8 +16,7 @@ std::vector<Complaint> MapStyle::complaints() const {
 }
 
 std::vector<Complaint> MapChoice::complaints() const {
-  const Of of = line_of(field).of;
-  if (of == Of::nodes || of == Of::point) return {};
+  if (is_field(line_of(field))) return {};
   return {{"field", line_of(field).word, "a quantity of nodes or points, as u_y or von_mises", ""}};
 }
 
@@ -39,7 +38,7 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
   if (mesh.section) return {{"on", "facets of a section, which are lines", "a body in three dimensions", "renders show sections"}};
   need("on", choice.on, facets, "facets");
   for (std::size_t i = 0; i < choice.points.size(); ++i) need(fmt::format("points[{}]", i), choice.points[i], points, "point");
-  if (choice.field == Quantity::fibre_stretch && choice.family > body.n_families())
+  if (line_of(choice.field).needs.fibres && choice.family > body.n_families())
     found.push_back({"family", "a fibre family that the material lacks", "another field", ""});
   return found;
 }

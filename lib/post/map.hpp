@@ -30,7 +30,7 @@ struct MapStyle {
 };
 
 struct MapChoice {
-  Quantity field = Quantity::u_y;
+  Quantity field = quantity("u_y");
   int family = 1;
   std::string on = "top", step = "last";
   std::vector<std::string> points;

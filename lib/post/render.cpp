@@ -200,8 +200,7 @@ void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, cons
 
 std::vector<Complaint> RenderChoice::complaints() const {
   std::vector<Complaint> found;
-  const Of of = field ? line_of(*field).of : Of::nodes;
-  if (of != Of::nodes && of != Of::point)
+  if (field && !is_field(line_of(*field)))
     found.push_back({"field", line_of(*field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
   if (range && !((*range)[0] < (*range)[1])) found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
   return found;

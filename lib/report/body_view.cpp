@@ -31,7 +31,7 @@ std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const
   std::vector<ShownField> fields;
   for (const Quantity q : quantities) {
     const QuantityLine& line = line_of(q);
-    const int n = q == Quantity::fibre_stretch ? body.n_families() : 1;
+    const int n = line.needs.fibres ? body.n_families() : 1;
     for (int k = 0; k < n; ++k)
       fields.push_back({q,
                         k,

@@ -18,7 +18,7 @@ std::string plain_label(const char* label) {
 std::string in_words(const std::string& column) {
   const QuantityLine* best = nullptr;
   std::size_t length = 0;
-  for (const QuantityLine& line : quantity_lines) {
+  for (const QuantityLine& line : quantity_lines()) {
     const std::string_view word = line.word;
     const bool begins = column.starts_with(word) && (column.size() == word.size() || column[word.size()] == '_');
     if (begins && word.size() > length) best = &line, length = word.size();

@@ -13,7 +13,8 @@ namespace langer {
 
 struct ReportConfig {
   std::string title;
-  std::vector<Quantity> shown{Quantity::von_mises, Quantity::pressure, Quantity::sigma_1, Quantity::J, Quantity::fibre_stretch};
+  std::vector<Quantity> shown{quantity("von_mises"), quantity("pressure"), quantity("sigma_1"), quantity("J"),
+                              quantity("fibre_stretch")};
   StressAt stress = StressAt::nodal_average;
   int states = 25;
   double megabytes = 9;
@@ -32,9 +33,9 @@ struct ReportConfig {
     std::vector<Complaint> all;
     if (!percent_of(accuracy)) all.push_back({"accuracy", "found \"" + accuracy + "\"", "a percentage above 0, such as 3%", ""});
     for (std::size_t i = 0; i < shown.size(); ++i)
-      if (line_of(shown[i]).of != Of::point)
+      if (!is<OfPoint>(line_of(shown[i])))
         all.push_back({"fields[" + std::to_string(i) + "]", line_of(shown[i]).word, "a quantity of points, as von_mises or J",
-                       line_of(shown[i]).of == Of::nodes ? "displacements are always there" : ""});
+                       is<OfNodes>(line_of(shown[i])) ? "displacements are always there" : ""});
     return all;
   }
 };

@@ -124,9 +124,8 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
 
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at) {
   std::vector<double> values;
-  if (line_of(field).of == Of::nodes) {
-    const int component = component_of(field, Quantity::u_x);
-    for (const Vec3& u : state.u) values.push_back(u[component]);
+  if (const OfNodes* of = std::get_if<OfNodes>(&line_of(field).value)) {
+    for (const Vec3& u : state.u) values.push_back((*of)(u));
     return values;
   }
   const GaussValues gauss = gauss_values(body, state.u);

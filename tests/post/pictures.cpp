@@ -189,14 +189,14 @@ TEST_CASE("labels of quantities have subscripts in both pictures, other labels s
 }
 
 TEST_CASE("a figure takes its columns by name, labels carry units, legends are the columns or what the user says") {
-  const auto column = [](Quantity quantity, const char* at = nullptr) {
+  const auto column = [](Quantity of, const char* at = nullptr) {
     ColumnChoice c;
-    c.quantity = quantity;
+    c.quantity = of;
     if (at) c.at = at;
     return c;
   };
-  const std::vector<ColumnChoice> columns{column(Quantity::u_ind), column(Quantity::u_y, "A"), column(Quantity::u_y, "B"),
-                                          column(Quantity::u_x, "A")};
+  const std::vector<ColumnChoice> columns{column(quantity("u_ind")), column(quantity("u_y"), "A"), column(quantity("u_y"), "B"),
+                                          column(quantity("u_x"), "A")};
   FigureChoice figure;
   figure.x = "u_ind", figure.y = {"u_y_A", "u_y_B"}, figure.title = "it's a title";
   const auto head = [](const std::string& name, const std::string& unit) { return name + "_" + unit; };
