@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers ladder trade accuracy estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -167,16 +167,16 @@ help:
 	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
 	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
-	@echo "make mutants                  errors put into lib/ one at a time, which a test must notice; ONLY='contact.*' KEEP=1 CHECK=1"
+	@echo "make mutants                  mutation tests: errors put into lib/ one at a time, which a test must notice; ONLY='contact.*' KEEP=1 CHECK=1"
 	@echo "make bench                    time the solver"
-	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/trade.md from it; part of make bench"
-	@echo "make bench-forecasts          what --dry-run foretells beside what it takes, docs/scenes.md from it"
+	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/work_precision.md from it; part of make bench"
+	@echo "make bench-forecasts          what --dry-run forecasts beside what it takes, docs/scenes.md from it"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
-	@echo "make ladder                   run the ladder of extremes, write its table into docs/reliability.md"
-	@echo "make trade                    error against cost on a ladder of settings, docs/trade.md from it"
-	@echo "make estimates                estimated errors against true ones, on the ladder of make trade"
-	@echo "make accuracy                 whether accuracy: 1% keeps its word on random scenes"
+	@echo "make extremes                 run the extreme cases, write their table into docs/reliability.md"
+	@echo "make work-precision           error against cost of a refinement study, docs/work_precision.md from it"
+	@echo "make estimates                estimated errors against true ones, in the scenes of make work-precision"
+	@echo "make accuracy                 whether accuracy: 1% holds on random scenes"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"

@@ -5,7 +5,7 @@ reliability: soak fuzz
 	@tests/soak/page docs/reliability.md kills $(build)/soak.md
 	@tests/soak/page docs/reliability.md inputs build-fuzz/fuzz.md
 
-# what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/trade.md from it. A build of
+# what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/work_precision.md from it. A build of
 # its own: valgrind knows no AVX-512, and lines (-g1) tell whose code it is. Two minutes beside that
 counted := build-features
 bench-features:
@@ -13,10 +13,10 @@ bench-features:
 	@[ -f $(counted)/CMakeCache.txt ] || cmake -S . -B $(counted) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DCMAKE_CXX_FLAGS=-g1
 	@cmake --build $(counted) --parallel $(JOBS) --target langer-solve
 	@tests/bench/features/count $(counted)/bin/langer-solve runs/features
-	@tests/soak/page docs/trade.md features runs/features/scenes.md
-	@tests/soak/page docs/trade.md unused runs/features/unused.md
+	@tests/soak/page docs/work_precision.md features runs/features/scenes.md
+	@tests/soak/page docs/work_precision.md unused runs/features/unused.md
 
-# CPU seconds that --dry-run foretells beside those that it takes, and the table of docs/scenes.md from it; alone on the machine, two minutes
+# CPU seconds that --dry-run forecasts beside those that it takes, and the table of docs/scenes.md from it; alone on the machine, two minutes
 bench-forecasts: build
 	@mkdir -p runs/forecasts
 	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
@@ -43,28 +43,29 @@ paper:
 	@! command -v mogrify > /dev/null || mogrify -strip -define png:exclude-chunks=date,time -resize '1200x>' -define png:compression-level=9 -colors 250 docs/paper/*.png  # imagemagick
 	@awk -v run=runs/paper -f docs/paper.awk docs/paper.csv > runs/paper/paper.md && cp runs/paper/paper.md docs/paper.md
 
-# the section "Ladder" of docs/reliability.md from a run of pipelines/extremes.yaml
-ladder:
+# the section "Extreme cases" of docs/reliability.md from a run of pipelines/extremes.yaml; `ladder` is its former name
+extremes ladder:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
-	@awk -v run=runs/extremes -f docs/ladder.awk docs/ladder.csv > runs/extremes/ladder.md; passed=$$?; \
+	@awk -v run=runs/extremes -f docs/extremes.awk docs/extremes.csv > runs/extremes/ladder.md; passed=$$?; \
 	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- ladder:/ { print; printf "\n%s\n", table; skip = 1 } \
 	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
 	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
 
-# error against cost on three indentations, alone on the machine, and docs/trade.md from it; about 20 minutes
-trade:
+# work-precision diagrams of three indentations, alone on the machine, and docs/work_precision.md from them; about 20 minutes.
+# `trade` is its former name
+work-precision trade:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/trade.yaml JOBS=1
 	@for scene in isotropic table1 positive; do \
-	  awk -v what=front -f docs/trade.awk runs/trade/$$scene/trade.csv > runs/trade/front.md && \
-	  tests/soak/page docs/trade.md $$scene runs/trade/front.md && cp runs/trade/$$scene/error_force.svg docs/trade_$$scene.svg || exit 1; done
-	@awk -v what=rungs -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/rungs.md
-	@tests/soak/page docs/trade.md rungs runs/trade/rungs.md
+	  awk -v what=front -f docs/work_precision.awk runs/trade/$$scene/trade.csv > runs/trade/front.md && \
+	  tests/soak/page docs/work_precision.md $$scene runs/trade/front.md && cp runs/trade/$$scene/error_force.svg docs/work_precision_$$scene.svg || exit 1; done
+	@awk -v what=levels -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/levels.md
+	@tests/soak/page docs/work_precision.md levels runs/trade/levels.md
 
-# does `accuracy: 1%` keep its word on 24 random scenes; are errors as large as their estimates say, on the ladder of `make trade`
+# does `accuracy: 1%` keep its word on 24 random scenes; are errors as large as their estimates say, on the levels of `make work-precision`
 accuracy estimates:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/$@.yaml
-	@awk -v what=$@ -f docs/trade.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
-	@tests/soak/page docs/trade.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
+	@awk -v what=$@ -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
+	@tests/soak/page docs/work_precision.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
 
 # the folders of lib and the includes between them: docs/map.svg
 map:

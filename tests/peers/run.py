@@ -23,7 +23,7 @@ root, programs, folder = here.parents[1], Path(sys.argv[1]).resolve(), Path(sys.
 scenes = sys.argv[3:] or ["isotropic", "positive"]
 folder.mkdir(parents=True, exist_ok=True)
 PYTHON = "/usr/bin/python3" if Path("/usr/bin/python3").exists() else sys.executable  # Debian's, which has the peers
-# N at 1 mm: what hex8 of 0.125 to 0.0707 contact radii leave at a length of 0 (make trade)
+# N at 1 mm: what hex8 of 0.125 to 0.0707 contact radii extrapolate to at a length of 0 (make work-precision)
 REFERENCE = {"isotropic": 10.765, "positive": 12.671}
 COLUMNS = ["scene", "tool", "cells", "edge", "settings", "unknowns", "force_N", "error_percent", "cpu_s", "memory_MB", "inside_um", "words"]
 

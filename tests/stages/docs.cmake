@@ -50,7 +50,7 @@ expect_said("silent.md:8: the commands before it did not say: three")
 
 # links
 file(GLOB pages ${ROOT}/docs/*.md)
-foreach(page ${pages} ${ROOT}/README.md)
+foreach(page ${pages} ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md ${ROOT}/CHANGELOG.md)
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
   string(REPLACE "](" "@(" text "${text}")
@@ -58,8 +58,8 @@ foreach(page ${pages} ${ROOT}/README.md)
   string(REGEX MATCHALL "@\\([^)\n]+\\)" links "${text}")
   foreach(link ${links})
     string(REGEX REPLACE "^@\\(([^)#]*).*$" "\\1" target "${link}")
-    # `make trade` draws its own pictures
-    if(target AND NOT target MATCHES "^https?:|^trade_" AND NOT EXISTS ${folder}/${target})
+    # `make work-precision` draws its own pictures
+    if(target AND NOT target MATCHES "^https?:|^work_precision_" AND NOT EXISTS ${folder}/${target})
       message(FATAL_ERROR "${page}: no file ${target}")
     endif()
   endforeach()

@@ -1,10 +1,10 @@
-# Tables of docs/trade.md.   awk -v what=front -f docs/trade.awk runs/trade/<scene>/trade.csv
-#   front     rungs on the front of the force, by cost
-#   rungs     one line per rung: errors of the force in all scenes given, seconds and memory of the last one
+# Tables of docs/work_precision.md.   awk -v what=front -f docs/work_precision.awk runs/trade/<scene>/trade.csv
+#   front     levels on the front of the force, by cost
+#   levels    one line per level: errors of the force in all scenes given, seconds and memory of the last one
 #   estimates  estimated errors against true ones, of runs/estimates/<scene>_table/table.csv
 #   accuracy  asked against a finer mesh's limit, of runs/accuracy/<law>_table/table.csv
 BEGIN { FS = "," }
-BEGIN {  # fitted limits of make trade, and how far they may be off in %
+BEGIN {  # fitted limits of make work-precision, and how far they may be off in %
   right["isotropic"] = 10.763; right["table1"] = 9.362; right["positive"] = 12.670
   open["isotropic"] = 0.03; open["table1"] = 0.06; open["positive"] = 0.06
 }
@@ -13,7 +13,7 @@ what == "front" && $head["force_front"] == 1 {
   row[++n] = sprintf("| %s | %.2g | %.2g | %.2g | %.0f |", $1, $head["force_error_percent"], $head["cpu_s"], $head["wall_s"], $head["memory_MB"])
   cost[n] = $head["cpu_s"]
 }
-what == "rungs" {
+what == "levels" {
   if (!($1 in at)) { order[++n] = $1; at[$1] = n }
   error[$1, file] = $head["force_error_percent"]; cpu[$1, file] = $head["cpu_s"]; files = file
 }
@@ -39,15 +39,15 @@ what == "estimates" {
 }
 END {
   if (what == "front") {
-    print "| rung | error of the force, % | CPU s | wall s | MB |\n| --- | --- | --- | --- | --- |"
+    print "| level | error of the force, % | CPU s | wall s | MB |\n| --- | --- | --- | --- | --- |"
     for (k = 1; k <= n; ++k) {
       least = 0
       for (i = 1; i <= n; ++i) if (!(i in done) && (!least || cost[i] < cost[least])) least = i
       done[least] = 1; print row[least]
     }
   }
-  if (what == "rungs") {
-    print "| rung | isotropic: error %, CPU s | Table 1, 60°: error %, CPU s | c1 > 0, 30°: error %, CPU s |\n| --- | --- | --- | --- |"
+  if (what == "levels") {
+    print "| level | isotropic: error %, CPU s | Table 1, 60°: error %, CPU s | c1 > 0, 30°: error %, CPU s |\n| --- | --- | --- | --- |"
     for (k = 1; k <= n; ++k) {
       line = "| " order[k] " |"
       for (f = 1; f <= files; ++f) line = line sprintf(" %.2g, %.2g |", error[order[k], f], cpu[order[k], f])
@@ -55,7 +55,7 @@ END {
     }
   }
   if (what == "estimates") {
-    line = "| rung |"; rule = "| --- |"
+    line = "| level |"; rule = "| --- |"
     for (k = 1; k <= m; ++k) { line = line " " columns[k] " |"; rule = rule " --- |" }
     print line "\n" rule
     for (k = 1; k <= n; ++k) {

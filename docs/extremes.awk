@@ -1,6 +1,6 @@
-# The rungs of docs/ladder.csv against the tables of a run of pipelines/extremes.yaml, as lines of a Markdown table.
-#   awk -v run=runs/extremes -f docs/ladder.awk docs/ladder.csv
-# Ends with 1 where a rung is not passed.
+# The cases of docs/extremes.csv against the tables of a run of pipelines/extremes.yaml, as lines of a Markdown table.
+#   awk -v run=runs/extremes -f docs/extremes.awk docs/extremes.csv
+# Ends with 1 where a case is not passed.
 function load(table,   file, line, head, cell, n, i, axes, key, m) {
   if (table in loaded) return
   loaded[table] = 1
@@ -26,7 +26,7 @@ function find(table, key, column,   k, parts) {
   }
   return ""
 }
-BEGIN { FS = "|"; print "| rung | found | expected | |"; print "| --- | --- | --- | --- |" }
+BEGIN { FS = "|"; print "| case | found | expected | |"; print "| --- | --- | --- | --- |" }
 /^#/ || NF < 6 { next }
 {
   load($2)
@@ -43,6 +43,6 @@ BEGIN { FS = "|"; print "| rung | found | expected | |"; print "| --- | --- | --
   printf "| %s | %s %.7g | %s%.7g%s | %s |\n", $1, $4, found, sign, other, ($7 == "" ? "" : " ± " $7 * 100 " %"), verdict
 }
 END {
-  printf "\n%d rungs passed, %d failed, %d not run.\n", passed, failed, missing
+  printf "\n%d cases passed, %d failed, %d not run.\n", passed, failed, missing
   exit failed + missing > 0
 }
