@@ -156,7 +156,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     watch.resume(*saved);
     if (contact_watch) contact_watch->resume(*saved);
     if (const auto found = saved->scalars.find("shear_stiffness_min"); found != saved->scalars.end() && found->second < 0)
-      last_said = fmt::format("strong ellipticity is lost (smallest shear stiffness {:.3g} MPa)", found->second);
+      last_said = fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second);
     progress.resumed(file.n_steps(), saved->t);
     if (std::any_of(file.earlier().begin(), file.earlier().end(),
                     [&](const EarlierRun& run) { return run.config != job.identity.config; }))

@@ -24,7 +24,7 @@ struct Ladder {
       if (members[i].at == at) return i;
       known.push_back(fmt::format("[{}]", fmt::join(members[i].at, ", ")));
     }
-    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no rung is [{}]", fmt::join(at, ", ")),
+    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no level is [{}]", fmt::join(at, ", ")),
                                       fmt::format("one of {}", fmt::join(known, ", ")), ""});
   }
 };
@@ -93,7 +93,7 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   plot.title = job.config.title;
   plot.x_label = "CPU time [s]", plot.y_label = "error of " + literal(quantity) + " [%]";
   plot.logarithmic = true;
-  plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "rungs"}};
+  plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "levels"}};
   plot.lines[0].names = "rung", plot.lines[1].points = true;
   pictures.draw(name, gnuplot_script(plot, name));
 }
@@ -132,7 +132,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     for (double wanted : job.config.wanted) {
       const int i = cheapest(cpu, as_rung, wanted);
       if (i < 0) {
-        job.say("  {:g} %: no rung", wanted);
+        job.say("  {:g} %: no level", wanted);
         choice += fmt::format("{},{:g},,,,\n", column.name, wanted);
         continue;
       }

@@ -202,14 +202,14 @@ DecimalSign decimal_sign(const CsvTable& table) {
     throw Failure(Exit::input, {{table.name, line_of_comma, comma.column},
                                 "",
                                 fmt::format("found {} in a file with {} (line {})", comma.text, with_point->text, line_of_point),
-                                "one decimal sign, and none that parts thousands",
+                                "one decimal sign and no thousands separator",
                                 "in a fit, decimal: comma or decimal: point in the item of `data` says which of the two counts"});
   if (!with_comma)
     throw Failure(Exit::input, {{table.name, line_of_comma, comma.column},
                                 "",
                                 fmt::format("found {}, and no other number tells whether its comma is a decimal one", comma.text),
-                                "numbers that can be read in one way only",
-                                "in a fit, decimal: comma in the item of `data`; commas that part thousands have to go"});
+                                "numbers without a second reading",
+                                "in a fit, decimal: comma in the item of `data`; remove commas that separate thousands"});
   return DecimalSign::comma;
 }
 

@@ -78,11 +78,11 @@ Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& firs
   for (Eigen::Index i = 0; i < c.p.size(); ++i)
     apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) / std::max(std::abs(first.p[i]), f.q.typical[i]));
   const std::string same = apart < 1e-2 ? fmt::format("parameters within {:.0e} of themselves", apart)
-                                        : "with other parameters, between which these tests do not decide";
-  c.text = c.agrees     ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
-           : higher < 0 ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
-                        : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no second answer here", c.cost,
-                                      first.cost);
+                                        : "with other parameters: these tests cannot decide between the two";
+  c.text = c.agrees ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
+           : higher < 0
+               ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
+               : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here", c.cost, first.cost);
   return c;
 }
 

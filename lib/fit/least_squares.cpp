@@ -220,7 +220,7 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
   if (s.why.empty()) {
     s.kkt = kkt_residual(q, s.p, s.r, s.J);
     s.converged = s.kkt <= good_enough;
-    s.why = s.converged ? "optimal" : "out of iterations";
+    s.why = s.converged ? "optimal" : "iteration limit reached";
   }
   for (Eigen::Index i = 0; i < s.p.size(); ++i)
     s.at_bound[static_cast<std::size_t>(i)] = s.p[i] == q.lower[i] || s.p[i] == q.upper[i];

@@ -71,8 +71,8 @@ std::string in_words(const StiffnessAtRest& s) {
                                      s.error_before, s.error_after)
                                : fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before, s.error_after);
   return fmt::format(
-      "the tests do not tell the shear modulus at rest: they put it at {:.3g} MPa and {}; taken: {:.3g} MPa, the least that tests with a "
-      "noise of {:.3g} MPa can tell from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains hang on it",
+      "the tests do not determine the shear modulus at rest: they give {:.3g} MPa and {}; {:.3g} MPa is used, the least that tests with a "
+      "noise of {:.3g} MPa can distinguish from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains depend on it",
       s.fitted, reach, s.taken, s.noise, cost);
 }
 

@@ -196,7 +196,7 @@ struct Reading {
     const bool decimals = !x && cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos &&
                           cell.text.find_first_of(".,") != std::string::npos;
     say(row.line, cell.column, "", cell.text.empty() ? "found nothing" : "found " + cell.text, "a finite number",
-        decimals ? fmt::format("decimal {}s are read here, and none that part thousands", word(table.decimal)) : "");
+        decimals ? fmt::format("decimal {}s are read here, without thousands separators", word(table.decimal)) : "");
     return 0;
   }
 

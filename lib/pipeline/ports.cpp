@@ -41,7 +41,7 @@ const std::vector<StageSpec>& stages() {
          .members = true}},
        "sweep.h5"},
       {"report",
-       "Puts what a run has made on one page that opens offline.",
+       "Writes a report on a run: one page that opens offline.",
        {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
         {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
         {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
@@ -50,8 +50,12 @@ const std::vector<StageSpec>& stages() {
         {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
        "report.html"},
       {"tune",
-       "Finds which rungs of a ladder of settings give the least error for their cost.",
-       {{.name = "curves", .says = "a rung: curves of its solution", .made_by = {"post"}, .several = true, .members = true}},
+       "Draws the work-precision diagram of a refinement study: which settings give the least error for their cost.",
+       {{.name = "curves",
+         .says = "one level of the study: curves of its solution",
+         .made_by = {"post"},
+         .several = true,
+         .members = true}},
        "trade.h5"},
   };
   return table;

@@ -97,7 +97,7 @@ void judge_parameters(ReportPage& page, const Source& source, const FitRecord& f
   }
   if (!open.empty())
     page.verdicts.push_back(
-        {Level::warning, source.label, fmt::format("the tests hardly determine {}: standard error above half the value", open)});
+        {Level::warning, source.label, fmt::format("the tests barely determine {}: standard error above half the value", open)});
   if (!on_bound.empty())
     page.verdicts.push_back(
         {Level::warning, source.label, fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
@@ -132,7 +132,7 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
           {verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos ? Level::note : Level::warning,
            source.label, verdict});
     if (const std::string least = said("identifiability", "words"); !least.empty())
-      page.verdicts.push_back({Level::note, source.label, "least determined combination: " + least});
+      page.verdicts.push_back({Level::note, source.label, "least identifiable combination: " + least});
     add_tests(page, source, *fit);
   }
 }

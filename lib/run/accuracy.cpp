@@ -59,10 +59,10 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   if (!config.estimate) config.estimate = EstimateBy::second_rung;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format(
-      "{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the ladder's scenes {} the "
+      "{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the refinement study's scenes {} the "
       "force was within {:g} %{}",
       chosen.wanted, names(CellType{})[static_cast<int>(chosen.rung.cells)], chosen.rung.edge, chosen.rung.step,
-      plain ? "without fibres and friction" : "with friction", chosen.rung.error, chosen.met ? "" : ", the finest rung measured");
+      plain ? "without fibres and friction" : "with friction", chosen.rung.error, chosen.met ? "" : ", the finest level measured");
   return chosen;
 }
 

@@ -68,8 +68,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
     line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
                                 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
-    line("path", fmt::format("{} steps if none is cut back, about {:.0f} iterations{}", f.steps, f.iterations,
-                             f.again > 0 ? fmt::format(" and {:.0f} corrections with their tangents", f.again) : ""));
+    line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps, f.iterations,
+                             f.again > 0 ? fmt::format("Newton + {:.0f} modified ", f.again) : ""));
     line("memory",
          fmt::format("{}; {} are free{}", amount(f.bytes), amount(free), f.size.factor_bytes > free ? ": this will not fit" : ""));
     line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}{}",

@@ -169,7 +169,11 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
         if (!path.complete)
           throw Failure(
               Exit::not_converged,
-              Error{{}, "", fmt::format("a second rung found no equilibrium at t = {:.6g}: {}", path.t, path.why), "", ""});
+              Error{{},
+                    "",
+                    fmt::format("the solve with the refined mesh found no equilibrium at t = {:.6g}: {}", path.t, path.why),
+                    "",
+                    ""});
         return valued(whole, mesh, part ? part->whole(last) : last);
       });
 }

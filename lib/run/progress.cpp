@@ -27,12 +27,21 @@ void Progress::resumed(int steps, double t) {
   if (!quiet_) say_line("solve: continues after {} steps, at t = {:.6g}", steps, t);
 }
 
+namespace {
+
+// "3 Newton + 4 modified iterations": modified Newton keeps an older tangent
+std::string iterations(int newton, int modified) {
+  return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified) : fmt::format("{} iterations", newton);
+}
+
+}  // namespace
+
 // what the rest takes if it goes on as so far
 std::string Progress::left(double t) const {
   if (t >= 1 - 1e-10 || t <= from_) return "";
   const double seconds = (wall_seconds() - start_) * (1 - t) / (t - from_);
-  if (seconds < 100) return fmt::format("  left {:.0f} s", seconds);
-  return seconds < 6000 ? fmt::format("  left {:.0f} min", seconds / 60) : fmt::format("  left {:.1f} h", seconds / 3600);
+  if (seconds < 100) return fmt::format("  {:.0f} s remaining", seconds);
+  return seconds < 6000 ? fmt::format("  {:.0f} min remaining", seconds / 60) : fmt::format("  {:.1f} h remaining", seconds / 3600);
 }
 
 Problem Progress::watched(Problem problem, double t) {
@@ -59,13 +68,12 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   bool unstable = false;
   std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
   if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
-  line += fmt::format("  {}{} iterations  residual {:.1e}{}", report.iterations,
-                      report.again > 0 ? fmt::format(" + {}", report.again) : "", record.residual, left(record.t));
+  line += fmt::format("  {}  residual {:.1e}{}", iterations(report.iterations, report.again), record.residual, left(record.t));
   if (live_) say_status(line);
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
     const double negative = record.scalars.at("negative_eigenvalues");
-    line += fmt::format("  stiffness {:.3g} MPa", stiffness->second);
+    line += fmt::format("  min acoustic eigenvalue {:.3g} MPa", stiffness->second);
     unstable = negative != 0 || !(stiffness->second >= 0);
     if (negative > 0) line += fmt::format("  UNSTABLE: {:.0f} negative eigenvalues", negative);
     if (negative < 0) line += "  UNSTABLE: singular tangent";
@@ -88,8 +96,7 @@ void Progress::failed(double t, const SolveReport& report) const {
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   if (quiet_) return;
   const Statics::Cost& cost = statics.cost();
-  say_line("solve: {} steps, {} iterations{}, {} cuts; {:.0f} MB", path.steps, path.iterations,
-           path.again > 0 ? fmt::format(" and {} corrections with their tangents", path.again) : "", path.cuts,
+  say_line("solve: {} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cuts,
            1e-6 * peak_bytes());
   say_line(
       "solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
@@ -99,8 +106,8 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
       cost.contact, files);
   if (statics.n_indefinite() > 0)
     say_line(
-        "solve: {} tangents were not positive definite: without its constraints the body has a direction in which it gives way "
-        "(limit point, loss of ellipticity, or loose supports)",
+        "solve: {} tangents were not positive definite: without its constraints the body is unstable in some direction "
+        "(limit point, loss of ellipticity, or too few supports)",
         statics.n_indefinite());
 }
 

@@ -94,7 +94,7 @@ std::vector<std::string> ResultWatch::warnings() const {
   if (raised_ > asked_)
     lines.push_back(
         fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
-                    "with d = {:g} rounding leaves no less; d: {:.0e} leaves what was asked",
+                    "with d = {:g} rounding allows no less; d: {:.0e} leaves what was asked",
                     asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), d_, large_enough_d()));
   if (chains_ > 0)
     lines.push_back(

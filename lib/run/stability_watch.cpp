@@ -52,8 +52,9 @@ std::string in_words(const StabilityReport& r) {
   if (std::isnan(r.stiffness))
     words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, text(r.place));
   else if (r.material_unstable())
-    words += fmt::format("{}strong ellipticity is lost in {} of the volume (smallest shear stiffness {:.3g} MPa in cell {} at {})",
-                         words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, text(r.place));
+    words +=
+        fmt::format("{}strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue {:.3g} MPa in cell {} at {})",
+                    words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, text(r.place));
   return words;
 }
 
@@ -182,8 +183,8 @@ std::vector<std::string> StabilityWatch::warnings() const {
     lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), text(last_.place)));
   else if (!material_.of.empty())
     lines.push_back(
-        fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (smallest shear "
-                    "stiffness {:.3g} MPa near {}): the solution depends on the mesh there",
+        fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
+                    "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
                     material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));
   if (volume_change_ > 0.02)
     lines.push_back(

@@ -15,7 +15,7 @@ void compare(const Assessment& now, double absolute, double relative, SolveRepor
 
 bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report) {
   if (!dx || !dx->allFinite()) {
-    report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body gives way in many directions at once";
+    report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body is unstable in many directions at once";
     return false;
   }
   const double longest = dx->lpNorm<Eigen::Infinity>();

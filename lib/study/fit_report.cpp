@@ -163,7 +163,7 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
     for (std::size_t j = 0; j < i; ++j) {
       const double r = correlations(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (std::isgreater(std::abs(r), 0.99))  // never NaN, without a trap
-        lines.push_back(fmt::format("{} and {} are correlated by {:.4f}: this curve hardly tells them apart",
+        lines.push_back(fmt::format("{} and {} are correlated by {:.4f}: this curve cannot separate them",
                                     record.parameters[j].name, record.parameters[i].name, r));
     }
   const std::vector<Vec3> a = fibre_directions(material);

@@ -258,7 +258,7 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
       if (r.bootstrap.rows() > 1) s += fmt::format(", bootstrap {:.4g} to {:.4g}", r.bootstrap_low[k], r.bootstrap_high[k]);
       lines.push_back(s);
     }
-    if (!r.words.empty()) lines.push_back("hardly felt: " + r.words);
+    if (!r.words.empty()) lines.push_back("least identifiable combination: " + r.words);
     for (std::size_t i = 0; i < r.advice.size(); ++i) {
       const AdviceRecord& a = r.advice[i];
       lines.push_back(fmt::format("{} {}: worst standard error {:.3g} %, information {:+.2f} nats per parameter",

@@ -39,7 +39,7 @@ void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
 
 void draw_stability(Pictures& pictures, const StabilityMap& m) {
   HeatMap plane;
-  plane.title = "smallest shear stiffness over the stretches; red: strong ellipticity lost";
+  plane.title = "minimum acoustic eigenvalue over the stretches; red: strong ellipticity lost";
   plane.x_label = "stretch along x", plane.y_label = "stretch along z", plane.value_label = "MPa";
   plane.x_from = plane.y_from = m.stretch.front(), plane.x_to = plane.y_to = m.stretch.back();
   plane.values = m.plane, plane.zero_line = plane.swap_colours = true;

@@ -111,7 +111,7 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   u.options.push_back({"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
   u.options.push_back({"--dry-run",
                        "",
-                       stage.forecasts ? "check all, say which parts the scene has, memory and time; write nothing"
+                       stage.forecasts ? "check everything and forecast memory and time; write nothing"
                                        : "check config and inputs, say what would be made; write nothing",
                        "",
                        {}});

@@ -36,10 +36,9 @@ void measure(const std::string& name, const test::Indentation& scene, const Mate
   fmt::print("{}: {} hexahedra, {} threads: {} to {:.3g} mm, force {:.5g} N\n", name, result.mesh.n_cells(), scene.threads,
              result.path.complete ? "complete" : "stopped (" + result.path.why + ")",
              result.steps.empty() ? 0 : result.steps.back().depth, result.steps.empty() ? 0 : result.steps.back().force);
-  fmt::print(
-      "  {} steps, {} iterations ({:.2f} per step), {} corrections with their tangents ({:.2f}), {:.1f} s CPU, {:.1f} s wall, {:.0f} MB\n",
-      result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps), result.path.again,
-      double(result.path.again) / std::max(1, result.path.steps), seconds, wall, 1e-6 * peak_bytes());
+  fmt::print("  {} steps, {} Newton iterations ({:.2f} per step), {} modified ({:.2f}), {:.1f} s CPU, {:.1f} s wall, {:.0f} MB\n",
+             result.path.steps, result.path.iterations, double(result.path.iterations) / std::max(1, result.path.steps),
+             result.path.again, double(result.path.again) / std::max(1, result.path.steps), seconds, wall, 1e-6 * peak_bytes());
   const double rate = multiplication_rate();
   fmt::print("  CPU s: assembly {:.2f}, factor {:.2f} ({:.3f} each), solve {:.2f}, contact {:.2f}, analysis {:.2f}\n",
              cost.assembly, cost.factor, cost.factor / n, cost.solve, cost.contact, cost.analysis);

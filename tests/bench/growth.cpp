@@ -56,7 +56,7 @@ void measure_growth(const Material& skin) {
          "factor_GFLOPs\n";
   fmt::print(
       "growth: two steps of 0.02 mm; CPU seconds per iteration on one thread\n"
-      "     dofs  hexahedra  memory (foretold) MB   iteration (foretold) s   assembly  factor   solve  contact  analysis  "
+      "     dofs  hexahedra  memory (forecast) MB   iteration (forecast) s   assembly  factor   solve  contact  analysis  "
       "GFLOP/s (product)\n");
   for (const auto& [nx, ny] : {std::pair{19, 4}, {28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}}) {
     int ends[2];
@@ -96,10 +96,10 @@ void measure_growth(const Material& skin) {
                                          {"growth.csv", "dofs", "factor_s", "factorization"},
                                          {"growth.csv", "dofs", "assembly_s", "assembly"},
                                          {"growth.csv", "dofs", "solve_s", "solution"},
-                                         {"growth.csv", "dofs", "forecast_s", "foretold", true}}},
+                                         {"growth.csv", "dofs", "forecast_s", "forecast", true}}},
         {"growth_memory", "memory (MB)",
          std::vector<PlotLine>{{"growth.csv", "dofs", "memory_MB", "largest"},
-                               {"growth.csv", "dofs", "forecast_MB", "foretold", true}}}}) {
+                               {"growth.csv", "dofs", "forecast_MB", "forecast", true}}}}) {
     Plot plot;
     plot.x_label = "free degrees of freedom", plot.y_label = label, plot.lines = lines;
     plot.logarithmic = true;

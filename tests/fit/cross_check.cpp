@@ -1,4 +1,4 @@
-// A second answer by another library: it agrees with an optimum and tells of one that is none.
+// The cross-check by another library agrees with an optimum, and says so where there is none.
 #include "fit/cross_check.hpp"
 
 #include <doctest/doctest.h>

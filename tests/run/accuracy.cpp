@@ -24,7 +24,7 @@ TEST_CASE("a percentage is a number above 0 with its sign") {
   for (const char* wrong : {"1", "%", "0%", "-1%", "nan%", "inf%", "1%%", "one%", ""}) CHECK(!percent_of(wrong));
 }
 
-TEST_CASE("the rungs come with falling errors, and none costs less cells than the one before") {
+TEST_CASE("the levels come with falling errors, and none costs less cells than the one before") {
   for (bool plain : {false, true}) {
     const auto& rungs = accuracy_rungs(plain);
     REQUIRE(rungs.size() >= 3);
@@ -35,7 +35,7 @@ TEST_CASE("the rungs come with falling errors, and none costs less cells than th
   }
 }
 
-TEST_CASE("the first rung that promises the wanted error is taken, its cells, increments and symmetry with it") {
+TEST_CASE("the first level that promises the wanted error is taken, its cells, increments and symmetry with it") {
   for (const auto& [wanted, mu] : {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {1.0, 0.34}}) {
     SolveConfig config = indentation();
     config.contacts["ball"].friction = mu;
@@ -53,7 +53,7 @@ TEST_CASE("the first rung that promises the wanted error is taken, its cells, in
   }
 }
 
-TEST_CASE("more than the ladder can promise gives its finest rung and says so; nothing wanted changes nothing") {
+TEST_CASE("more than the study can promise gives its finest level and says so; nothing wanted changes nothing") {
   SolveConfig config = indentation();
   config.accuracy = "0.0001%";
   const auto finest = choose_accuracy(config, std::nullopt);
@@ -71,7 +71,7 @@ TEST_CASE("more than the ladder can promise gives its finest rung and says so; n
   CHECK(plain.symmetry == SymmetryChoice::half_turn);  // what is asked for by name stays
 }
 
-TEST_CASE("fibres take the rungs of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
+TEST_CASE("fibres take the levels of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
   Material fibrous;
   fibrous.fibres.emplace_back();
   SolveConfig config = indentation();

@@ -108,7 +108,7 @@ TEST_CASE("with friction the increments have an error, which falls with them, wi
   }
 }
 
-TEST_CASE("a mesh whose cells no number scales has no second rung") {
+TEST_CASE("a mesh whose cells no number scales has no refinement to estimate by") {
   SolveConfig config = rung("isotropic", CellType::hex27, 0.8, 1);
   config.mesh->geometry = Block{};
   CHECK_THROWS_AS(estimate_errors(config, config.material, nowhere, {}, 0), Failure);

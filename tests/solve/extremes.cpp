@@ -1,5 +1,5 @@
-// The ladder of extremes: each rung gives the right answer within a tolerance, or a refusal that says why.
-// The long rungs are in pipelines/extremes.yaml; what meshes refuse is in tests/stages/extremes.cmake.
+// Extreme cases: each gives the right answer within a tolerance, or a refusal that says why.
+// The long ones are in pipelines/extremes.yaml; what meshes refuse is in tests/stages/extremes.cmake.
 #include <doctest/doctest.h>
 
 #include <algorithm>

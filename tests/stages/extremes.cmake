@@ -1,4 +1,4 @@
-# Rungs of the ladder that are refusals: what a mesh or a scene cannot be is said by name, with its place.
+# Extreme cases that are refusals: what a mesh or a scene cannot be is said by name, with its place.
 include(${ROOT}/tests/support/run.cmake)
 copy_project()
 set(project ${WORK}/project)
@@ -68,6 +68,6 @@ contacts:
   expect_said("the supports leave the body 3 rigid motions (2 along, 1 about an axis): only contact holds it")
   set(said "${said}" PARENT_SCOPE)
 endfunction()
-pressed_at(0 " cuts; " 0.5)
+pressed_at(0 " step cut-backs; " 0.5)
 pressed_at(4 "the body slips away from under the indenter, and nothing else holds it" 0.9)
 expect_said("hold also a node on the indenter's axis and, against turning, one beside it, where contact does not")

@@ -1,4 +1,4 @@
-// Fronts and limits of ladders.
+// Fronts and limits of refinement studies.
 #include "sweep/trade.hpp"
 
 #include <doctest/doctest.h>
