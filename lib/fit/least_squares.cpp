@@ -147,84 +147,108 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
   return true;
 }
 
-LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOptions& options) {
-  constexpr double good_enough = 1e-8;
-  LeastSquaresResult s;
-  s.p = q.start.cwiseMax(q.lower).cwiseMin(q.upper);
-  s.cost = std::numeric_limits<double>::infinity();
-  s.kkt = s.cost;
-  s.at_bound.assign(static_cast<std::size_t>(s.p.size()), false);
-  if (!q.residual(s.p, s.r) || !s.r.allFinite() || !jacobian(q, s.p, s.J)) {
-    s.why = "the model does not exist at the start";
-    return s;
+namespace {
+
+// One search: its state is the result so far, the scaling D and the damping mu.
+class LevenbergMarquardt {
+ public:
+  explicit LevenbergMarquardt(const LeastSquares& q) : q_(q) {
+    s_.p = q.start.cwiseMax(q.lower).cwiseMin(q.upper);
+    s_.cost = s_.kkt = std::numeric_limits<double>::infinity();
+    s_.at_bound.assign(static_cast<std::size_t>(s_.p.size()), false);
+    D_ = curvature_ = VecX::Zero(s_.p.size());
   }
-  s.cost = 0.5 * s.r.squaredNorm();
-  VecX D = VecX::Zero(s.p.size()), curvature = D;
-  double mu = 1e-3, growth = 2;
-  constexpr int slow = 25;  // iterations after which a search is
-  int asides = 0;
-  const auto moved_aside = [&] {
-    if (++asides > 10) return false;
-    const VecX p = aside(q, s.p, s.r, s.J);
+
+  LeastSquaresResult search(const LeastSquaresOptions& options) {
+    if (!q_.residual(s_.p, s_.r) || !s_.r.allFinite() || !jacobian(q_, s_.p, s_.J)) {
+      s_.why = "the model does not exist at the start";
+      return s_;
+    }
+    s_.cost = 0.5 * s_.r.squaredNorm();
+    iterate(options);
+    for (Eigen::Index i = 0; i < s_.p.size(); ++i)
+      s_.at_bound[static_cast<std::size_t>(i)] = s_.p[i] == q_.lower[i] || s_.p[i] == q_.upper[i];
+    return s_;
+  }
+
+ private:
+  static constexpr double good_enough_ = 1e-8;
+  static constexpr int slow_ = 25;  // iterations after which a search is
+
+  void iterate(const LeastSquaresOptions& options) {
+    for (s_.iterations = 0; s_.iterations < options.iterations; ++s_.iterations) {
+      s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
+      if (s_.kkt <= options.kkt) {
+        if (moved_aside()) continue;
+        s_.converged = true, s_.why = "optimal";
+        return;
+      }
+      D_ = D_.cwiseMax(s_.J.colwise().norm().transpose());
+      for (Eigen::Index i = 0; i < D_.size(); ++i)
+        if (D_[i] == 0) D_[i] = 1 / std::max(q_.typical[i], eps);
+      if (s_.iterations >= slow_) curvature_ = residual_curvature(q_, s_.p, s_.r);
+      bool accepted = false;
+      while (!accepted && mu_ < 1e12) accepted = step();
+      if (!accepted && !moved_aside()) return end("optimal within rounding", "no step lowers the cost");
+    }
+    s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
+    end("optimal", "iteration limit reached");
+  }
+
+  void end(const char* good, const char* bad) {
+    s_.converged = s_.kkt <= good_enough_;
+    s_.why = s_.converged ? good : bad;
+  }
+
+  // takes a step that lowers the cost, or damps the next one more
+  bool step() {
+    const VecX d = damped_step(q_, s_.p, s_.r, s_.J, D_, curvature_, mu_);
+    const VecX p = (s_.p + d).cwiseMax(q_.lower).cwiseMin(q_.upper);
+    VecX r;
+    const bool exists = q_.residual(p, r) && r.allFinite();
+    //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
+    const VecX Jd = s_.J * d;
+    const double predicted = -s_.r.dot(Jd) - 0.5 * Jd.squaredNorm() - 0.5 * curvature_.dot(d.cwiseAbs2());
+    //   |r_old|^2 - |r_new|^2 = (r_old - r_new).(r_old + r_new), which keeps its digits near the optimum
+    const double gained = exists ? 0.5 * (s_.r - r).dot(s_.r + r) : -1;
+    if (exists && predicted > 0 && gained > 0)
+      if (MatX J = s_.J; jacobian(q_, p, J)) {
+        mu_ = std::max(1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
+        growth_ = 2;
+        take(p, r, J);
+        return true;
+      }
+    mu_ = std::max(mu_, 1e-15) * growth_, growth_ *= 2;
+    return false;
+  }
+
+  bool moved_aside() {
+    if (++asides_ > 10) return false;
+    const VecX p = aside(q_, s_.p, s_.r, s_.J);
     VecX r;
     MatX J;
-    if (p == s.p || !q.residual(p, r) || !jacobian(q, p, J)) return false;
-    s.p = p, s.r = r, s.J = J, s.cost = 0.5 * r.squaredNorm();
-    D.setZero(), mu = 1e-3, growth = 2;
+    if (p == s_.p || !q_.residual(p, r) || !jacobian(q_, p, J)) return false;
+    take(p, r, J);
+    D_.setZero(), mu_ = 1e-3, growth_ = 2;
     return true;
-  };
-  for (s.iterations = 0; s.iterations < options.iterations; ++s.iterations) {
-    s.kkt = kkt_residual(q, s.p, s.r, s.J);
-    if (s.kkt <= options.kkt) {
-      if (moved_aside()) continue;
-      s.converged = true, s.why = "optimal";
-      break;
-    }
-    D = D.cwiseMax(s.J.colwise().norm().transpose());
-    for (Eigen::Index i = 0; i < D.size(); ++i)
-      if (D[i] == 0) D[i] = 1 / std::max(q.typical[i], eps);
-    if (s.iterations >= slow) curvature = residual_curvature(q, s.p, s.r);
+  }
 
-    bool accepted = false;
-    while (!accepted && mu < 1e12) {
-      const VecX d = damped_step(q, s.p, s.r, s.J, D, curvature, mu);
-      const VecX p = (s.p + d).cwiseMax(q.lower).cwiseMin(q.upper);
-      VecX r;
-      const bool exists = q.residual(p, r) && r.allFinite();
-      //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
-      const VecX Jd = s.J * d;
-      const double predicted = -s.r.dot(Jd) - 0.5 * Jd.squaredNorm() - 0.5 * curvature.dot(d.cwiseAbs2());
-      //   |r_old|^2 - |r_new|^2 = (r_old - r_new).(r_old + r_new), which keeps its digits near the optimum
-      const double gained = exists ? 0.5 * (s.r - r).dot(s.r + r) : -1;
-      if (exists && predicted > 0 && gained > 0) {
-        const double ratio = gained / predicted;
-        MatX J = s.J;
-        if (jacobian(q, p, J)) {
-          accepted = true;
-          mu = std::max(1e-30, mu * std::max(0.1, 1 - std::pow(2 * std::min(ratio, 1.) - 1, 3)));
-          growth = 2;
-          s.p = p, s.r = r, s.J = J;
-          s.cost = 0.5 * r.squaredNorm();
-          continue;
-        }
-      }
-      mu = std::max(mu, 1e-15) * growth, growth *= 2;
-    }
-    if (!accepted) {
-      if (moved_aside()) continue;
-      s.converged = s.kkt <= good_enough;
-      s.why = s.converged ? "optimal within rounding" : "no step lowers the cost";
-      break;
-    }
+  void take(const VecX& p, const VecX& r, const MatX& J) {
+    s_.p = p, s_.r = r, s_.J = J;
+    s_.cost = 0.5 * r.squaredNorm();
   }
-  if (s.why.empty()) {
-    s.kkt = kkt_residual(q, s.p, s.r, s.J);
-    s.converged = s.kkt <= good_enough;
-    s.why = s.converged ? "optimal" : "iteration limit reached";
-  }
-  for (Eigen::Index i = 0; i < s.p.size(); ++i)
-    s.at_bound[static_cast<std::size_t>(i)] = s.p[i] == q.lower[i] || s.p[i] == q.upper[i];
-  return s;
+
+  const LeastSquares& q_;
+  LeastSquaresResult s_;
+  VecX D_, curvature_;
+  double mu_ = 1e-3, growth_ = 2;
+  int asides_ = 0;
+};
+
+}  // namespace
+
+LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOptions& options) {
+  return LevenbergMarquardt(q).search(options);
 }
 
 MatX covariance(const LeastSquaresResult& s) {

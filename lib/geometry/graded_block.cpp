@@ -47,46 +47,47 @@ double growth_of(const GradedBlock& b, double from, double to) {
 
 // Loops of 4 n points around the core: n from each of its corners, at 45 degrees before +x, +z, -x, -z, to the next; points of
 // neighbouring loops are joined by straight lines.
-Plan plan_of(const GradedBlock& b) {
-  using Loop = std::vector<std::array<double, 2>>;  // from the centre
-  const double half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2];
-  const int n = b.core.cells;
-  const auto rectangle = [n](double dx, double dz) {
-    const std::array<std::array<double, 2>, 4> corner{{{dx, -dz}, {dx, dz}, {-dx, dz}, {-dx, -dz}}};
-    Loop loop;
-    for (int s = 0; s < 4; ++s) {
-      const auto &from = corner[s], &to = corner[(s + 1) % 4];
-      for (int i = 0; i < n; ++i) loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
-    }
-    return loop;
-  };
-  const auto circle = [n](double radius) {
-    Loop loop;
-    for (int s = 0; s < 4; ++s)
-      for (int i = 0; i < n; ++i) {
-        const double angle = 0.5 * std::numbers::pi * (s + (i - 0.5 * n) / n);
-        loop.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-      }
-    return loop;
-  };
+using Loop = std::vector<std::array<double, 2>>;  // from the centre
 
-  Plan plan;
-  const auto add_point = [&](double x, double z) {
-    plan.points.push_back({b.origin[0] + half_x + x, b.origin[2] + half_z + z});
-    return static_cast<int>(plan.points.size()) - 1;
-  };
-  std::vector<int> inner(static_cast<std::size_t>(4 * n));  // the last loop's points in the plan
-  const double h = b.core.half_width;
-  for (int k = 0; k <= n; ++k)
-    for (int i = 0; i <= n; ++i) {
-      const int at = add_point(h * (2 * i - n) / n, h * (2 * k - n) / n);
-      if (i < n && k < n) plan.cells.push_back({at, at + 1, at + n + 2, at + n + 1});
-      if (i == n && k < n) inner[k] = at;
-      if (k == n && i > 0) inner[2 * n - i] = at;
-      if (i == 0 && k > 0) inner[3 * n - k] = at;
-      if (k == 0 && i < n) inner[3 * n + i] = at;
+Loop rectangle(int n, double dx, double dz) {
+  const std::array<std::array<double, 2>, 4> corner{{{dx, -dz}, {dx, dz}, {-dx, dz}, {-dx, -dz}}};
+  Loop loop;
+  for (int s = 0; s < 4; ++s) {
+    const auto &from = corner[s], &to = corner[(s + 1) % 4];
+    for (int i = 0; i < n; ++i) loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
+  }
+  return loop;
+}
+
+Loop circle(int n, double radius) {
+  Loop loop;
+  for (int s = 0; s < 4; ++s)
+    for (int i = 0; i < n; ++i) {
+      const double angle = 0.5 * std::numbers::pi * (s + (i - 0.5 * n) / n);
+      loop.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
-  const auto surround = [&](const Loop& from, const Loop& to, int cells, double growth) {
+  return loop;
+}
+
+class PlanMaker {
+ public:
+  explicit PlanMaker(const GradedBlock& b)
+      : x_(b.origin[0] + 0.5 * b.size[0]), z_(b.origin[2] + 0.5 * b.size[2]), inner_(static_cast<std::size_t>(4 * b.core.cells)) {}
+
+  void core(int n, double h) {
+    for (int k = 0; k <= n; ++k)
+      for (int i = 0; i <= n; ++i) {
+        const int at = add_point(h * (2 * i - n) / n, h * (2 * k - n) / n);
+        if (i < n && k < n) plan.cells.push_back({at, at + 1, at + n + 2, at + n + 1});
+        if (i == n && k < n) inner_[k] = at;
+        if (k == n && i > 0) inner_[2 * n - i] = at;
+        if (i == 0 && k > 0) inner_[3 * n - k] = at;
+        if (k == 0 && i < n) inner_[3 * n + i] = at;
+      }
+  }
+
+  // `cells` loops of cells between two loops of points, each longer than the one inside it by `growth`
+  void surround(const Loop& from, const Loop& to, int cells, double growth) {
     double step = 1, whole = 0, part = 0;
     for (int c = 0; c < cells; ++c) whole += step, step *= growth;
     step = 1;
@@ -98,19 +99,37 @@ Plan plan_of(const GradedBlock& b) {
         outer.push_back(add_point((1 - v) * from[p][0] + v * to[p][0], (1 - v) * from[p][1] + v * to[p][1]));
       for (std::size_t p = 0; p < outer.size(); ++p) {
         const std::size_t q = (p + 1) % outer.size();
-        plan.cells.push_back({inner[p], outer[p], outer[q], inner[q]});
+        plan.cells.push_back({inner_[p], outer[p], outer[q], inner_[q]});
       }
-      inner = outer;
+      inner_ = outer;
     }
-  };
-  Loop last = rectangle(h, h);
+  }
+
+  Plan plan;
+
+ private:
+  int add_point(double x, double z) {
+    plan.points.push_back({x_ + x, z_ + z});
+    return static_cast<int>(plan.points.size()) - 1;
+  }
+
+  double x_, z_;            // of the centre
+  std::vector<int> inner_;  // the last loop's points in the plan
+};
+
+Plan plan_of(const GradedBlock& b) {
+  const double half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2], h = b.core.half_width;
+  const int n = b.core.cells;
+  PlanMaker maker(b);
+  maker.core(n, h);
+  Loop last = rectangle(n, h, h);
   for (const Ring& ring : b.rings) {
-    const Loop next = circle(ring.radius);
-    surround(last, next, ring.cells, 1);
+    const Loop next = circle(n, ring.radius);
+    maker.surround(last, next, ring.cells, 1);
     last = next;
   }
-  surround(last, rectangle(half_x, half_z), b.outer_cells, growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
-  return plan;
+  maker.surround(last, rectangle(n, half_x, half_z), b.outer_cells, growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
+  return std::move(maker.plan);
 }
 
 std::vector<double> layer_heights(const GradedBlock& b) {

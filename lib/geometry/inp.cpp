@@ -265,9 +265,9 @@ class Reader {
     surfaces_[key].second.push_back({cells[0], side[1] - '1', line_});
   }
 
-  Mesh mesh() {
-    Mesh mesh;
-    std::map<long long, int> cell_at, node_at;  // numbered as the file does, without gaps
+  using Numbers = std::map<long long, int>;  // the file's number of a node or cell: ours, without gaps
+
+  void add_cells(Mesh& mesh, Numbers& cell_at, Numbers& node_at) {
     for (const auto& [id, cell] : cells_)
       for (long long n : cell.first) node_at[n] = -1;
     for (const auto& [id, x] : nodes_)
@@ -279,6 +279,9 @@ class Reader {
         mesh.connectivity.push_back(node_at[n]);
       }
     }
+  }
+
+  void add_bodies(Mesh& mesh, const Numbers& cell_at) {
     mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     for (const std::string& key : bodies_.empty() ? element_bodies_ : bodies_) {
       const auto set = element_sets_.find(key);
@@ -299,27 +302,39 @@ class Reader {
         if (body < 0) body = static_cast<int>(mesh.bodies.size());
       mesh.bodies.push_back("");
     }
+  }
+
+  std::vector<int> cells_of_side(const Side& side, const Numbers& cell_at) {
+    if (is_number(side.what)) {
+      const auto cell = cell_at.find(side.what.size() < 18 ? std::stoll(side.what) : -1);
+      if (cell == cell_at.end()) refuse(side.line, "there is no hexahedron " + side.what);
+      return {cell->second};
+    }
+    const auto set = element_sets_.find(upper(side.what));
+    if (set == element_sets_.end()) refuse(side.line, "there is no element set \"" + side.what + "\"");
+    return there(set->second, cell_at);
+  }
+
+  void add_sets(Mesh& mesh, const Numbers& cell_at, const Numbers& node_at) {
     for (const auto& [key, surface] : surfaces_) {
       const auto& [name, sides] = surface;
       std::vector<Facet> facets;
-      for (const Side& side : sides) {
-        std::vector<int> cells;
-        if (is_number(side.what)) {
-          const auto cell = cell_at.find(side.what.size() < 18 ? std::stoll(side.what) : -1);
-          if (cell == cell_at.end()) refuse(side.line, "there is no hexahedron " + side.what);
-          cells = {cell->second};
-        } else if (const auto set = element_sets_.find(upper(side.what)); set != element_sets_.end())
-          cells = there(set->second, cell_at);
-        else
-          refuse(side.line, "there is no element set \"" + side.what + "\"");
-        for (int cell : cells) facets.push_back({cell, facet_of_side[side.side]});
-      }
+      for (const Side& side : sides)
+        for (int cell : cells_of_side(side, cell_at)) facets.push_back({cell, facet_of_side[side.side]});
       if (!facets.empty()) name_facets(mesh, name, facets);
     }
     for (const auto& [key, set] : node_sets_) {
       const std::vector<int> nodes = there(set, node_at);
       if (!nodes.empty()) mesh.node_sets[set.name] = nodes;
     }
+  }
+
+  Mesh mesh() {
+    Mesh mesh;
+    Numbers cell_at, node_at;
+    add_cells(mesh, cell_at, node_at);
+    add_bodies(mesh, cell_at);
+    add_sets(mesh, cell_at, node_at);
     std::vector<std::string> others;
     for (const auto& [key, set] : element_sets_)
       if (std::find(mesh.bodies.begin(), mesh.bodies.end(), set.name) == mesh.bodies.end()) others.push_back(set.name);

@@ -19,83 +19,108 @@ Label label(double x, double y, const std::string& text, double size = 13, Label
   return {{x, y}, text, size, anchor};
 }
 
-}  // namespace
+// Where the cells of a map are drawn.
+struct Grid {
+  const HeatMap& map;
+  double left = 150, top = 60, width = 420;
+  Eigen::Index rows = map.values.rows(), columns = map.values.cols();
+  double height = map.y_names.empty() ? 420 : std::max(60., 42. * static_cast<double>(rows));
+  double w = width / static_cast<double>(columns), h = height / static_cast<double>(rows);  // of a cell
 
-Drawing heat_map(const HeatMap& map) {
-  Drawing d;
-  const auto rows = map.values.rows(), columns = map.values.cols();
-  const double left = 150, top = 60, width = 420,
-               height = map.y_names.empty() ? 420 : std::max(60., 42. * static_cast<double>(rows));
-  d.width = 720, d.height = top + height + 70;
-  const double w = width / static_cast<double>(columns), h = height / static_cast<double>(rows);
-  const auto y_of = [&](Eigen::Index row) { return top + h * static_cast<double>(map.first_row_on_top ? row : rows - 1 - row); };
-  const auto colour = [&](double value) {
+  double bottom() const { return top + height; }
+  double x_of(Eigen::Index column) const { return left + w * static_cast<double>(column); }
+  double y_of(Eigen::Index row) const { return top + h * static_cast<double>(map.first_row_on_top ? row : rows - 1 - row); }
+  Colour colour(double value) const {
     if (!std::isfinite(value)) return grey;
     if (map.losses) return signed_colour(1 - 0.9 * std::clamp(value / map.limit, 0., 1.));
     return signed_colour((map.swap_colours ? -1 : 1) * std::clamp(value / map.limit, -1., 1.));
-  };
-  d.marks.push_back(label(left + width / 2, 30, map.title, 16));
-  const bool seams = map.numbers;
-  for (Eigen::Index i = 0; i < rows; ++i)
-    for (Eigen::Index j = 0; j < columns; ++j)
-      d.marks.push_back(box(left + w * static_cast<double>(j), y_of(i), w, h, colour(map.values(i, j)), seams ? 0 : 0.5));
-  if (map.numbers)
-    for (Eigen::Index i = 0; i < rows; ++i)
-      for (Eigen::Index j = 0; j < columns; ++j) {
-        const double value = map.values(i, j);
-        const std::string text = std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isinf(value) ? "none" : "–";
-        d.marks.push_back(label(left + w * (static_cast<double>(j) + 0.5), y_of(i) + h / 2 + 4, text, w > 55 ? 13 : 11));
-      }
-  if (map.zero_line) {
-    const auto differ = [&](double a, double b) { return std::isfinite(a) && std::isfinite(b) && (a < 0) != (b < 0); };
-    for (Eigen::Index i = 0; i < rows; ++i)
-      for (Eigen::Index j = 0; j < columns; ++j) {
-        const double x = left + w * static_cast<double>(j), y = y_of(i);
-        if (j + 1 < columns && differ(map.values(i, j), map.values(i, j + 1)))
-          d.marks.push_back(Stroke{{{x + w, y}, {x + w, y + h}}, ink, 1.5, 1});
-        if (i + 1 < rows && differ(map.values(i, j), map.values(i + 1, j))) {
-          const double edge = map.first_row_on_top ? y + h : y;
-          d.marks.push_back(Stroke{{{x, edge}, {x + w, edge}}, ink, 1.5, 1});
-        }
-      }
   }
-  const double bottom = top + height;
-  if (!map.x_names.empty()) {
-    for (std::size_t j = 0; j < map.x_names.size(); ++j)
-      d.marks.push_back(label(left + w * (static_cast<double>(j) + 0.5), bottom + 20, map.x_names[j]));
-  } else {
-    const std::vector<double> at = ticks(map.x_from, map.x_to);
-    const std::vector<std::string> texts = tick_texts(at);
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      const double x = left + w / 2 + (width - w) * (at[k] - map.x_from) / (map.x_to - map.x_from);
-      d.marks.push_back(Stroke{{{x, bottom}, {x, bottom + 5}}, ink, 1, 1});
-      d.marks.push_back(label(x, bottom + 20, texts[k]));
+};
+
+void add_cells(Drawing& d, const Grid& g) {
+  for (Eigen::Index i = 0; i < g.rows; ++i)
+    for (Eigen::Index j = 0; j < g.columns; ++j)
+      d.marks.push_back(box(g.x_of(j), g.y_of(i), g.w, g.h, g.colour(g.map.values(i, j)), g.map.numbers ? 0 : 0.5));
+}
+
+void add_numbers(Drawing& d, const Grid& g) {
+  for (Eigen::Index i = 0; i < g.rows; ++i)
+    for (Eigen::Index j = 0; j < g.columns; ++j) {
+      const double value = g.map.values(i, j);
+      const std::string text = std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isinf(value) ? "none" : "–";
+      d.marks.push_back(label(g.x_of(j) + g.w / 2, g.y_of(i) + g.h / 2 + 4, text, g.w > 55 ? 13 : 11));
     }
-  }
-  if (!map.y_names.empty()) {
-    for (std::size_t i = 0; i < map.y_names.size(); ++i)
-      d.marks.push_back(label(left - 8, y_of(static_cast<Eigen::Index>(i)) + h / 2 + 4, map.y_names[i], 13, Label::Anchor::end));
-  } else {
-    const std::vector<double> at = ticks(map.y_from, map.y_to);
-    const std::vector<std::string> texts = tick_texts(at);
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      const double y = bottom - h / 2 - (height - h) * (at[k] - map.y_from) / (map.y_to - map.y_from);
-      d.marks.push_back(Stroke{{{left - 5, y}, {left, y}}, ink, 1, 1});
-      d.marks.push_back(label(left - 9, y + 4, texts[k], 13, Label::Anchor::end));
+}
+
+void add_zero_line(Drawing& d, const Grid& g) {
+  const MatX& values = g.map.values;
+  const auto differ = [](double a, double b) { return std::isfinite(a) && std::isfinite(b) && (a < 0) != (b < 0); };
+  for (Eigen::Index i = 0; i < g.rows; ++i)
+    for (Eigen::Index j = 0; j < g.columns; ++j) {
+      const double x = g.x_of(j), y = g.y_of(i);
+      if (j + 1 < g.columns && differ(values(i, j), values(i, j + 1)))
+        d.marks.push_back(Stroke{{{x + g.w, y}, {x + g.w, y + g.h}}, ink, 1.5, 1});
+      if (i + 1 < g.rows && differ(values(i, j), values(i + 1, j))) {
+        const double edge = g.map.first_row_on_top ? y + g.h : y;
+        d.marks.push_back(Stroke{{{x, edge}, {x + g.w, edge}}, ink, 1.5, 1});
+      }
     }
+}
+
+// names of the columns, or numbers at the middles of cells
+void add_x_axis(Drawing& d, const Grid& g) {
+  for (std::size_t j = 0; j < g.map.x_names.size(); ++j)
+    d.marks.push_back(label(g.x_of(static_cast<Eigen::Index>(j)) + g.w / 2, g.bottom() + 20, g.map.x_names[j]));
+  if (!g.map.x_names.empty()) return;
+  const std::vector<double> at = ticks(g.map.x_from, g.map.x_to);
+  const std::vector<std::string> texts = tick_texts(at);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double x = g.left + g.w / 2 + (g.width - g.w) * (at[k] - g.map.x_from) / (g.map.x_to - g.map.x_from);
+    d.marks.push_back(Stroke{{{x, g.bottom()}, {x, g.bottom() + 5}}, ink, 1, 1});
+    d.marks.push_back(label(x, g.bottom() + 20, texts[k]));
   }
-  d.marks.push_back(label(left + width / 2, bottom + 48, map.x_label, 14));
-  if (!map.y_label.empty()) d.marks.push_back(label(20, top - 14, map.y_label, 14, Label::Anchor::start));
-  if (map.losses) return d;
-  // the scale
-  const double x = left + width + 30, cells = 40, step = height / cells;
+}
+
+void add_y_axis(Drawing& d, const Grid& g) {
+  for (std::size_t i = 0; i < g.map.y_names.size(); ++i)
+    d.marks.push_back(
+        label(g.left - 8, g.y_of(static_cast<Eigen::Index>(i)) + g.h / 2 + 4, g.map.y_names[i], 13, Label::Anchor::end));
+  if (!g.map.y_names.empty()) return;
+  const std::vector<double> at = ticks(g.map.y_from, g.map.y_to);
+  const std::vector<std::string> texts = tick_texts(at);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double y = g.bottom() - g.h / 2 - (g.height - g.h) * (at[k] - g.map.y_from) / (g.map.y_to - g.map.y_from);
+    d.marks.push_back(Stroke{{{g.left - 5, y}, {g.left, y}}, ink, 1, 1});
+    d.marks.push_back(label(g.left - 9, y + 4, texts[k], 13, Label::Anchor::end));
+  }
+}
+
+void add_scale(Drawing& d, const Grid& g) {
+  const double x = g.left + g.width + 30, cells = 40, step = g.height / cells, limit = g.map.limit;
   for (int k = 0; k < cells; ++k)
-    d.marks.push_back(box(x, bottom - step * (k + 1), 16, step, colour(map.limit * (2 * (k + 0.5) / cells - 1)), 0.5));
-  const std::vector<double> at = ticks(-map.limit, map.limit, 4);
+    d.marks.push_back(box(x, g.bottom() - step * (k + 1), 16, step, g.colour(limit * (2 * (k + 0.5) / cells - 1)), 0.5));
+  const std::vector<double> at = ticks(-limit, limit, 4);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k)
-    d.marks.push_back(label(x + 22, bottom - height * (at[k] / map.limit + 1) / 2 + 4, texts[k], 12, Label::Anchor::start));
-  if (!map.value_label.empty()) d.marks.push_back(label(x, top - 14, map.value_label, 13, Label::Anchor::start));
+    d.marks.push_back(label(x + 22, g.bottom() - g.height * (at[k] / limit + 1) / 2 + 4, texts[k], 12, Label::Anchor::start));
+  if (!g.map.value_label.empty()) d.marks.push_back(label(x, g.top - 14, g.map.value_label, 13, Label::Anchor::start));
+}
+
+}  // namespace
+
+Drawing heat_map(const HeatMap& map) {
+  const Grid g{map};
+  Drawing d;
+  d.width = 720, d.height = g.bottom() + 70;
+  d.marks.push_back(label(g.left + g.width / 2, 30, map.title, 16));
+  add_cells(d, g);
+  if (map.numbers) add_numbers(d, g);
+  if (map.zero_line) add_zero_line(d, g);
+  add_x_axis(d, g);
+  add_y_axis(d, g);
+  d.marks.push_back(label(g.left + g.width / 2, g.bottom() + 48, map.x_label, 14));
+  if (!map.y_label.empty()) d.marks.push_back(label(20, g.top - 14, map.y_label, 14, Label::Anchor::start));
+  if (!map.losses) add_scale(d, g);
   return d;
 }
 

@@ -44,10 +44,10 @@ StiffnessAtRest read_at_rest(const h5::Group& group) {
           value("error_before"), value("error_after")};
 }
 
-void write_fit(const h5::Group& root, const FitRecord& fit) {
-  const h5::Group group = root.make_group("fit"), parameters = group.make_group("parameters");
+void write_parameters(const h5::Group& group, const std::vector<FittedParameter>& fitted) {
+  const h5::Group parameters = group.make_group("parameters");
   std::string order;
-  for (const FittedParameter& p : fit.parameters) {
+  for (const FittedParameter& p : fitted) {
     const h5::Group one = parameters.make_group(p.name);
     one.write_scalar("value", p.value, p.unit);
     one.write_scalar("lower", p.lower, p.unit);
@@ -56,26 +56,12 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
     order += (order.empty() ? "" : " ") + p.name;
   }
   parameters.attribute("order", order);
-  write_matrix(group, "covariance", fit.covariance);
-  write_matrix(group, "correlation", correlation(fit.covariance), "-");
-  write_matrix(group, "starts", fit.starts);
-  group.write_scalar("cost", fit.cost, "MPa^2");
-  group.write_scalar("kkt_residual", fit.kkt_residual);
-  group.write_scalar("mean_error", fit.mean_error_percent, "percent");
-  group.write_scalar("max_error", fit.max_error_percent, "percent");
-  group.write<double>("strain_range", {2}, std::vector{fit.strain_min, fit.strain_max}, "-");
-  std::vector<double> residual;
-  for (std::size_t i = 0; i < fit.stress.size(); ++i) residual.push_back(fit.model[i] - fit.stress[i]);
-  write_vector(group, "residual", residual, "MPa");
+}
 
-  const h5::Group curve = root.make_group("curve");
-  write_vector(curve, "strain", fit.strain, "-");
-  write_vector(curve, "stress", fit.stress, "MPa");
-  write_vector(curve, "model", fit.model, "MPa");
-
+void write_tests(const h5::Group& root, const std::vector<FittedTest>& fitted) {
   const h5::Group tests = root.make_group("tests");
   std::string names;
-  for (const FittedTest& test : fit.tests) {
+  for (const FittedTest& test : fitted) {
     const h5::Group one = tests.make_group(test.name);
     one.attribute("kind", test.kind);
     one.attribute("measure", test.measure);
@@ -93,16 +79,9 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
     names += (names.empty() ? "" : " ") + test.name;
   }
   tests.attribute("order", names);
-  group.write_scalar("r2", fit.r2);
-  group.write_scalar("aicc", fit.aicc);
-  group.write_scalar("bic", fit.bic);
-  group.write_scalar("residual_correlation", fit.residual_correlation, "-");
-  group.write_scalar("effective_values", fit.effective_values, "-");
-  std::string ties;
-  for (const Tie& tie : fit.ties) ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
-  if (!ties.empty()) group.attribute("ties", ties);
+}
 
-  if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
+std::vector<Summary> summary_of(const FitRecord& fit) {
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
@@ -112,7 +91,39 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   summary.push_back({"bic", fit.bic, "-"});
   summary.push_back({"cost", fit.cost, "-"});
   summary.push_back({"kkt_residual", fit.kkt_residual, "-"});
-  write_summary(root, summary);
+  return summary;
+}
+
+void write_fit(const h5::Group& root, const FitRecord& fit) {
+  const h5::Group group = root.make_group("fit");
+  write_parameters(group, fit.parameters);
+  write_matrix(group, "covariance", fit.covariance);
+  write_matrix(group, "correlation", correlation(fit.covariance), "-");
+  write_matrix(group, "starts", fit.starts);
+  group.write_scalar("cost", fit.cost, "MPa^2");
+  group.write_scalar("kkt_residual", fit.kkt_residual);
+  group.write_scalar("mean_error", fit.mean_error_percent, "percent");
+  group.write_scalar("max_error", fit.max_error_percent, "percent");
+  group.write<double>("strain_range", {2}, std::vector{fit.strain_min, fit.strain_max}, "-");
+  std::vector<double> residual;
+  for (std::size_t i = 0; i < fit.stress.size(); ++i) residual.push_back(fit.model[i] - fit.stress[i]);
+  write_vector(group, "residual", residual, "MPa");
+  group.write_scalar("r2", fit.r2);
+  group.write_scalar("aicc", fit.aicc);
+  group.write_scalar("bic", fit.bic);
+  group.write_scalar("residual_correlation", fit.residual_correlation, "-");
+  group.write_scalar("effective_values", fit.effective_values, "-");
+  std::string ties;
+  for (const Tie& tie : fit.ties) ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
+  if (!ties.empty()) group.attribute("ties", ties);
+  if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
+
+  const h5::Group curve = root.make_group("curve");
+  write_vector(curve, "strain", fit.strain, "-");
+  write_vector(curve, "stress", fit.stress, "MPa");
+  write_vector(curve, "model", fit.model, "MPa");
+  write_tests(root, fit.tests);
+  write_summary(root, summary_of(fit));
   write_study(root, fit.study);
 }
 
