@@ -23,7 +23,7 @@ foreach(cells tet15 hex8)
     "sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.5, through: [6, 0, 6]}}}}\n")
   run(0 ${BIN}/langer-mesh ${cells}.yaml -o ${cells}.h5)
   run(0 ${BIN}/langer-solve configs/solve/smoke.yaml --mesh ${cells}.h5 --material configs/material/abdomen_hgo_yeoh.yaml
-    -o ${cells}/solution.h5 --set "contacts.sphere.rigid.sphere.centre=[6, 6.5, 6]")
+    -o ${cells}/solution.h5 --set "contacts.sphere.rigid={sphere: {radius: 2.5, centre: [6, 6.5, 6]}}")
   run(0 ${BIN}/langer-post configs/post/smoke.yaml --solution ${cells}/solution.h5 -o ${cells}/curves.h5
     --set "columns=[{quantity: u_ind}, {quantity: force}, {quantity: von_mises_max}]")
   file(STRINGS ${folder}/${cells}/curves.csv rows)
