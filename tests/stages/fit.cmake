@@ -73,3 +73,36 @@ file(SHA256 ${WORK}/yeoh/material.h5 after)
 if(NOT before STREQUAL after)
   message(FATAL_ERROR "a refused fit has touched the result that was there")
 endif()
+
+# the axes of an equibiaxial test in one file, or each in its own with a grid of its own: the same numbers
+set(both "lx,px_MPa,lz,pz_MPa\n")
+set(along "lx,px_MPa\n")
+set(across "lz,pz_MPa\n")
+foreach(row "1.02;0.0021;1.03;0.0022" "1.05;0.0058;1.06;0.0046" "1.1;0.0131;1.09;0.0070" "1.15;0.0212;1.14;0.0112" "1.2;0.0304;1.21;0.0177")
+  list(JOIN row "," line)
+  string(APPEND both "${line}\n")
+  string(REGEX MATCH "^([^,]*,[^,]*),(.*)$" _ "${line}")
+  string(APPEND along "${CMAKE_MATCH_1}\n")
+  string(APPEND across "${CMAKE_MATCH_2}\n")
+endforeach()
+foreach(file both along across)
+  file(WRITE ${WORK}/${file}.csv "${${file}}")
+endforeach()
+set(law "law: {matrix: {yeoh: {a1: 0.02, a2: 0.01}}, fibres: [{hgo: {c1: 0.01, c2: 0.5}, alpha: 0}], volume: {quadratic: {d: 1e-3}}}
+parameters: [{key: matrix.yeoh.a1}, {key: \"fibres[0].hgo.c1\"}]
+bounds: admissible
+starts: 1
+")
+file(WRITE ${WORK}/one.yaml "data: [{file: both.csv, kind: equibiaxial, stress: nominal,
+  columns: {strain_x: lx, strain_z: lz, stress_x: px_MPa, stress_z: pz_MPa}}]\n${law}")
+file(WRITE ${WORK}/two.yaml "data:
+  - {file: along.csv, kind: equibiaxial, stress: nominal, columns: {strain_x: lx, stress_x: px_MPa}}
+  - {file: across.csv, kind: equibiaxial, stress: nominal, columns: {strain_x: lz, stress_x: pz_MPa}, fibre_angle: 90}\n${law}")
+foreach(files one two)
+  execute_process(COMMAND ${BIN}/langer-fit ${files}.yaml -o ${files}.h5 --json --quiet WORKING_DIRECTORY ${WORK}
+    OUTPUT_VARIABLE said ERROR_VARIABLE warned COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "\"a1_MPa\".*" ${files} "${said}")
+endforeach()
+if(NOT one OR NOT one STREQUAL two)
+  message(FATAL_ERROR "one file: ${one}\ntwo files: ${two}\n${said}")
+endif()
