@@ -169,7 +169,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
       [&](double t) {
         if (interrupted()) return SolveReport{};  // not converged
         statics.begin(t);
-        const SolveReport report = equilibrium_by(solver, progress.watched(statics.problem(), t), statics.trial());
+        const SolveReport report = equilibrium_by(solver, statics, progress.watched(statics.problem(), t));
         if (!report.converged()) progress.failed(t, report);
         return report;
       },

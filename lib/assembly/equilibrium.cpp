@@ -331,6 +331,11 @@ void Equilibrium::extrapolate_pressures(const VecX& u_before, double s) {
   follow_pressures();
 }
 
+// What four dilatation modes leave of J - 1 within a cell is opposed by a modulus of its own, kappa_l: the largest compressive pressure
+// of the modes in the cell, kappa at most (docs/theory.md, Volume). Less, and a compressed cell folds within itself; more, and it locks.
+// It follows the pressures p that the tangent uses, not kappa t at the u assembled: near incompressibility those are meaningless
+// until the increment is nearly solved. Residual and tangent thus have the same kappa_l, which lags one correction behind; where p =
+// kappa t, at every converged state, it is a function of u alone, and the body has no memory.
 void Equilibrium::follow_pressures() {
   if (formulation_ != Formulation::linear_dilatation) return;
   for (int e = 0; e < mesh_.n_cells(); ++e)

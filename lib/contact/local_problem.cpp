@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "contact/alart_curnier.hpp"
 
 namespace langer {
 
@@ -55,98 +58,62 @@ void sweep(const LocalProblem& problem, const VecX& rho, VecX& r) {
   }
 }
 
-// Alart-Curnier function and its generalised Jacobian, on the contacts that are not open.
-//   F_n = r_n - max(0, A),  A = r_n - rho x_n;   F_t = r_t - projection of s = r_t - rho x_t on the disc of radius mu A
-struct AlartCurnier {
-  VecX F;
-  std::vector<int> closed;
-  MatX Jacobian;  // rows and columns of the closed contacts
-};
-
-double alart_curnier(const LocalProblem& problem, const VecX& rho, const VecX& r, AlartCurnier* out) {
+std::vector<AlartCurnier> laws_at(const LocalProblem& problem, const VecX& rho, const VecX& r) {
   const VecX x = problem.W * r + problem.q;
-  VecX F = VecX::Zero(r.size());
-  std::vector<int> closed;
-  for (int i = 0; i < problem.n_contacts(); ++i) {
-    const Vec3 r_i = r.segment<3>(3 * i), x_i = x.segment<3>(3 * i);
-    const double A = r_i[0] - rho[i] * x_i[0];
-    if (A <= 0) {
-      F.segment<3>(3 * i) = r_i;
-      continue;
+  std::vector<AlartCurnier> laws;
+  laws.reserve(static_cast<std::size_t>(problem.n_contacts()));
+  for (int i = 0; i < problem.n_contacts(); ++i) laws.emplace_back(r.segment<3>(3 * i), x.segment<3>(3 * i), rho[i], problem.mu[i]);
+  return laws;
+}
+
+double size_of(const std::vector<AlartCurnier>& laws) {
+  double sum = 0;
+  for (const AlartCurnier& law : laws) sum += law.F.squaredNorm();
+  return std::sqrt(sum);
+}
+
+// Change of the reactions of the closed contacts that Newton's method asks for where the others change by dr_open.
+std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho, const std::vector<AlartCurnier>& laws,
+                                const std::vector<int>& closed, const VecX& dr_open) {
+  const int m = static_cast<int>(closed.size());
+  const VecX moved = dr_open.isZero(0) ? VecX(VecX::Zero(dr_open.size())) : VecX(problem.W * dr_open);
+  VecX b(3 * m);
+  MatX J(3 * m, 3 * m);
+  for (int p = 0; p < m; ++p) {
+    const int i = closed[p];
+    b.segment<3>(3 * p) = -laws[i].F - laws[i].change(Vec3(Vec3::Zero()), Vec3(rho[i] * moved.segment<3>(3 * i)));
+    for (int q = 0; q < m; ++q) {
+      const Mat3 dr = q == p ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero());
+      J.block<3, 3>(3 * p, 3 * q) = laws[i].change(dr, Mat3(rho[i] * problem.W.block<3, 3>(3 * i, 3 * closed[q])));
     }
-    closed.push_back(i);
-    const Eigen::Vector2d s = r_i.tail<2>() - rho[i] * x_i.tail<2>();
-    const double radius = problem.mu[i] * A, size = s.norm();
-    F[3 * i] = rho[i] * x_i[0];
-    F.segment<2>(3 * i + 1) = r_i.tail<2>() - (size > radius ? Eigen::Vector2d(radius / size * s) : s);
   }
-  if (out) {
-    const int m = static_cast<int>(closed.size());
-    MatX J = MatX::Zero(3 * m, 3 * m);
-    for (int p = 0; p < m; ++p) {
-      const int i = closed[p];
-      const Vec3 r_i = r.segment<3>(3 * i), x_i = x.segment<3>(3 * i);
-      const double A = r_i[0] - rho[i] * x_i[0];
-      const Eigen::Vector2d s = r_i.tail<2>() - rho[i] * x_i.tail<2>();
-      const double radius = problem.mu[i] * A, size = s.norm();
-      for (int q = 0; q < m; ++q) {
-        const Mat3 W = rho[i] * problem.W.block<3, 3>(3 * i, 3 * closed[q]);
-        Mat3 row = W;
-        if (size > radius) {
-          const Mat3 identity = q == p ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero());
-          const Mat3 d = identity - W;  // derivative of (A, s)
-          const Eigen::Vector2d t = s / size;
-          const Eigen::Matrix2d turn = (radius / size) * (Eigen::Matrix2d::Identity() - t * t.transpose());
-          row.bottomRows<2>() = identity.bottomRows<2>() - problem.mu[i] * t * d.topRows<1>() - turn * d.bottomRows<2>();
-        }
-        J.block<3, 3>(3 * p, 3 * q) = row;
-      }
-    }
-    out->closed = closed, out->Jacobian = std::move(J), out->F = F;
-  }
-  return F.norm();
+  VecX step = J.partialPivLu().solve(b);
+  if (!step.allFinite() || (J * step - b).norm() > 1e-6 * b.norm())
+    step = J.completeOrthogonalDecomposition().solve(b);  // rank-deficient W: the smallest step
+  return step.allFinite() ? std::optional(step) : std::nullopt;
 }
 
 // One damped Newton step; false where no step length lowers |F|.
 bool newton_step(const LocalProblem& problem, const VecX& rho, VecX& r) {
-  AlartCurnier at;
-  const double before = alart_curnier(problem, rho, r, &at);
+  const std::vector<AlartCurnier> laws = laws_at(problem, rho, r);
+  const double before = size_of(laws);
   if (before == 0) return false;
-  const int m = static_cast<int>(at.closed.size());
-  // open contacts go to r = 0 at once: dr = -r there, moved to the right-hand side through W
   VecX dr = VecX::Zero(r.size());
-  std::vector<char> is_closed(problem.n_contacts(), 0);
-  for (int i : at.closed) is_closed[i] = 1;
+  std::vector<int> closed;
   for (int i = 0; i < problem.n_contacts(); ++i)
-    if (!is_closed[i]) dr.segment<3>(3 * i) = -r.segment<3>(3 * i);
-  if (m > 0) {
-    VecX b(3 * m);
-    const bool any_open = !dr.isZero(0);
-    const VecX W_dr = any_open ? VecX(problem.W * dr) : VecX(VecX::Zero(r.size()));
-    const VecX x = problem.W * r + problem.q;
-    for (int p = 0; p < m; ++p) {
-      const int i = at.closed[p];
-      Vec3 moved = rho[i] * W_dr.segment<3>(3 * i);  // derivative of F through x
-      const double A = r[3 * i] - rho[i] * x[3 * i];
-      const Eigen::Vector2d s = r.segment<2>(3 * i + 1) - rho[i] * x.segment<2>(3 * i + 1);
-      const double radius = problem.mu[i] * A, size = s.norm();
-      if (size > radius) {
-        const Eigen::Vector2d t = s / size;
-        const Eigen::Vector2d along = problem.mu[i] * t * moved[0];
-        const Eigen::Vector2d across = (radius / size) * (moved.tail<2>() - t * t.dot(moved.tail<2>()));
-        moved.tail<2>() = along + across;
-      }
-      b.segment<3>(3 * p) = -at.F.segment<3>(3 * i) - moved;
-    }
-    VecX step = at.Jacobian.partialPivLu().solve(b);
-    if (!step.allFinite() || (at.Jacobian * step - b).norm() > 1e-6 * b.norm())
-      step = at.Jacobian.completeOrthogonalDecomposition().solve(b);  // rank-deficient W: the smallest step
-    if (!step.allFinite()) return false;
-    for (int p = 0; p < m; ++p) dr.segment<3>(3 * at.closed[p]) = step.segment<3>(3 * p);
+    if (laws[i].status == ContactStatus::open)
+      dr.segment<3>(3 * i) = -r.segment<3>(3 * i);  // to r = 0 at once
+    else
+      closed.push_back(i);
+  if (!closed.empty()) {
+    const auto step = closed_step(problem, rho, laws, closed, dr);
+    if (!step) return false;
+    for (std::size_t p = 0; p < closed.size(); ++p)
+      dr.segment<3>(3 * closed[p]) = step->segment<3>(3 * static_cast<Eigen::Index>(p));
   }
   for (double t = 1; t > 1e-3; t *= 0.5) {
     const VecX next = r + t * dr;
-    if (alart_curnier(problem, rho, next, nullptr) <= (1 - 0.1 * t) * before) {
+    if (size_of(laws_at(problem, rho, next)) <= (1 - 0.1 * t) * before) {
       r = next;
       return true;
     }

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/alart_curnier.hpp"
+
 namespace langer {
 
 namespace {
 
-// F_n = r_n - max(0, A),  A = r_n - rho x_n;   F_t = r_t - projection of r_t - rho x_t on the disc of radius mu A
 struct Function {
   VecX F;
   std::vector<ContactStatus> status;
@@ -16,35 +17,13 @@ struct Function {
 
 Function evaluate(const SupportedProblem& p, const VecX& rho, const VecX& s, MatX* Jacobian) {
   const VecX x = p.q + p.W * s, r = p.b + p.A * s;
-  Function out{VecX(s.size()), std::vector<ContactStatus>(p.n_contacts(), ContactStatus::open)};
+  Function out{VecX(s.size()), {}};
   if (Jacobian) Jacobian->resize(s.size(), s.size());
   for (int i = 0; i < p.n_contacts(); ++i) {
-    const Vec3 r_i = r.segment<3>(3 * i), x_i = x.segment<3>(3 * i);
-    const double a = r_i[0] - rho[i] * x_i[0];
-    const auto dr = p.A.middleRows<3>(3 * i), dx = p.W.middleRows<3>(3 * i);
-    if (a <= 0) {
-      out.F.segment<3>(3 * i) = r_i;
-      if (Jacobian) Jacobian->middleRows<3>(3 * i) = dr;
-      continue;
-    }
-    const Eigen::Vector2d trial = r_i.tail<2>() - rho[i] * x_i.tail<2>();
-    const double radius = p.mu[i] * a, size = trial.norm();
-    out.F[3 * i] = rho[i] * x_i[0];
-    if (Jacobian) Jacobian->row(3 * i) = rho[i] * dx.topRows<1>();
-    if (size <= radius) {
-      out.status[i] = ContactStatus::stick;
-      out.F.segment<2>(3 * i + 1) = rho[i] * x_i.tail<2>();
-      if (Jacobian) Jacobian->middleRows<2>(3 * i + 1) = rho[i] * dx.bottomRows<2>();
-      continue;
-    }
-    out.status[i] = ContactStatus::slip;
-    const Eigen::Vector2d t = trial / size;
-    out.F.segment<2>(3 * i + 1) = r_i.tail<2>() - radius * t;
-    if (Jacobian) {
-      const Eigen::Matrix2d turn = (radius / size) * (Eigen::Matrix2d::Identity() - t * t.transpose());
-      Jacobian->middleRows<2>(3 * i + 1) = dr.bottomRows<2>() - p.mu[i] * t * (dr.topRows<1>() - rho[i] * dx.topRows<1>()) -
-                                           turn * (dr.bottomRows<2>() - rho[i] * dx.bottomRows<2>());
-    }
+    const AlartCurnier law(r.segment<3>(3 * i), x.segment<3>(3 * i), rho[i], p.mu[i]);
+    out.F.segment<3>(3 * i) = law.F, out.status.push_back(law.status);
+    if (Jacobian)
+      Jacobian->middleRows<3>(3 * i) = law.change<Eigen::Dynamic>(p.A.middleRows<3>(3 * i), rho[i] * p.W.middleRows<3>(3 * i));
   }
   return out;
 }

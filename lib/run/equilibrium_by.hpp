@@ -4,12 +4,20 @@
 #include "scene/solve_config.hpp"
 #include "solve/kinsol.hpp"
 #include "solve/newton.hpp"
+#include "solve/statics.hpp"
 
 namespace langer {
 
-inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& solver, const Problem& problem, VecX& u) {
-  if (const auto* options = std::get_if<KinsolOptions>(&solver)) return kinsol(problem, u, *options);
-  return newton(problem, u, std::get<NewtonOptions>(solver));
+// problem: statics.problem(), or that with somebody who watches
+inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& solver, Statics& statics,
+                                  const Problem& problem) {
+  if (const auto* options = std::get_if<KinsolOptions>(&solver))
+    return kinsol(problem, statics.free_balance(), statics.trial(), *options);
+  return newton(problem, statics.trial(), std::get<NewtonOptions>(solver));
+}
+
+inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& solver, Statics& statics) {
+  return equilibrium_by(solver, statics, statics.problem());
 }
 
 }  // namespace langer

@@ -159,7 +159,7 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
             config.path, 0, std::nullopt, whole.stops,
             [&](double t) {
               statics.begin(t);
-              return equilibrium_by(config.solver, statics.problem(), statics.trial());
+              return equilibrium_by(config.solver, statics);
             },
             [&](double t, double taken, double next, const SolveReport& report) {
               statics.accept();

@@ -122,7 +122,7 @@ bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
       path, 0, std::nullopt, scene_.stops,
       [&](double t) {
         statics.begin(t);
-        return equilibrium_by(solver_, statics.problem(), statics.trial());
+        return equilibrium_by(solver_, statics);
       },
       [&](double, double taken, double next, const SolveReport& report) {
         statics.accept();

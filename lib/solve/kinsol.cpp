@@ -24,7 +24,7 @@ Map map(N_Vector v) { return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(N
 
 // What KINSOL's callbacks share during one round.
 struct Round {
-  const Problem& problem;
+  const FreeBalance& balance;
   const KinsolOptions& options;
   VecX x;  // all dofs; the free ones follow KINSOL's vector
   VecX f;  // residual on the free rows
@@ -36,7 +36,7 @@ struct Round {
 
   void place(N_Vector u) {
     const Map v = map(u);
-    for (Eigen::Index i = 0; i < v.size(); ++i) x[problem.free[i]] = v[i];
+    for (Eigen::Index i = 0; i < v.size(); ++i) x[balance.free[i]] = v[i];
   }
 };
 
@@ -51,7 +51,7 @@ int residual(N_Vector u, N_Vector f, void* data) {
   auto& round = *static_cast<Round*>(data);
   if (++round.evaluations > 20 * round.options.iterations) return -1;
   round.place(u);
-  if (!measurable(round.x) || !round.problem.residual(round.x, round.f) || !measurable(round.f)) return 1;
+  if (!measurable(round.x) || !round.balance.residual(round.x, round.f) || !measurable(round.f)) return 1;
   map(f) = round.f;
   if (const double size = round.f.norm(); size < round.least) round.least = size, round.best = round.x;
   // accelerated iterations go on past the answer, where Anderson's system is singular: end them
@@ -64,7 +64,7 @@ int fixed_point(N_Vector u, N_Vector g, void* data) {
   auto& round = *static_cast<Round*>(data);
   if (const int failed = residual(u, g, data)) return failed;
   ++round.iterations;
-  map(g) = map(u) - round.problem.solve(round.f);
+  map(g) = map(u) - round.balance.solve(round.f, false);
   return map(g).allFinite() ? 0 : 1;
 }
 
@@ -78,16 +78,15 @@ int solver_setup(SUNLinearSolver solver, SUNMatrix) {
   auto& round = *static_cast<Round*>(solver->content);
   if (round.fixed_tangent && round.setups > 0) return 0;
   ++round.setups;
-  return round.problem.tangent(round.x) ? 0 : 1;
+  return round.balance.tangent(round.x) ? 0 : 1;
 }
 int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
   const Traps ours;
   auto& round = *static_cast<Round*>(solver->content);
   ++round.iterations;
-  const VecX step = round.problem.solve(map(b));
+  const VecX step = round.balance.solve(map(b), !round.fixed_tangent);
   if (!step.allFinite()) return 1;
   map(x) = step;
-  if (!round.fixed_tangent) round.problem.predicted(step);
   return 0;
 }
 
@@ -130,9 +129,9 @@ void free_matrix(SUNMatrix m) { SUNMatFreeEmpty(m); }
 // Runs KINSOL from x; its own verdict is not asked for.
 void solve_round(Round& round) {
   const Context context;
-  const auto n = static_cast<sunindextype>(round.problem.free.size());
+  const auto n = static_cast<sunindextype>(round.balance.free.size());
   const Owned<N_Vector, N_VDestroy> u{N_VNew_Serial(n, context)}, ones{N_VNew_Serial(n, context)};
-  for (sunindextype i = 0; i < n; ++i) N_VGetArrayPointer(u)[i] = round.x[round.problem.free[i]];
+  for (sunindextype i = 0; i < n; ++i) N_VGetArrayPointer(u)[i] = round.x[round.balance.free[i]];
   N_VConst(1, ones);
   const Owned<SUNMatrix, free_matrix> matrix{SUNMatNewEmpty(context)};
   matrix.value->ops->getid = matrix_id, matrix.value->ops->zero = matrix_zero;
@@ -150,7 +149,7 @@ void solve_round(Round& round) {
   KINSetUserData(memory, &round);
   print_no_errors(memory);
   if (o.strategy == KinsolStrategy::fixed_point) {
-    if (!round.problem.tangent(round.x)) return;
+    if (!round.balance.tangent(round.x)) return;
   } else {
     KINSetLinearSolver(memory, linear, matrix);
     KINSetJacFn(memory, jacobian);
@@ -168,7 +167,7 @@ void solve_round(Round& round) {
 
 }  // namespace
 
-SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options) {
+SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x, const KinsolOptions& options) {
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);
@@ -193,13 +192,12 @@ SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options
     ++report.evaluations;
     if (!then.admissible || !std::isfinite(then.residual))
       return stop(Outcome::inadmissible, then.missing.empty() ? "a force is not finite" : then.missing);
-    Round inner{.problem = problem, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(problem.free.size()))};
+    Round inner{.balance = balance, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(balance.free.size()))};
     inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);
     report.iterations += inner.iterations;
     report.evaluations += inner.evaluations;
     if (inner.best.size() > 0) x = inner.best;
-    if (inner.best.size() > 0 && problem.settled) problem.settled(x);
   }
 }
 

@@ -9,6 +9,7 @@
 // number of evaluations is limited.
 #pragma once
 
+#include "solve/free_balance.hpp"
 #include "solve/newton.hpp"
 
 namespace langer {
@@ -36,6 +37,6 @@ struct KinsolOptions {
   }
 };
 
-SolveReport kinsol(const Problem& problem, VecX& x, const KinsolOptions& options);
+SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x, const KinsolOptions& options);
 
 }  // namespace langer

@@ -36,14 +36,6 @@ struct Problem {
   double price = 0;                                       // of correction() in units of correction_again()
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
-
-  // For solvers that iterate on the free unknowns themselves, contact reactions fixed:
-  std::vector<int> free;                                 // index in x of each free unknown
-  std::function<bool(const VecX& x, VecX& f)> residual;  // false where x is not admissible
-  std::function<bool(const VecX& x)> tangent;            // assembles and factorizes at x
-  std::function<VecX(const VecX& rhs)> solve;            // with that tangent
-  std::function<void(const VecX& free_step)> predicted;  // told each solution of the tangent
-  std::function<void(const VecX& x)> settled;            // told where iterations with a tangent of before ended; may be empty
 };
 
 struct NewtonOptions {

@@ -67,26 +67,28 @@ Signature signs(const MatX& M, bool zero_energy_too) {
 Signature Statics::signature() {
   const Dofs& dofs = equilibrium_.dofs();
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
-  if (factor_ == Factor::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 0.02 * moved) {
-    const int indefinite = n_indefinite_, unstable = n_unstable_;
+  using Kind = TangentFactor::Kind;
+  if (factor_.kind() == Kind::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 0.02 * moved) {
+    const TangentFactor::Counts needed = factor_.counts();
     need_tangent();
     factorize();
-    n_indefinite_ = indefinite, n_unstable_ = unstable;  // those count what the solution needed
+    factor_.uncount(needed);  // they count what the solution needed
   }
-  if (factor_ == Factor::whole && contacts_.empty()) return {};
+  if (factor_.kind() == Kind::whole && contacts_.empty()) return {};
   const auto contacts = contacts_.empty() ? std::vector<NodeContact>(equilibrium_.mesh().n_nodes())
                                           : node_contacts(*this, equilibrium_.mesh().X, equilibrium_.mesh().n_nodes());
   const bool turning = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return !c.turning.isZero(0); });
-  if (factor_ == Factor::whole && !turning) return {};
-  if (factor_ != Factor::indefinite)
-    if (auto S = linear_->schur()) {
-      if (factor_ == Factor::supported) S->diagonal().array() -= gamma_;
+  if (factor_.kind() == Kind::whole && !turning) return {};
+  if (factor_.kind() != Kind::indefinite)
+    if (auto S = factor_.linear().schur()) {
+      if (factor_.kind() == Kind::supported) S->diagonal().array() -= factor_.gamma();
       MatX Z = MatX::Zero(S->rows(), S->rows());
       Eigen::Index columns = 0;
       for (int node = 0; node < equilibrium_.mesh().n_nodes(); ++node) {
         int row[3];
         bool is_free[3], candidate = false;
-        for (int j = 0; j < 3; ++j) row[j] = last_of_[3 * node + j], is_free[j] = row[j] >= 0, candidate = candidate || is_free[j];
+        for (int j = 0; j < 3; ++j)
+          row[j] = factor_.last_of(3 * node + j), is_free[j] = row[j] >= 0, candidate = candidate || is_free[j];
         if (!candidate) continue;
         const MatX basis = left_of(contacts[node], is_free);
         for (int i = 0; i < 3; ++i)
@@ -97,7 +99,7 @@ Signature Statics::signature() {
             if (is_free[j]) Z(row[j], columns) = basis(j, c);
       }
       const auto used = Z.leftCols(columns);
-      return signs(used.transpose() * (*S * used), factor_ == Factor::supported);
+      return signs(used.transpose() * (*S * used), factor_.kind() == Kind::supported);
     }
   // held directions as springs so stiff that no soft direction is left in them
   need_tangent();
@@ -117,7 +119,7 @@ Signature Statics::signature() {
           if (pattern.row[k] == row) K[k] += block(i, j);
       }
   }
-  return {linear_->negative_pivots(K), 0};
+  return {factor_.linear().negative_pivots(K), 0};
 }
 
 }  // namespace langer

@@ -2,42 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/stopwatch.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/reference.hpp"
-#include "solve/zero_energy_modes.hpp"
 
 namespace langer {
 
+namespace {
+
+TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, double& seconds) {
+  const Stopwatch watch(seconds);
+  return {body, contacts, threads};
+}
+
+}  // namespace
+
 Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options)
-    : equilibrium_(equilibrium), contacts_(std::move(contacts)), options_(options) {
-  const Dofs& dofs = equilibrium_.dofs();
-  if (!contacts_.empty()) {
-    last_of_.assign(dofs.n, -1);
-    for (const RigidContact& contact : contacts_)
-      for (int node : contact.nodes)
-        for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
-          if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
-            last_of_[dof] = static_cast<int>(last_.size());
-            last_.push_back(dofs.equation[dof]);
-          }
-  }
-  {
-    const Stopwatch watch(cost_.analysis);
-    linear_ = std::make_unique<LinearSolver>(equilibrium_.pattern(), last_, options_.threads);
-  }
-  if (!last_.empty() && !zero_energy_modes(equilibrium_.mesh(), dofs).empty()) {
-    // of the order of what the body opposes to a movement of one node: the weak resistance of contact to a free motion stays visible
-    double mu = 0;
-    const int n_cells = equilibrium_.mesh().n_cells();
-    for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(equilibrium_.material(e))));
-    loose_spring_ = mu * std::cbrt(quality(equilibrium_.mesh()).volume / n_cells);
-  }
-  now_.u = VecX::Zero(dofs.n);
+    : equilibrium_(equilibrium),
+      contacts_(std::move(contacts)),
+      options_(options),
+      factor_(timed_factor(equilibrium_, contacts_, options_.threads, cost_.analysis)) {
+  now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   before_ = now_;
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+}
+
+Statics::Cost Statics::cost() const {
+  Cost cost = cost_;
+  cost.factorizations = factor_.counts().factorizations;
+  return cost;
 }
 
 void Statics::restore(const BodyState& accepted, const BodyState* before) {
@@ -48,7 +43,8 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
 }
 
 void Statics::begin(double t) {
-  t_ = t, supported_ = K_current_ = factor_serves_ = again_ = false;
+  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false;
+  factor_.begin_increment();
   u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
   equilibrium_.pressures_from(now_.u);
   const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0;  // then the last movement does not go on
@@ -99,21 +95,46 @@ VecX Statics::remaining_prescribed(const VecX& u) const {
   return du;
 }
 
-VecX Statics::free_residual() const {
+VecX Statics::on_free_rows(const VecX& all) const {
   const Dofs& dofs = equilibrium_.dofs();
+  VecX free(dofs.n_free());
+  for (int row = 0; row < dofs.n_free(); ++row) free[row] = all[dofs.free[row]];
+  return free;
+}
+
+VecX Statics::free_residual() const {
   VecX f = -equilibrium_.f_int();
   if (F_ext_.size() > 0) f += t_ * F_ext_;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
-  VecX free(dofs.n_free());
-  for (int row = 0; row < dofs.n_free(); ++row) free[row] = f[dofs.free[row]];
-  return free;
+  return on_free_rows(f);
+}
+
+double Statics::force_scale() const {
+  double sum = 0;
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) sum += std::pow(equilibrium_.f_int()[p.dof], 2);
+  for (const auto& r : r_)
+    for (const Vec3& r_i : r) sum += r_i.squaredNorm();
+  if (F_ext_.size() > 0) sum += (t_ * F_ext_).squaredNorm();
+  return std::sqrt(sum);
+}
+
+bool Statics::contact_law_holds(const VecX& u) const {
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactDefect d =
+        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
+                       indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
+    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance)
+      return false;
+  }
+  return true;
 }
 
 Assessment Statics::assess(const VecX& u, bool with_tangent) {
   const Stopwatch watch(cost_.assembly);
   Assessment out;
   const VecX du = remaining_prescribed(u);
+  if (std::exchange(unsettled_, false)) equilibrium_.pressures_from(u);
   out.admissible = equilibrium_.assemble(u, with_tangent, &du);
   K_current_ = with_tangent;
   if (!out.admissible) {
@@ -124,28 +145,15 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
     return out;
   }
   out.residual = free_residual().norm();
-  double reference = 0;
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) reference += std::pow(equilibrium_.f_int()[p.dof], 2);
-  for (const auto& r : r_)
-    for (const Vec3& r_i : r) reference += r_i.squaredNorm();
-  if (F_ext_.size() > 0) reference += (t_ * F_ext_).squaredNorm();
-  out.reference = std::sqrt(reference);
+  out.reference = force_scale();
   out.floor = 3 * equilibrium_.rounding_floor();
-  out.others = du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>());
-  if (!out.others) out.missing = "prescribed displacements not reached";
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const ContactDefect d =
-        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
-                       indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
-    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance) {
-      out.others = false;
-      out.missing = "the contact law does not hold";
-    }
-  }
-  if (out.others && loose_spring_ > 0 && slips_away()) {
-    out.others = false;
+  if (!contact_law_holds(u))
+    out.missing = "the contact law does not hold";
+  else if (!(du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>())))
+    out.missing = "prescribed displacements not reached";
+  else if (factor_.held_by_contact() && slips_away())
     out.missing = "the body slips away from under the indenter, and nothing else holds it";
-  }
+  out.others = out.missing.empty();
   return out;
 }
 
@@ -166,35 +174,10 @@ bool Statics::slips_away() const {
 
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
-// K by Cholesky; where it is not positive definite, K with springs on the candidates, which contact_forces() takes out
-// again exactly; where that is not either, with stabilisation springs in the body, or without contact as it is by UMFPACK.
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
-  ++cost_.factorizations;
-  factored_at_ = u_, factor_ = Factor::whole;
-  if (!supported_ && loose_spring_ == 0 && linear_->factorize(equilibrium_.K())) return true;
-  ++n_indefinite_;
-  factor_ = Factor::supported;
-  if (!last_.empty()) {
-    const Pattern& pattern = equilibrium_.pattern();
-    double diagonal = 0;  // a column starts with its diagonal
-    for (int row : last_) diagonal += std::abs(equilibrium_.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
-    for (double spring : {loose_spring_, diagonal, 30 * diagonal, 1000 * diagonal}) {
-      if (spring == 0 || (supported_ && spring < 0.5 * gamma_)) continue;  // softer springs were not enough in this increment
-      gamma_ = spring;
-      std::vector<double> K = equilibrium_.K();
-      for (int row : last_) K[pattern.column_start[row]] += gamma_;
-      if (linear_->factorize(K)) return supported_ = true;
-      if (spring < 1000 * diagonal) continue;
-      // The body itself gives way. In a few directions stabilisation springs help; where they are many, the increment was too long: K there
-      // says nothing, and the same point comes within reach by shorter ones.
-      factor_ = Factor::indefinite, ++n_unstable_;
-      return supported_ = linear_->factorize_with_springs(K);
-    }
-  }
-  ++n_unstable_;
-  factor_ = Factor::indefinite;
-  return linear_->factorize_indefinite(equilibrium_.K());
+  factored_at_ = u_;
+  return factor_.factorize(equilibrium_);
 }
 
 void Statics::need_tangent() {
@@ -208,7 +191,7 @@ void Statics::need_tangent() {
 // From counts, not from a clock: the same scene takes the same way on every machine. The rates are those of one thread of a
 // machine of 2020 (`langer-bench indentation`); what counts is their ratio.
 double Statics::price() const {
-  const LinearSolver::Size size = linear_->size();
+  const LinearSolver::Size size = factor_.linear().size();
   const ReferenceCell& cell = reference(nodes_per_cell(equilibrium_.mesh().type));
   const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss, n = cell.n_nodes;
   const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
@@ -217,50 +200,49 @@ double Statics::price() const {
 }
 
 std::optional<VecX> Statics::correction() {
-  const Dofs& dofs = equilibrium_.dofs();
   need_tangent();
   again_ = false;
   if (!factorize()) return std::nullopt;
   // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
-  factor_serves_ = factor_ == Factor::whole && equilibrium_.formulation() != Formulation::displacement;
+  factor_serves_ = factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
-  VecX rhs = free_residual();
-  for (int row = 0; row < dofs.n_free(); ++row) rhs[row] -= equilibrium_.K_du()[dofs.free[row]];
-  return corrected(rhs);
+  return corrected(free_residual() - on_free_rows(equilibrium_.K_du()));
 }
 
 // K at another state of this increment stands for the one here, in the mixed equations of u and p.
 std::optional<VecX> Statics::correction_again() {
-  const Dofs& dofs = equilibrium_.dofs();
   if (!factor_serves_ || !remaining_prescribed(u_).isZero(0)) return std::nullopt;
   again_ = true;
-  const VecX turned = equilibrium_.turned_dilatations();
-  VecX rhs = free_residual();
-  for (int row = 0; row < dofs.n_free(); ++row) rhs[row] += turned[dofs.free[row]];
-  return corrected(rhs);
+  return corrected(free_residual() + on_free_rows(equilibrium_.turned_dilatations()));
 }
 
 std::optional<VecX> Statics::corrected(const VecX& rhs) {
   const Dofs& dofs = equilibrium_.dofs();
+  LinearSolver& linear = factor_.linear();
   VecX move;
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = linear_->solve(rhs);
+    move = linear.solve(rhs);
   } else {
     LinearSolver::Half half;
     {
       const Stopwatch watch(cost_.solve);
-      half = linear_->start(rhs);
+      half = linear.start(rhs);
     }
-    const auto forces = contact_forces(half.last);
-    if (!forces) return std::nullopt;
+    std::optional<ContactChange> change;
+    {
+      const Stopwatch watch(cost_.contact);
+      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, t_, now_.t, r_}, factor_, half.last);
+    }
+    if (!change) return std::nullopt;
+    r_next_ = std::move(change->r), cost_.sweeps += change->sweeps;
     const Stopwatch watch(cost_.solve);
-    if (factor_ == Factor::whole) {
-      move = linear_->finish(half, *forces);
+    if (factor_.kind() == TangentFactor::Kind::whole) {
+      move = linear.finish(half, change->force);
     } else {  // where springs cancel against forces, they had better do so before the elimination
       VecX all = rhs;
-      for (std::size_t i = 0; i < last_.size(); ++i) all[last_[i]] += (*forces)[i];
-      move = linear_->solve(all);
+      for (std::size_t i = 0; i < factor_.last().size(); ++i) all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
+      move = linear.solve(all);
     }
   }
   VecX du = remaining_prescribed(u_);
@@ -294,36 +276,35 @@ Problem Statics::problem() {
   }
   p.admissible = [this](const VecX& u) { return admissible(u); };
   p.moved = [this](const VecX& du, double step) { moved(du, step); };
-  p.free = equilibrium_.dofs().free;
-  p.residual = [this](const VecX& u, VecX& f) {
+  return p;
+}
+
+FreeBalance Statics::free_balance() {
+  FreeBalance b;
+  b.free = equilibrium_.dofs().free;
+  b.residual = [this](const VecX& u, VecX& f) {
     const Stopwatch watch(cost_.assembly);
     if (!equilibrium_.assemble(u, false)) return false;
     f = -free_residual();
     return true;
   };
-  p.tangent = [this](const VecX& u) {
+  b.tangent = [this](const VecX& u) {
     if (!equilibrium_.assemble(u, true)) return false;
-    supported_ = factor_serves_ = false;
-    ++cost_.factorizations;
     const Stopwatch watch(cost_.factor);
-    factored_at_ = u, factor_ = Factor::whole;
-    if (linear_->factorize(equilibrium_.K())) return true;
-    ++n_indefinite_, factor_ = Factor::indefinite;
-    return linear_->factorize_indefinite(equilibrium_.K());
+    factor_serves_ = false, factored_at_ = u;
+    return factor_.factorize_fixed_reactions(equilibrium_);
   };
-  p.solve = [this](const VecX& rhs) {
+  b.solve = [this](const VecX& rhs, bool fresh) {
     const Stopwatch watch(cost_.solve);
-    return linear_->solve(rhs);
-  };
-  p.predicted = [this](const VecX& step) {
+    const VecX step = factor_.linear().solve(rhs);
+    unsettled_ = equilibrium_.formulation() == Formulation::linear_dilatation;
+    if (!fresh) return step;
     VecX du = VecX::Zero(u_.size());
     for (Eigen::Index i = 0; i < step.size(); ++i) du[equilibrium_.dofs().free[i]] = step[i];
     equilibrium_.predict_pressures(du, 1);
+    return step;
   };
-  // cells that oppose the remainder of J - 1 as their pressures demand
-  if (equilibrium_.formulation() == Formulation::linear_dilatation)
-    p.settled = [this](const VecX& u) { equilibrium_.pressures_from(u); };
-  return p;
+  return b;
 }
 
 std::vector<ContactDefect> Statics::defects() const {

@@ -2,6 +2,8 @@
 // Holds the last accepted state and the state on trial; gives the nonlinear solvers their Problem.
 //   K dx = -(F_int - F_ext - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs
 //   24-32
+// The increment: its trial state, residual, corrections and how it is accepted. How the tangent is factorized stands in
+// solve/tangent_factor.hpp, the contact law on it in solve/contact_linearisation.hpp.
 // Prescribed displacements and the indenter's movement enter the linear system, never the state first: near
 // incompressibility the other order makes pressures of 1e4 MPa and an indefinite tangent.
 #pragma once
@@ -11,16 +13,18 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
-#include "solve/linear.hpp"
+#include "solve/contact_linearisation.hpp"
+#include "solve/free_balance.hpp"
 #include "solve/newton.hpp"
+#include "solve/tangent_factor.hpp"
 
 namespace langer {
 
 // Where a body stands: enough to continue from.
 struct BodyState {
   double t = 0;
-  VecX u;                            // (3 n) [mm]
-  std::vector<std::vector<Vec3>> r;  // per contact, per candidate: reaction on the body [N]
+  VecX u;  // (3 n) [mm]
+  Reactions r;
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
@@ -45,8 +49,9 @@ class Statics {
 
   // dead loads: nodal forces (3 n) at t = 1 [N], growing in proportion to t
   void set_dead_load(VecX F_ext) { F_ext_ = std::move(F_ext); }
-  void begin(double t);  // put the trial state at the start of an increment to t
-  Problem problem();     // of the increment begun; refers to this object
+  void begin(double t);        // put the trial state at the start of an increment to t
+  Problem problem();           // of the increment begun; refers to this object
+  FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
   void accept();  // the trial becomes the accepted state
   void restore(const BodyState& accepted, const BodyState* before = nullptr);
@@ -59,55 +64,51 @@ class Statics {
   Signature signature();
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
-  int n_indefinite() const { return n_indefinite_; }
-  int n_unstable() const { return n_unstable_; }
+  int n_indefinite() const { return factor_.counts().indefinite; }
+  int n_unstable() const { return factor_.counts().unstable; }
   struct Cost {
     double analysis = 0, assembly = 0, factor = 0, solve = 0, contact = 0;  // CPU seconds
     long factorizations = 0, sweeps = 0;
   };
-  const Cost& cost() const { return cost_; }
-  const LinearSolver& linear() const { return *linear_; }
+  Cost cost() const;
+  const LinearSolver& linear() const { return factor_.linear(); }
 
  private:
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   Assessment assess(const VecX& u, bool with_tangent);
+  double force_scale() const;  // size of the forces that the residual is compared with [N]
+  bool contact_law_holds(const VecX& u) const;
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
   std::optional<VecX> corrected(const VecX& rhs);
   void need_tangent();
-  double price() const;  // of a correction with a new tangent in units of one with the last
   bool factorize();
-  std::optional<VecX> contact_forces(const VecX& last_move);  // movement of the rows of last_ without any change of reaction
+  double price() const;  // of a correction with a new tangent in units of one with the last
   bool admissible(const VecX& u) const;
   bool slips_away() const;
   void moved(const VecX& du, double step);
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
   VecX remaining_prescribed(const VecX& u) const;
-  VecX free_residual() const;  // -(F_int - F_ext - R) on the free rows
+  VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
+  VecX on_free_rows(const VecX& all) const;  // of (3 n)
 
   Equilibrium& equilibrium_;
   std::vector<RigidContact> contacts_;
   StaticsOptions options_;
-  std::unique_ptr<LinearSolver> linear_;
-  std::vector<int> last_;     // free rows of the candidates
-  std::vector<int> last_of_;  // dof -> index in last_, or -1
-  VecX F_ext_;                // empty without dead loads
-  BodyState now_, before_;    // accepted states
-  double t_ = 0;              // of the trial
+  Cost cost_;
+  TangentFactor factor_;
+  VecX F_ext_;              // empty without dead loads
+  BodyState now_, before_;  // accepted states
+  double t_ = 0;            // of the trial
   VecX u_;
-  std::vector<std::vector<Vec3>> r_, r_next_;  // on trial; r_next_: what the last linear solve found
-  VecX u_start_;                               // (3 n) what the increment's slip is measured from, the indenter where it began
-  bool supported_ = false;                     // the factor is of K + gamma on the candidates' diagonal
-  double gamma_ = 0;                           // [N/mm]
-  double loose_spring_ = 0;                    // gamma to begin with where the supports leave rigid motions [N/mm]
-  enum class Factor { none, whole, supported, indefinite } factor_ = Factor::none;
+  Reactions r_, r_next_;        // on trial; r_next_: what the last linear solve found
+  VecX u_start_;                // (3 n) what the increment's slip is measured from, the indenter where it began
   VecX factored_at_;            // u of the tangent that was factorized last
   bool K_current_ = false;      // K is that of the trial
   bool factor_serves_ = false;  // also for other corrections of this increment
   bool again_ = false;          // the last correction was such a one
-  int n_indefinite_ = 0, n_unstable_ = 0;
-  Cost cost_;
+  bool unsettled_ = false;      // the remainder's modulus is not yet that of where a FreeBalance was left (linear_dilatation)
 };
 
 }  // namespace langer

@@ -59,7 +59,7 @@ VecX row(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const 
       config.path, 0, std::nullopt, scene.stops,
       [&](double t) {
         statics.begin(t);
-        const SolveReport report = equilibrium_by(solver, statics.problem(), statics.trial());
+        const SolveReport report = equilibrium_by(solver, statics);
         evaluations += report.evaluations;
         return report;
       },

@@ -55,7 +55,7 @@ std::vector<StepRecord> at_a_point(HomogeneousScene& point, const SolveConfig& c
       config.path, 0, std::nullopt, {},
       [&](double t) {
         statics.begin(t);
-        return equilibrium_by(point.solver(), statics.problem(), statics.trial());
+        return equilibrium_by(point.solver(), statics);
       },
       [&](double, double taken, double next, const SolveReport& step) {
         statics.accept();

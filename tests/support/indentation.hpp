@@ -84,7 +84,7 @@ struct Indentation {
         path, 0, {}, stops,
         [&](double t) {
           statics.begin(t);
-          return kinsol ? langer::kinsol(statics.problem(), statics.trial(), *kinsol)
+          return kinsol ? langer::kinsol(statics.problem(), statics.free_balance(), statics.trial(), *kinsol)
                         : langer::newton(statics.problem(), statics.trial(), newton);
         },
         [&](double t, double, double, const SolveReport& report) {

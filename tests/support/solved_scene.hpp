@@ -50,7 +50,7 @@ inline Solved solved(const Mesh& mesh, const Scene& scene, const std::optional<R
       how.path, statics.accepted().t, increment, own.stops,
       [&](double t) {
         statics.begin(t);
-        return equilibrium_by(how.solver, statics.problem(), statics.trial());
+        return equilibrium_by(how.solver, statics);
       },
       [&](double, double taken, double next, const SolveReport& step) {
         statics.accept();

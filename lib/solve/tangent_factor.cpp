@@ -1,0 +1,70 @@
+#include "solve/tangent_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/quality.hpp"
+#include "solve/zero_energy_modes.hpp"
+
+namespace langer {
+
+TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads) {
+  const Dofs& dofs = body.dofs();
+  if (!contacts.empty()) last_of_.assign(dofs.n, -1);
+  for (const RigidContact& contact : contacts)
+    for (int node : contact.nodes)
+      for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
+        if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
+          last_of_[dof] = static_cast<int>(last_.size());
+          last_.push_back(dofs.equation[dof]);
+        }
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
+  if (last_.empty() || zero_energy_modes(body.mesh(), dofs).empty()) return;
+  // of the order of what the body opposes to a movement of one node: the weak resistance of contact to a free motion stays visible
+  double mu = 0;
+  const int n_cells = body.mesh().n_cells();
+  for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
+  loose_ = mu * std::cbrt(quality(body.mesh()).volume / n_cells);
+}
+
+bool TangentFactor::factorize(const Equilibrium& body) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole;
+  if (!supported_ && loose_ == 0 && linear_->factorize(body.K())) return true;
+  ++counts_.indefinite;
+  if (!last_.empty()) return factorize_supported(body);
+  ++counts_.unstable;
+  kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(body.K());
+}
+
+bool TangentFactor::factorize_supported(const Equilibrium& body) {
+  kind_ = Kind::supported;
+  const Pattern& pattern = body.pattern();
+  double diagonal = 0;  // a column starts with its diagonal
+  for (int row : last_) diagonal += std::abs(body.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
+  const auto K_with_springs = [&] {
+    std::vector<double> K = body.K();
+    for (int row : last_) K[pattern.column_start[row]] += gamma_;
+    return K;
+  };
+  for (double spring : {loose_, diagonal, 30 * diagonal, 1000 * diagonal}) {
+    if (spring == 0 || (supported_ && spring < 0.5 * gamma_)) continue;  // softer springs were not enough in this increment
+    gamma_ = spring;
+    if (linear_->factorize(K_with_springs())) return supported_ = true;
+  }
+  // The body itself gives way. In a few directions stabilisation springs help; where they are many, the increment was too long: K there
+  // says nothing, and the same point comes within reach by shorter ones.
+  kind_ = Kind::indefinite, ++counts_.unstable;
+  return supported_ = linear_->factorize_with_springs(K_with_springs());
+}
+
+bool TangentFactor::factorize_fixed_reactions(const Equilibrium& body) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole, supported_ = false;
+  if (linear_->factorize(body.K())) return true;
+  ++counts_.indefinite, kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(body.K());
+}
+
+}  // namespace langer

@@ -1,0 +1,60 @@
+// How the tangent of a body with contact candidates is factorized, and what serves where it is not positive definite.
+//   whole       K by Cholesky
+//   supported   K with springs gamma on the diagonal of the candidates, by Cholesky: a body that is not held, or not stable,
+//               without its contacts; linearised_contact() takes the springs out again exactly
+//   indefinite  with stabilisation springs in the body, which LinearSolver takes out; without contact K as it is, by UMFPACK
+#pragma once
+
+#include <vector>
+
+#include "assembly/equilibrium.hpp"
+#include "contact/contact.hpp"
+#include "solve/linear.hpp"
+
+namespace langer {
+
+class TangentFactor {
+ public:
+  enum class Kind { none, whole, supported, indefinite };
+
+  // threads: of the BLAS; refers to the pattern of the body
+  TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads);
+
+  // Springs that one tangent of an increment needed are there for all that follow in it.
+  void begin_increment() { supported_ = false; }
+  // The body's K; false where it is singular.
+  bool factorize(const Equilibrium& body);
+  // The same where reactions of contacts are fixed: K as it is, by UMFPACK where it is not positive definite.
+  bool factorize_fixed_reactions(const Equilibrium& body);
+
+  Kind kind() const { return kind_; }
+  bool with_springs() const { return supported_; }        // on the candidates
+  double gamma() const { return gamma_; }                 // [N/mm]
+  bool held_by_contact() const { return loose_ > 0; }     // the supports leave rigid motions
+  const std::vector<int>& last() const { return last_; }  // free rows of the candidates, eliminated last
+  int last_of(int dof) const { return last_of_[dof]; }    // index in last(), or -1
+
+  const LinearSolver& linear() const { return *linear_; }
+  LinearSolver& linear() { return *linear_; }
+
+  struct Counts {
+    long factorizations = 0;
+    int indefinite = 0;  // tangents that were not positive definite without contact
+    int unstable = 0;    // among them those that were not with contact
+  };
+  const Counts& counts() const { return counts_; }
+  void uncount(const Counts& before) { counts_.indefinite = before.indefinite, counts_.unstable = before.unstable; }
+
+ private:
+  bool factorize_supported(const Equilibrium& body);
+
+  std::vector<int> last_, last_of_;
+  std::unique_ptr<LinearSolver> linear_;
+  Kind kind_ = Kind::none;
+  bool supported_ = false;
+  double gamma_ = 0;
+  double loose_ = 0;  // gamma to begin with where the supports leave rigid motions [N/mm]
+  Counts counts_;
+};
+
+}  // namespace langer
