@@ -27,7 +27,7 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
-  for (const std::string& line : doubts(problem.tests)) job.say("warning: {}", line);
+  for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
   FitResult found = best_fit(config, problem);
   if (!found.best.converged)
     throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
@@ -39,10 +39,10 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   FitRecord record = fit_record(problem, found);
   record.at_rest = at_rest;
   for (const std::string& line : fit_results(record)) job.say("{}", line);
-  for (const std::string& line : fit_warnings(record, found.material)) job.say("warning: {}", line);
+  for (const std::string& line : fit_warnings(record, found.material)) job.warn("{}", line);
   if (config.check == SecondAnswer::nlopt) {
     const Comparison second = cross_check(problem, found.best, static_cast<unsigned>(config.seed));
-    job.say("{}{}", second.agrees ? "" : "warning: ", second.text);
+    second.agrees ? job.say("{}", second.text) : job.warn("{}", second.text);
   }
   record.study.range = fitted_range(found.material, problem.tests);
   if (config.study) {

@@ -78,7 +78,8 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
   std::vector<QuantityEffects> effects;
   for (const SweepColumn& c : sweep.columns) {
     effects.push_back(effects_of(design, c.name, c.unit, c.values));
-    for (const std::string& line : effects_lines(design, effects.back())) job.say("{}", line);
+    for (const std::string& line : effects_lines(design, effects.back()))
+      line.starts_with("warning: ") ? job.warn("{}", line.substr(9)) : job.say("{}", line);
     if (!design.figures) continue;
     if (design.one_at_a_time || design.morris) pictures.draw("effects_" + c.name, bars(effects_bars(design, effects.back())));
     if (design.sobol) pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back())));

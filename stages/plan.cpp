@@ -23,8 +23,8 @@ int main(int argc, char** argv) {
     const PlanReport report =
         dry_run ? check_pipeline(pipeline, folder) : plan(pipeline, folder, bin, command_line(argc, argv), slurm);
     if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
-    if (quiet) return 0;
     for (const std::string& doubt : report.doubts) say_line("plan: warning: {}", doubt);
+    if (quiet) return 0;
     if (dry_run)
       say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder, report.nodes, report.steps);
     else

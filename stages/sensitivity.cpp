@@ -59,8 +59,7 @@ void need_samples(const Job<SensitivityConfig>& job, const std::string& method, 
     throw Failure(Exit::not_converged,
                   {job.where(method), method, fmt::format("no state exists in {} of {} samples", without, used + without), "",
                    "narrower bounds or a smaller strain.to"});
-  if (without > 0)
-    job.say("warning: {}: {} of {} samples have no state at some strain and are left out", method, without, used + without);
+  if (without > 0) job.warn("{}: {} of {} samples have no state at some strain and are left out", method, without, used + without);
 }
 
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {

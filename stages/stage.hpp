@@ -25,10 +25,10 @@
 
 #include "base/interrupt.hpp"
 #include "base/memory.hpp"
-#include "base/say.hpp"
 #include "base/stopwatch.hpp"
 #include "base/traps.hpp"
 #include "base/version.hpp"
+#include "base/voice.hpp"
 #include "pipeline/ports.hpp"
 #include "pipeline/run_files.hpp"
 #include "store/h5.hpp"
@@ -53,9 +53,15 @@ struct Job {
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
   std::string beside(const std::string& name) const { return (std::filesystem::path(output).parent_path() / name).string(); }
 
+  Voice voice() const { return {identity.stage, quiet, verbose}; }
   template <class... Parts>
   void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
-    if (!quiet) say_line("{}: {}", identity.stage, fmt::format(form, std::forward<Parts>(parts)...));
+    voice().say(form, std::forward<Parts>(parts)...);
+  }
+  // with --quiet too
+  template <class... Parts>
+  void warn(fmt::format_string<Parts...> form, Parts&&... parts) const {
+    voice().warn(fmt::format(form, std::forward<Parts>(parts)...));
   }
 };
 
@@ -77,9 +83,16 @@ class RunLog {
   // `goes_on`: the run may continue one that was stopped
   void open(const std::string& path, const std::string& command, bool goes_on) {
     need_own_log(path);
+    std::error_code failed;  // a folder that cannot be made has no file either
+    if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+      std::filesystem::create_directories(folder, failed);
     said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
     if (!said::log)
-      throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+      throw Failure(Exit::input, Error{{path},
+                                       "",
+                                       fmt::format("cannot be written ({})", std::strerror(errno)),
+                                       "a file in a folder that may be written to",
+                                       "another name for --log"});
     fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
     std::fflush(said::log);
   }
@@ -206,15 +219,14 @@ inline void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& pa
   line("makes", output.empty() ? std::string(spec.output) : output);
 }
 
-template <Listed Config>
-int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
-  const StageSpec& spec = *find_stage(name);
-  const std::string program = "langer-" + name;
-  CLI::App app{spec.sentence, program};
-  Job<Config> job;
+// What a stage's command line gives beside its job.
+struct CommandLine {
   std::string config_file, log;
   std::vector<std::string> settings;
-  app.add_option("config", config_file)->required();
+};
+
+void add_options(CLI::App& app, const StageSpec& spec, auto& job, CommandLine& given) {
+  app.add_option("config", given.config_file)->required();
   for (const Port& port : spec.inputs) {
     auto* option = app.add_option("--" + std::string(port.name), job.inputs[port.name]);
     option->allow_extra_args(false)->required(port.required);
@@ -222,14 +234,45 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
   }
   app.add_option("-o,--output", job.output);
   app.add_flag("--dry-run", job.dry_run);
-  app.add_option("--set", settings)->allow_extra_args(false);
+  app.add_option("--set", given.settings)->allow_extra_args(false);
   app.add_flag("--quiet", job.quiet);
   app.add_flag("-v,--verbose", job.verbose);
   app.add_flag("--json", job.json);
-  app.add_option("--log", log);
+  app.add_option("--log", given.log);
   app.add_flag("--describe");
   app.set_help_flag("-h,--help");
-  app.set_version_flag("--version", version_line(program));
+  app.set_version_flag("--version", version_line(app.get_name()));
+}
+
+// Config and inputs of a job whose options are read; nothing of it is written yet.
+template <Listed Config>
+void read_job(Job<Config>& job, const StageSpec& spec, const CommandLine& given, const std::string& command) {
+  std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
+  for (const auto& [port, files] : job.inputs)
+    for (const std::string& file : files) need_file(file);
+  Tree tree = load_yaml(given.config_file);
+  for (const std::string& file : files_of(tree)) never_replace(file);
+  for (const std::string& setting : given.settings) apply_setting(tree, setting);
+  std::vector<std::string> ports;
+  for (const auto& [port, files] : job.inputs) ports.push_back(port);
+  need_one_source(spec, tree, ports);
+  auto loaded = read_config<Config>(std::move(tree));
+  job.config = std::move(loaded.config);
+  job.where = std::move(loaded.where);
+  if (!job.dry_run) need_output(job.output, given.config_file, job.inputs);
+  job.identity = identity_of(std::string(spec.name), job.config, job.where, job.inputs, command);
+  if (!job.dry_run) need_replaceable(job.output);  // by now it is known what the config names
+  begin_beside(job.output);
+}
+
+template <Listed Config>
+int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
+  const StageSpec& spec = *find_stage(name);
+  const std::string program = "langer-" + name;
+  CLI::App app{spec.sentence, program};
+  Job<Config> job;
+  CommandLine given;
+  add_options(app, spec, job, given);
 
   RunLog kept;
   return guarded(program, [&] {
@@ -245,27 +288,12 @@ int run_stage(int argc, char** argv, const std::string& name, auto&& body) {
       return static_cast<int>(Exit::config);
     }
     const std::string command = command_line(argc, argv);
-    never_replace(config_file);
+    never_replace(given.config_file);
     for (const auto& [port, files] : job.inputs) std::for_each(files.begin(), files.end(), never_replace);
-    if (!log.empty() && std::filesystem::weakly_canonical(log) == std::filesystem::weakly_canonical(job.output))
-      throw Failure(Exit::input, Error{{log}, "", "is the output too", "another name for --log", ""});
-    if (!log.empty()) kept.open(log, command, std::filesystem::exists(job.output + ".part"));
-    std::erase_if(job.inputs, [](const auto& port) { return port.second.empty(); });
-    for (const auto& [port, files] : job.inputs)
-      for (const std::string& file : files) need_file(file);
-    Tree tree = load_yaml(config_file);
-    for (const std::string& file : files_of(tree)) never_replace(file);
-    for (const std::string& setting : settings) apply_setting(tree, setting);
-    std::vector<std::string> ports;
-    for (const auto& [port, files] : job.inputs) ports.push_back(port);
-    need_one_source(spec, tree, ports);
-    auto loaded = read_config<Config>(std::move(tree));
-    job.config = std::move(loaded.config);
-    job.where = std::move(loaded.where);
-    if (!job.dry_run) need_output(job.output, config_file, job.inputs);
-    job.identity = identity_of(name, job.config, job.where, job.inputs, command);
-    if (!job.dry_run) need_replaceable(job.output);  // by now it is known what the config names
-    begin_beside(job.output);
+    if (!given.log.empty() && std::filesystem::weakly_canonical(given.log) == std::filesystem::weakly_canonical(job.output))
+      throw Failure(Exit::input, Error{{given.log}, "", "is the output too", "another name for --log", ""});
+    if (!given.log.empty()) kept.open(given.log, command, std::filesystem::exists(job.output + ".part"));
+    read_job(job, spec, given, command);
     if (job.verbose) say_inputs(job.identity, program);
     if (job.dry_run && !spec.forecasts) {
       need_kinds(spec, job.inputs);

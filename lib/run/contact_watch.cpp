@@ -96,19 +96,18 @@ void ContactWatch::look(StepRecord& record) {
   if (adds_) record.scalars["penetration_between_nodes"] = entry;
 }
 
-void ContactWatch::resume(const StepRecord& last) {
-  StepRecord again = last;
+void ContactWatch::kept(const StepRecord& step) {
+  StepRecord again = step;
   adds_ = false;
   look(again);
-  adds_ = last.scalars.count("penetration_between_nodes") > 0;
-  for (Found& f : found_) f.from_the_start = false;
+  adds_ = step.scalars.count("penetration_between_nodes") > 0;
 }
 
 void ContactWatch::finish() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
     const std::string key = "contacts." + scene_.contacts[k].name + ".rigid", apart = fmt::format("{:.3g}", 2 * f.at_force.spacing);
-    if (!f.touched && f.from_the_start && f.facet.depth > 1e-6 * f.at_force.spacing)
+    if (!f.touched && f.facet.depth > 1e-6 * f.at_force.spacing)
       refuse(
           key,
           fmt::format("no node touches the indenter, which is up to {:.3g} mm inside the body near {}, between nodes {} mm apart",
@@ -122,7 +121,7 @@ std::vector<std::string> ContactWatch::warnings() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
     const std::string name = "contacts." + scene_.contacts[k].name + ": ";
-    if (!f.touched && f.from_the_start)
+    if (!f.touched)
       lines.push_back(
           name + fmt::format("the indenter never touches the body: nearest at t = {:.4g}, {:.3g} mm from {}; look at its place "
                              "and its motion",

@@ -23,7 +23,7 @@ class ContactWatch {
   using Where = std::function<Place(const std::string&)>;
   // refers to mesh and scene; throws Failure(config) where an indenter starts inside the body
   ContactWatch(const Mesh& mesh, const Scene& scene, Where where);
-  void resume(const StepRecord& last);
+  void kept(const StepRecord& step);  // by an earlier run
   // throws Failure(config); adds penetration_between_nodes, and with several indenters force_<name>, to the record's scalars
   void look(StepRecord& record);
   void finish() const;  // at the end of the path; throws Failure(config)
@@ -38,7 +38,7 @@ class ContactWatch {
     SurfaceLook::Spot node, facet;   // deepest of all steps
     double distance, t_nearest = 0;  // smallest of all steps
     Vec3 nearest;
-    bool touched = false, from_the_start = true;
+    bool touched = false;
     double share() const;  // of the deepest entry between nodes in what the body is pressed in, at the largest force
   };
   void keep(std::size_t contact, const SurfaceLook& look, double t, double force);

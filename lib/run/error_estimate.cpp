@@ -7,16 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/equilibrium.hpp"
+#include "base/interrupt.hpp"
 #include "post/fields.hpp"
 #include "post/recovery.hpp"
+#include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
-#include "run/equilibrium_by.hpp"
-#include "run/step_record.hpp"
-#include "scene/make_mesh.hpp"
-#include "scene/symmetry.hpp"
-#include "solve/load_path.hpp"
-#include "solve/statics.hpp"
 #include "tensor/stress.hpp"
 
 namespace langer {
@@ -89,6 +84,7 @@ struct SecondRungs {
   bool own = false;                      // the solved mesh is the finest of its family
   SolveConfig other_increments;
   double per_change = 0;  // error of the increments per what these change; 0: none, the path does not matter
+  int n_scenes() const { return static_cast<int>(hex8.size() + hex27.size()) + (per_change != 0); }
 };
 
 SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
@@ -130,18 +126,6 @@ SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
   return rungs;
 }
 
-// act(mesh, scene, what symmetry leaves, equilibrium, statics) of a config that holds its mesh
-auto with_scene(const SolveConfig& config, const std::optional<Material>& material, const Find& where, auto act) {
-  const Mesh mesh = make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
-  const Scene whole = make_scene(config, mesh, material, where);
-  const std::optional<ReducedScene> part = ReducedScene::find(config.symmetry, mesh, whole, where);
-  Equilibrium body = equilibrium_of(mesh, whole, part, config.threads);
-  StaticsOptions options;
-  options.threads = config.blas_threads;
-  Statics statics(body, (part ? part->scene() : whole).contacts, options);
-  return act(mesh, whole, part, body, statics);
-}
-
 Body body_of(const Scene& scene, const Mesh& mesh) {
   std::vector<std::vector<Vec3>> fibres(static_cast<std::size_t>(mesh.n_cells()));
   for (int e = 0; e < mesh.n_cells(); ++e) fibres[static_cast<std::size_t>(e)] = scene.fibres_of(mesh, e);
@@ -150,32 +134,20 @@ Body body_of(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
-  return with_scene(
-      config, material, where,
-      [&](const Mesh& mesh, const Scene& whole, const std::optional<ReducedScene>& part, Equilibrium& body, Statics& statics) {
-        StepRecord last;
-        const PathReport path = load_path(
-            config.path, 0, std::nullopt, whole.stops,
-            [&](double t) {
-              statics.begin(t);
-              return equilibrium_by(config.solver, statics);
-            },
-            [&](double t, double taken, double next, const SolveReport& report) {
-              statics.accept();
-              if (t >= 1 - 1e-10) last = step_record(statics, body, taken, next, report);
-              return true;
-            });
-        if (!path.complete)
-          throw Failure(
-              Exit::not_converged,
-              Error{{},
-                    "",
-                    fmt::format("the solve with the refined mesh found no equilibrium at t = {:.6g}: {}", path.t, path.why),
-                    "",
-                    ""});
-        return valued(whole, mesh, part ? part->whole(last) : last);
-      });
+std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
+                                const std::function<RunListener(const Run&)>& listener) {
+  Run run(body_mesh(config, "", where), config, material, where);
+  const RunEnd end = run.follow(listener ? listener(run) : RunListener{});
+  if (end.at == RunEnd::At::signal)
+    throw Failure(exit_code_of(interrupted()), Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
+  if (!end.path.complete)
+    throw Failure(Exit::not_converged, Error{{},
+                                             "",
+                                             fmt::format("the solve with the refined mesh found no equilibrium at t = {:.6g}: {}",
+                                                         end.path.t, end.path.why),
+                                             "",
+                                             ""});
+  return valued(run.scene, run.mesh, end.last);
 }
 
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
@@ -206,10 +178,16 @@ std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh
 }
 
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
-                                           const std::vector<Valued>& found, double residual) {
+                                           const std::vector<Valued>& found, double residual, const EstimateListener& listener) {
   const SecondRungs rungs = second_rungs(config, where);
+  int begun = 0;
   const auto solved = [&](const std::vector<SolveConfig>& scenes, Family family) {
-    for (const SolveConfig& scene : scenes) family.found.push_back(end_of_path(scene, material, where));
+    for (const SolveConfig& scene : scenes) {
+      ++begun;
+      family.found.push_back(end_of_path(scene, material, where, [&](const Run& run) {
+        return listener ? listener(run, begun, rungs.n_scenes()) : RunListener{};
+      }));
+    }
     return family;
   };
   const std::vector<std::vector<Valued>> itself{found}, nothing;
@@ -229,13 +207,37 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
   return estimates;
 }
 
+std::vector<ErrorEstimate> estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
+                                     const Run& run, const StepRecord& last, const EstimateListener& listener) {
+  const std::vector<Valued> found = valued(run.scene, run.mesh, last);
+  if (config.estimate == EstimateBy::recovery) return recovered_errors(run.scene, run.mesh, last, found);
+  return estimate_errors(config, material, where, found, last.residual, listener);
+}
+
+std::string in_words(const ErrorEstimate& e) {
+  const double whole = 100 / std::max(std::abs(e.of.value), 1e-300);
+  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, whole * e.total());
+  if (!e.has_limit) return fmt::format("{} (cells {:.2g} by recovery, solver {:.1g} %)", begins, whole * e.cells, whole * e.solver);
+  return fmt::format("{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}", begins,
+                     whole * e.cells, whole * e.increments, whole * e.scatter, whole * e.solver, e.limit());
+}
+
+std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
+  std::vector<Summary> summary;
+  for (const ErrorEstimate& e : estimates) {
+    const auto add = [&](const char* what, double value) { summary.push_back({e.of.name + what, value, e.of.unit}); };
+    add("_error", e.total()), add("_error_cells", e.cells);
+    if (e.has_limit) add("_limit", e.limit()), add("_error_increments", e.increments), add("_error_scatter", e.scatter);
+    add("_error_solver", e.solver);
+  }
+  return summary;
+}
+
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
   const SecondRungs rungs = second_rungs(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
-    return with_scene(scene, material, where,
-                      [&](const Mesh&, const Scene& whole, const auto&, Equilibrium& body, Statics& statics) {
-                        return forecast_of(scene, body, statics, whole.stops).seconds();
-                      });
+    Run run(body_mesh(scene, "", where), scene, material, where);
+    return forecast_of(scene, run.body, run.statics, run.scene.stops).seconds();
   };
   double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);
   for (const auto* scenes : {&rungs.hex8, &rungs.hex27})

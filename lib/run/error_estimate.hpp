@@ -22,9 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
-#include "scene/solve_config.hpp"
-#include "store/solution_file.hpp"
+#include "run/run.hpp"
+#include "store/provenance.hpp"
 
 namespace langer {
 
@@ -36,9 +35,10 @@ struct Valued {
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // of the state at t = 1 of a config that holds its mesh; nothing is written
-// Throws Failure(not_converged) where there is none.
+// Throws Failure(not_converged) where there is none, or one with the signal's code where one has come.
 std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
-                                const std::function<Place(const std::string&)>& where);
+                                const std::function<Place(const std::string&)>& where,
+                                const std::function<RunListener(const Run&)>& listener = {});
 
 struct ErrorEstimate {
   Valued of;
@@ -54,11 +54,23 @@ struct ErrorEstimate {
 std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
                                             const std::vector<Valued>& found);
 
+// who goes along with the n-th of the scenes that an estimate solves
+using EstimateListener = std::function<RunListener(const Run& run, int n, int of)>;
+
 // Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no equilibrium,
 // Failure(config) for another kind of mesh.
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
                                            const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
-                                           double residual);
+                                           double residual, const EstimateListener& listener = {});
+
+// as config.estimate says, of the last state of its run
+std::vector<ErrorEstimate> estimated(const SolveConfig& config, const std::optional<Material>& material,
+                                     const std::function<Place(const std::string&)>& where, const Run& run, const StepRecord& last,
+                                     const EstimateListener& listener);
+
+// "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6"
+std::string in_words(const ErrorEstimate& estimate);
+std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates);  // what gather can collect
 
 // CPU seconds that it will take, about (solve/forecast.hpp)
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,

@@ -132,7 +132,7 @@ bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
   return balances;
 }
 
-std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) {
+std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
   StepRecord record = one;
   const int n = whole_->mesh().n_nodes();
   record.u.assign(static_cast<std::size_t>(n), Vec3::Zero());

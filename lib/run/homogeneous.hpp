@@ -26,8 +26,8 @@ class HomogeneousScene {
   Equilibrium equilibrium() const;
   std::variant<NewtonOptions, KinsolOptions> solver() const { return solver_; }  // more exact than the config's: it costs nothing
 
-  std::optional<StepRecord> whole(const StepRecord& one);  // of the mesh; nothing where that does not balance
-  BodyState reduced(const StepRecord& whole) const;        // to continue from
+  std::optional<StepRecord> whole(const StepRecord& one) const;  // of the mesh; nothing where that does not balance
+  BodyState reduced(const StepRecord& whole) const;              // to continue from
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);

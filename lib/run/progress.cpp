@@ -2,30 +2,12 @@
 
 #include <algorithm>
 
+#include "base/interrupt.hpp"
 #include "base/memory.hpp"
 #include "base/say.hpp"
 #include "base/stopwatch.hpp"
 
 namespace langer {
-
-Progress::Progress(bool quiet, bool verbose, const Equilibrium& body, const Scene& scene)
-    : quiet_(quiet),
-      verbose_(verbose),
-      live_(on_terminal() && !verbose && !said::log),
-      contact_(!scene.contacts.empty()),
-      start_(wall_seconds()) {
-  if (quiet_) return;
-  const int families = scene.families();
-  say_line("solve: {} {}, {} nodes, {} free dofs, {}; fibre families: {}; contacts: {}", body.mesh().n_cells(),
-           shape_name(body.mesh().type), body.mesh().n_nodes(), body.dofs().n_free(),
-           names(body.formulation())[static_cast<int>(body.formulation())], families == 0 ? "none" : std::to_string(families),
-           scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
-}
-
-void Progress::resumed(int steps, double t) {
-  from_ = t, step_ = steps;
-  if (!quiet_) say_line("solve: continues after {} steps, at t = {:.6g}", steps, t);
-}
 
 namespace {
 
@@ -34,7 +16,42 @@ std::string iterations(int newton, int modified) {
   return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified) : fmt::format("{} iterations", newton);
 }
 
+bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !said::log; }
+
+std::string sizes(const Run& run) {
+  const Mesh& mesh = run.body.mesh();
+  return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), shape_name(mesh.type), mesh.n_nodes(),
+                     run.body.dofs().n_free(), names(run.body.formulation())[static_cast<int>(run.body.formulation())]);
+}
+
+std::string residual_of(const Assessment& found) {
+  if (!found.admissible) return "not admissible";
+  return fmt::format("{:.1e}", found.reference > 0 ? found.residual / found.reference : found.residual);
+}
+
+// a line for each with -v, else `status` rewritten
+void say_iteration(const Voice& voice, double t, int n, const Assessment& found, const std::string& status) {
+  if (voice.verbose)
+    say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual_of(found), found.missing.empty() ? "" : "  ",
+             found.missing);
+  else
+    say_status(status);
+}
+
 }  // namespace
+
+Progress::Progress(const Voice& voice, const Run& run)
+    : voice_(voice), live_(rewrites(voice)), contact_(!run.scene.contacts.empty()), start_(wall_seconds()) {
+  const Scene& scene = run.reduction.scene();
+  const int families = scene.families();
+  voice_.say("{}; fibre families: {}; contacts: {}", sizes(run), families == 0 ? "none" : std::to_string(families),
+             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
+}
+
+void Progress::resumed(int steps, double t) {
+  from_ = t, step_ = steps;
+  voice_.say("continues after {} steps, at t = {:.6g}", steps, t);
+}
 
 // what the rest takes if it goes on as so far
 std::string Progress::left(double t) const {
@@ -45,26 +62,38 @@ std::string Progress::left(double t) const {
 }
 
 Problem Progress::watched(Problem problem, double t) {
-  if (quiet_ || (!verbose_ && !live_)) return problem;
-  int n = 0;
-  problem.assess = [this, t, n, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
+  if (voice_.quiet || (!voice_.verbose && !live_)) return problem;
+  problem.assess = [this, t, n = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
     const Assessment found = assess(x, with_tangent);
-    const std::string residual =
-        found.admissible ? fmt::format("{:.1e}", found.reference > 0 ? found.residual / found.reference : found.residual)
-                         : "not admissible";
-    if (verbose_)
-      say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual, found.missing.empty() ? "" : "  ", found.missing);
-    else
-      say_status(fmt::format("step {:3d}  t {:.4f}  iteration {}  residual {}{}", step_ + 1, t, n, residual, left(t)));
+    say_iteration(voice_, t, n, found,
+                  fmt::format("step {:3d}  t {:.4f}  iteration {}  residual {}{}", step_ + 1, t, n, residual_of(found), left(t)));
     ++n;
     return found;
   };
   return problem;
 }
 
+RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of) {
+  voice.say("errors: scene {} of {}, {}", n, of, sizes(run));
+  RunListener listener;
+  listener.watched = [voice, n, of, seen = !voice.quiet && (voice.verbose || rewrites(voice))](Problem problem, double t) {
+    problem.assess = [voice, n, of, seen, t, k = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
+      if (interrupted()) return Assessment{.admissible = false, .missing = "stopped"};
+      const Assessment found = assess(x, with_tangent);
+      if (seen)
+        say_iteration(voice, t, k, found,
+                      fmt::format("errors: scene {} of {}  t {:.4f}  iteration {}  residual {}", n, of, t, k, residual_of(found)));
+      ++k;
+      return found;
+    };
+    return problem;
+  };
+  return listener;
+}
+
 void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   ++step_;
-  if (quiet_) return;
+  if (voice_.quiet) return;
   bool unstable = false;
   std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
   if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
@@ -90,23 +119,22 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
 }
 
 void Progress::failed(double t, const SolveReport& report) const {
-  if (!quiet_) say_line("solve: no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
+  voice_.say("no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
 }
 
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
-  if (quiet_) return;
-  const Statics::Cost& cost = statics.cost();
-  say_line("solve: {} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cuts,
-           1e-6 * peak_bytes());
-  say_line(
-      "solve: CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
+  const Statics::Cost cost = statics.cost();
+  voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cuts,
+             1e-6 * peak_bytes());
+  voice_.say(
+      "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
       "files {:.2f}",
       cost.analysis, cost.assembly, cost.factor,
       1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9), cost.solve,
       cost.contact, files);
   if (statics.n_indefinite() > 0)
-    say_line(
-        "solve: {} tangents were not positive definite: without its constraints the body is unstable in some direction "
+    voice_.say(
+        "{} tangents were not positive definite: without its constraints the body is unstable in some direction "
         "(limit point, loss of ellipticity, or too few supports)",
         statics.n_indefinite());
 }

@@ -2,15 +2,14 @@
 // line that is rewritten, iteration by iteration; with `verbose` every iteration has a line, there and elsewhere.
 #pragma once
 
-#include "scene/scene.hpp"
-#include "solve/statics.hpp"
-#include "store/solution_file.hpp"
+#include "base/voice.hpp"
+#include "run/run.hpp"
 
 namespace langer {
 
 class Progress {
  public:
-  Progress(bool quiet, bool verbose, const Equilibrium& body, const Scene& scene);
+  Progress(const Voice& voice, const Run& run);
   void resumed(int steps, double t);
   Problem watched(Problem problem, double t);  // tells each assessment
   void accepted(const StepRecord& record, const SolveReport& report);
@@ -19,11 +18,16 @@ class Progress {
 
  private:
   std::string left(double t) const;
-  bool quiet_, verbose_, live_;  // live: a line rewritten in place
+  Voice voice_;
+  bool live_;  // a line rewritten in place
   bool contact_;
   int step_ = 0;
   double from_ = 0;  // t of the resumed step
   double start_;     // seconds, when the first step began
 };
+
+// Goes along with the n-th scene of those that an estimate solves: a line for each, its iterations as above. A signal ends it within an
+// iteration: nothing of it is kept.
+RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of);
 
 }  // namespace langer

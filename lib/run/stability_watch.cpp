@@ -26,6 +26,21 @@ double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) 
   return most;
 }
 
+// a Gauss point by the smallest shear stiffness that the grid finds there
+struct Low {
+  double stiffness;
+  int cell, point;
+  Mat3 F;
+};
+bool lower(const Low& x, const Low& y) { return x.stiffness < y.stiffness; }
+
+// among the lowest so far: a heap, the highest of them in front
+void keep_lowest(std::vector<Low>& lowest, const Low& one) {
+  if (lowest.size() == refined && !lower(one, lowest.front())) return;
+  if (lowest.size() == refined) std::pop_heap(lowest.begin(), lowest.end(), lower), lowest.pop_back();
+  lowest.push_back(one), std::push_heap(lowest.begin(), lowest.end(), lower);
+}
+
 // its volume should not change visibly at stresses of the order of its shear modulus
 bool nearly_incompressible(const Material& material) {
   return material.volume.quadratic.bulk_modulus() > 1000 * std::abs(shear_modulus(material));
@@ -70,13 +85,7 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
   report.t = state.t;
   report.signature = statics.signature();
 
-  struct Low {
-    double stiffness;
-    int cell, point;
-    Mat3 F;
-  };
-  std::vector<Low> lowest;  // a heap, the highest of them in front
-  const auto lower = [](const Low& x, const Low& y) { return x.stiffness < y.stiffness; };
+  std::vector<Low> lowest;
   double volume = 0;
   PointCheck points;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
@@ -91,10 +100,7 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
       const double w = body.geometry(e).w[g], s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
       volume += w;
       if (s < 0) report.lost += w;
-      if (lowest.size() < refined || s < lowest.front().stiffness) {
-        if (lowest.size() == refined) std::pop_heap(lowest.begin(), lowest.end(), lower), lowest.pop_back();
-        lowest.push_back({s, e, g, points.F[g]}), std::push_heap(lowest.begin(), lowest.end(), lower);
-      }
+      keep_lowest(lowest, {s, e, g, points.F[g]});
       if (a.empty() && !study_.range) continue;
       const Mat3 F = points.F[g] / std::cbrt(points.J[g]);
       for (const Vec3& direction : a) {

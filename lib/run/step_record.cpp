@@ -109,16 +109,4 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
   return state;
 }
 
-std::vector<Summary> summary_of(int n_steps, const PathReport& path, const Statics& statics) {
-  const auto& cost = statics.cost();
-  return {{"steps", static_cast<double>(n_steps), "-"},
-          {"iterations", static_cast<double>(path.iterations), "-"},
-          {"cuts", static_cast<double>(path.cuts), "-"},
-          {"indefinite", static_cast<double>(statics.n_indefinite()), "-"},
-          {"cpu_assembly", cost.assembly, "s"},
-          {"cpu_factor", cost.factor, "s"},
-          {"cpu_solve", cost.solve, "s"},
-          {"cpu_contact", cost.contact, "s"}};
-}
-
 }  // namespace langer

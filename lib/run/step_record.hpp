@@ -14,6 +14,5 @@ Material material_of_body(const std::string& path);  // the same; throws Failure
 SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity);
 StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report);
 BodyState state_of(const StepRecord& record, const Scene& scene);
-std::vector<Summary> summary_of(int n_steps, const PathReport& path, const Statics& statics);
 
 }  // namespace langer

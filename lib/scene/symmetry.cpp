@@ -225,10 +225,4 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
   return state;
 }
 
-Equilibrium equilibrium_of(const Mesh& mesh, const Scene& scene, const std::optional<ReducedScene>& part, int threads) {
-  const Scene& own = part ? part->scene() : scene;
-  return Equilibrium(part ? part->mesh() : mesh, own.materials, own.formulation, own.dofs, threads, Kernel::packets, own.fibres,
-                     part ? part->cell_share() : std::vector<double>{});
-}
-
 }  // namespace langer

@@ -50,7 +50,4 @@ class ReducedScene {
   Vec3 kept_directions_ = Vec3::Ones();               // 0 where the resultant of any symmetric field vanishes
 };
 
-// Balance of the part, or of the whole body where there is none; refers to its mesh.
-Equilibrium equilibrium_of(const Mesh& mesh, const Scene& scene, const std::optional<ReducedScene>& part, int threads = 1);
-
 }  // namespace langer

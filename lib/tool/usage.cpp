@@ -49,7 +49,7 @@ std::string synopsis(const Usage& u) {
 }
 
 std::vector<UsageOption> common_options() {
-  return {{"--quiet", "", "say errors only", "", {}},
+  return {{"--quiet", "", "say warnings and errors only", "", {}},
           {"-v,--verbose", "", "say more: what goes in, every iteration, time and memory", "", {}},
           {"-h,--help", "", "this page", "", {}},
           {"--version", "", "version of this build", "", {}}};
@@ -117,7 +117,7 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
                        {}});
   if (*stage.exports) u.options.push_back({"--export", "FILE", stage.exports, "inp feb", {}});
   u.options.push_back({"--json", "", "print the results as one JSON object on stdout", "", {}});
-  u.options.push_back({"--log", "FILE", "write what is said to this file, too", "log", {}});
+  u.options.push_back({"--log", "FILE", "write what is said to this file, too; its folder is made", "log", {}});
   u.options.push_back({"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
   u.keys = std::move(keys), u.reference = std::move(reference);

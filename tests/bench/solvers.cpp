@@ -6,12 +6,8 @@
 
 #include "base/stopwatch.hpp"
 #include "config/reader.hpp"
-#include "run/equilibrium_by.hpp"
+#include "run/run.hpp"
 #include "scene/make_mesh.hpp"
-#include "scene/scene.hpp"
-#include "scene/symmetry.hpp"
-#include "solve/load_path.hpp"
-#include "solve/statics.hpp"
 
 namespace langer {
 
@@ -52,24 +48,15 @@ path: {first: 0.1, largest: 0.1}
 VecX row(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const std::string& name,
          const std::variant<NewtonOptions, KinsolOptions>& solver) {
   const double began = cpu_seconds();
-  Equilibrium body = equilibrium_of(mesh, scene, std::nullopt);
-  Statics statics(body, scene.contacts, {});
+  Run run(mesh, scene, std::nullopt, config.path, solver);
   int evaluations = 0;
-  const PathReport path = load_path(
-      config.path, 0, std::nullopt, scene.stops,
-      [&](double t) {
-        statics.begin(t);
-        const SolveReport report = equilibrium_by(solver, statics);
-        evaluations += report.evaluations;
-        return report;
-      },
-      [&](double, double, double, const SolveReport&) {
-        statics.accept();
-        return true;
-      });
-  fmt::print("| {} | {} | {} | {} | {:.2f} |{}\n", name, path.iterations + path.again, evaluations, statics.cost().factorizations,
-             cpu_seconds() - began, path.complete ? "" : " " + path.why);
-  return statics.accepted().u;
+  RunListener count;
+  count.failed = [&](double, const SolveReport& report) { evaluations += report.evaluations; };
+  count.of_whole = [&](const StepRecord&, const SolveReport& report) { evaluations += report.evaluations; };
+  const PathReport path = run.follow(count).path;
+  fmt::print("| {} | {} | {} | {} | {:.2f} |{}\n", name, path.iterations + path.again, evaluations,
+             run.statics.cost().factorizations, cpu_seconds() - began, path.complete ? "" : " " + path.why);
+  return run.statics.accepted().u;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "run/equilibrium_by.hpp"
+#include "run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"

@@ -14,15 +14,15 @@ using test::config_of, test::nowhere;
 
 namespace {
 
-struct Run {
+struct Ended {
   Scene scene;
   StepRecord last;
   double force = 0;  // of x_max along x [N]
 };
 
-Run run(const std::string& text, const Mesh& mesh) {
+Ended run(const std::string& text, const Mesh& mesh) {
   const SolveConfig config = config_of(text);
-  Run out{make_scene(config, mesh, config.material, nowhere), {}, 0};
+  Ended out{make_scene(config, mesh, config.material, nowhere), {}, 0};
   out.last =
       test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver})
           .steps.back();
@@ -84,7 +84,7 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
       for (int k = 0; k < families; ++k) all.push_back(family(k == slack ? c1 : 0.1 + 0.1 * k, at[k]));
       return run("material: " + law(all) + "\n" + field + pulled, mesh);
     };
-    const Run none = with(0), little = with(1e-9);
+    const Ended none = with(0), little = with(1e-9);
     CAPTURE(n);
     CHECK(none.force == doctest::Approx(little.force).epsilon(1e-6));
     REQUIRE(none.scene.materials[0].fibres.size() == static_cast<std::size_t>(families));
@@ -104,8 +104,8 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
 
 TEST_CASE("Families with c1 = 0 cost nothing and refuse nothing: the state is that of a law without them, to the last bit") {
   const Mesh mesh = test::cube(2);
-  const Run without = run("material: " + law({family(0.2, 30)}) + "\n" + pulled, mesh);
-  const Run with =
+  const Ended without = run("material: " + law({family(0.2, 30)}) + "\n" + pulled, mesh);
+  const Ended with =
       run("material: " + law({family(0, 10), family(0.2, 30), family(0, 77), family(0, 1), family(0, 2)}) + "\n" + pulled, mesh);
   REQUIRE(with.last.u.size() == without.last.u.size());
   for (std::size_t i = 0; i < with.last.u.size(); ++i) CHECK(with.last.u[i] == without.last.u[i]);

@@ -19,7 +19,7 @@ using test::config_of, test::mesh_in, test::nowhere;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-struct Run {
+struct Ended {
   Mesh mesh;
   Scene scene;
   std::vector<StepRecord> steps;
@@ -31,14 +31,14 @@ struct Run {
   }
 };
 
-Run run(const SolveConfig& config, const Mesh& mesh) {
-  Run out{mesh, make_scene(config, mesh, config.material, nowhere), {}};
+Ended run(const SolveConfig& config, const Mesh& mesh) {
+  Ended out{mesh, make_scene(config, mesh, config.material, nowhere), {}};
   out.steps =
       test::solved(mesh, out.scene, ReducedScene::find(config.symmetry, mesh, out.scene, nowhere), {config.path, config.solver})
           .steps;
   return out;
 }
-Run run(const std::string& text) { return run(config_of(text), mesh_in(config_of(text))); }
+Ended run(const std::string& text) { return run(config_of(text), mesh_in(config_of(text))); }
 
 // inner nodes moved within the plane, those behind them too
 void distort(Mesh& mesh, double amount) {
@@ -93,7 +93,7 @@ TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a poi
           "}}]\n");
       Mesh mesh = mesh_in(config);
       distort(mesh, 0.15);
-      const Run r = run(config, mesh);
+      const Ended r = run(config, mesh);
       const Uniaxial point = uniaxial(*config.material, 1 + way / 3);
       REQUIRE(point.converged);
       double worst = 0;
@@ -119,7 +119,7 @@ TEST_CASE("a cylinder stretched along its radius and its axis stores the energy 
         "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: -0.75}}, {on: x_max, displacement: {x: 0.3}}]\n");
     Mesh mesh = mesh_in(config);
     distort(mesh, 0.1);
-    const Run r = run(config, mesh);
+    const Ended r = run(config, mesh);
     const Vec3 stretch(1.15, 0.75, 1.15);
     const Mat3 C = stretch.cwiseProduct(stretch).asDiagonal();
     const Response point = response(*config.material, C, std::span<const Vec3>{});
@@ -147,7 +147,7 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
     CAPTURE(cells);
     std::vector<double> errors;
     for (int divisions : {3, 6}) {  // beyond, what rounding leaves at this d is seen
-      const Run r = run(
+      const Ended r = run(
           "mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" + std::to_string(divisions) +
           ", 1]}}, cells: " + cells + "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-7}}}\n" + tight +
           "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, displacement: {x: 0.5}}]\n");
@@ -167,14 +167,14 @@ TEST_CASE("plane strain is a layer of the block held along z on both faces") {
                   std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
                   "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
     const Mesh mesh = mesh_in(config);
-    const Run flat = run(config, mesh);
+    const Ended flat = run(config, mesh);
     Mesh layer = test::block(test::even(0, 3, 4), test::even(0, 2, 3), {0, 0.7});
     if (cells != CellType::hex8) layer = test::raised_block(layer, cells);
     layer.node_sets["bottom"] = layer.node_sets["y_min"], layer.node_sets["top"] = layer.node_sets["y_max"];
     for (int i = 0; i < layer.n_nodes(); ++i) layer.node_sets["all"].push_back(i);
     SolveConfig held = config;
     held.supports.push_back({"all", {Axis::z}});
-    const Run deep = run(held, layer);
+    const Ended deep = run(held, layer);
     REQUIRE(flat.steps.size() == deep.steps.size());
     double worst = 0;
     int met = 0;
@@ -195,7 +195,7 @@ TEST_CASE("how thin the wedge is makes no difference to what an indentation give
     Mesh mesh = mesh_in(config);
     for (Vec3& X : mesh.X) X[2] *= std::ldexp(1, power) / mesh.section->depth;
     mesh.section->depth = std::ldexp(1, power);
-    const Run r = run(config, mesh);
+    const Ended r = run(config, mesh);
     force.push_back(r.last().force_ind.norm()), stress.push_back(r.last().cell_fields.at("von_mises")[0]);
     MESSAGE("depth 2^" << power << ": force " << doctest::toString(force.back()) << " N, off by " << force.back() / force[0] - 1);
   }
@@ -219,7 +219,7 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
       const Scene whole = make_scene(config, mesh, config.material, nowhere);
       const auto part = ReducedScene::find(config.symmetry, mesh, whole, nowhere);
       REQUIRE(part.has_value());
-      Equilibrium body = equilibrium_of(mesh, whole, part);
+      Equilibrium body = Reduction(mesh, whole, part).equilibrium();
       const Dofs& dofs = body.dofs();
       std::mt19937 random(5);
       std::uniform_real_distribution<double> small(-0.02, 0.02);
@@ -260,7 +260,7 @@ TEST_CASE("a disc under a sphere gives the reference force, and that of the bloc
   const std::vector<std::pair<double, double>> reference{{0.1, 0.1668}, {0.2, 0.511}, {0.3, 1.0095},
                                                          {0.5, 2.507},  {0.7, 4.842}, {1, 10.76}};
   for (const auto& [depth, force] : reference) config.contacts.at("ball").motion.push_back({depth, {0, -depth, 0}});
-  const Run r = run(config, mesh_in(config));
+  const Ended r = run(config, mesh_in(config));
   std::size_t met = 0;
   for (const StepRecord& step : r.steps)
     for (const auto& [depth, force] : reference)
@@ -276,7 +276,7 @@ TEST_CASE("a disc under a sphere gives the reference force, and that of the bloc
 
   const std::string block =
       "{indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.3536}}\n  cells: hex27";
-  const Run deep = run(indentation(block, ball(0) + "symmetry: quarter\n"));
+  const Ended deep = run(indentation(block, ball(0) + "symmetry: quarter\n"));
   CHECK(r.last().force_ind.norm() == doctest::Approx(deep.last().force_ind.norm()).epsilon(0.005));
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("friction raises the force on a disc as on the block") {
 
 TEST_CASE("a shallow indentation of a deep body gives the force of Hertz") {
   const double R = 10, depth = 0.02, E = 3 * 2 * 0.5;  // incompressible, small strains
-  const Run r = run(
+  const Ended r = run(
       "mesh:\n  geometry: {indented_disc: {size: [150, 150], radius: 10, depth: 0.02, edge: 0.0884}}\n  cells: hex27\n"
       "  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 0.7}}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-5}}}\nsupports: [{on: bottom, hold: [x, y]}]\n"
@@ -308,13 +308,13 @@ TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
                            "motion: [{t: 1, to: [0.1, -0.3, 0]}], friction: 0.2}}\npath: {first: 0.25, largest: 0.25}\n";
   const SolveConfig config =
       config_of("mesh: {geometry: {section: {of: plane_strain, origin: [-2, 0], size: [4, 1], divisions: [16, 4]}}}\n" + rest);
-  const Run flat = run(config, mesh_in(config));
+  const Ended flat = run(config, mesh_in(config));
   Mesh layer = test::block(test::even(-2, 2, 16), test::even(0, 1, 4), {0, 1});
   layer.node_sets["bottom"] = layer.node_sets["y_min"], layer.node_sets["top"] = layer.node_sets["y_max"];
   for (int i = 0; i < layer.n_nodes(); ++i) layer.node_sets["all"].push_back(i);
   SolveConfig held = config;
   held.supports.push_back({"all", {Axis::z}});
-  const Run deep = run(held, layer);
+  const Ended deep = run(held, layer);
   for (int k : {0, 1}) CHECK(flat.last().force_ind[k] == doctest::Approx(deep.last().force_ind[k]).epsilon(1e-4));
   CHECK(flat.last().force_ind.norm() > 0.1);
 }
@@ -373,7 +373,7 @@ TEST_CASE("what has no section is refused by name") {
 TEST_CASE("a section continues from what was written of it") {
   const SolveConfig config = config_of(indentation(disc(0.35, "hex27"), ball(0.34)));
   const Mesh mesh = mesh_in(config);
-  const Run r = run(config, mesh);
+  const Ended r = run(config, mesh);
   const auto part = ReducedScene::find(config.symmetry, mesh, r.scene, nowhere);
   const BodyState state = part->reduced(r.last());
   const StepRecord& last = r.last();

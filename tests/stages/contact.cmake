@@ -56,7 +56,7 @@ foreach(motion "{t: 1, to: [0, -0.5, 0]}" "{t: 0.3, to: [0, -0.4, 0]}, {t: 1, to
 endforeach()
 # never touches; without a set that is known before
 solve_says(0 "warning: contacts.s: the indenter never touches the body: nearest at t = 1, 0.4 mm from (0, 4, 0)"
-  "  s: {on: top, rigid: {sphere: {radius: 1, centre: [0, 5.6, 0]}}, motion: [{t: 1, to: [0, -0.2, 0]}]}\n${steps}")
+  "  s: {on: top, rigid: {sphere: {radius: 1, centre: [0, 5.6, 0]}}, motion: [{t: 1, to: [0, -0.2, 0]}]}\n${steps}" --quiet)
 solve_says(2 "contacts.s.motion: the indenter reaches no node of the body"
   "  s: {rigid: {sphere: {radius: 1, centre: [0, 9, 0]}}, motion: [{t: 1, to: [0, -0.2, 0]}]}\n${steps}")
 # no node touches, though the sphere is larger than the cells

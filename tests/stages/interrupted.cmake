@@ -44,6 +44,51 @@ endmacro()
 stop_by(INT 130)
 stop_by(TERM 143)
 
+# while errors are estimated: no scene is waited for, the steps are kept, and the next run makes the estimate or ends without it
+set(estimated ${BIN}/langer-solve configs/solve/accuracy_isotropic.yaml --set accuracy=1% -v -o)
+file(WRITE ${WORK}/estimate.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
+\"$@\" 2> said & p=$!
+said $p 'errors: scene 2 of 5'; freeze $p; before=$(grep -c iteration said)
+kill -INT $p; thaw $p
+wait $p; code=$?
+echo iterations $(($(grep -c iteration said) - before)); exit $code\n")
+execute_process(COMMAND sh ${WORK}/estimate.sh env --default-signal=INT ${estimated} estimated/solution.h5
+  RESULT_VARIABLE code OUTPUT_VARIABLE iterations)
+file(READ ${folder}/said said)
+expect_equal(${code} 130 "exit code after SIGINT in an estimate")
+if(NOT iterations MATCHES "^iterations [01]\n" OR said MATCHES "scene 3 of 5" OR EXISTS ${folder}/estimated/solution.h5)
+  message(FATAL_ERROR "an estimate went on after SIGINT: ${iterations}${said}")
+endif()
+expect_said("stopped by SIGINT while its errors were estimated; the path is at its end")
+expect_said("kept: all 4 steps in estimated/solution.h5.part (the next run goes on with the estimate, --set estimate=none ends without it)")
+file(COPY ${folder}/estimated/ DESTINATION ${folder}/without)
+run(0 ${estimated} estimated/solution.h5 --json)
+expect_said("solve: continues after 4 steps, at t = 1")
+expect_said("solve: force 10.")
+expect_said("\"force_error_N\"")
+string(REGEX MATCH "\"force_N\": [0-9.]+" force "${said}")
+run(0 ${estimated} without/solution.h5 --set estimate=none --json)
+expect_said("solve: continues after 4 steps, at t = 1")
+if(said MATCHES "force_error")
+  message(FATAL_ERROR "an estimate that nobody asked for:\n${said}")
+endif()
+expect_said("${force}")
+
+# what a whole path says, it says after a stop too
+file(WRITE ${folder}/far.yaml "mesh: {geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [4, 2, 4]}}}
+material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1e-3}}}
+supports: [{on: y_min, hold: [x, y, z]}]
+contacts: {s: {on: y_max, rigid: {sphere: {radius: 3, centre: [0, 8, 0]}}, motion: [{t: 1, to: [0, -0.5, 0]}]}}
+path: {steps: 300}\n")
+file(WRITE ${WORK}/far.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
+\"$@\" 2> said & p=$!
+said $p '^step   3'; freeze $p; kill -INT $p; thaw $p; wait $p\n")
+set(far ${BIN}/langer-solve far.yaml -o far/solution.h5)
+execute_process(COMMAND sh ${WORK}/far.sh env --default-signal=INT ${far} RESULT_VARIABLE code)
+expect_equal(${code} 130 "exit code after SIGINT")
+run(0 ${far} --quiet)
+expect_said("solve: warning: contacts.s: the indenter never touches the body: nearest at t = 1, 0.5 mm from (0, 4, 0)")
+
 # a second signal ends a long step at once, with the same code, and the steps before it are kept; while the program is stopped
 # between the two, only the clock goes on
 set(long ${BIN}/langer-solve configs/solve/smoke.yaml --mesh fine.h5 --material configs/material/abdomen_hgo_yeoh.yaml -v -o twice/solution.h5)

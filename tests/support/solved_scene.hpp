@@ -7,11 +7,8 @@
 #include <vector>
 
 #include "config/reader.hpp"
-#include "run/equilibrium_by.hpp"
-#include "run/step_record.hpp"
+#include "run/run.hpp"
 #include "scene/make_mesh.hpp"
-#include "scene/symmetry.hpp"
-#include "solve/load_path.hpp"
 
 namespace langer::test {
 
@@ -34,32 +31,15 @@ struct HowToSolve {
 };
 
 inline Solved solved(const Mesh& mesh, const Scene& scene, const std::optional<ReducedScene>& part, const HowToSolve& how) {
-  const Scene& own = part ? part->scene() : scene;
-  Equilibrium body = equilibrium_of(mesh, scene, part);
-  Statics statics(body, own.contacts, {});
-  std::optional<double> increment;
-  if (how.from) {
-    const auto state = [&](const StepRecord& record) { return part ? part->reduced(record) : state_of(record, scene); };
-    const BodyState before = how.before ? state(*how.before) : statics.accepted();
-    statics.restore(state(*how.from), &before);
-    increment = how.from->scalars.at("next_increment");
-  }
+  Run run(mesh, scene, part, how.path, how.solver);
+  if (how.from) run.resume(*how.from, how.before ? std::optional(*how.before) : std::nullopt);
   Solved out;
-  out.free = body.dofs().n_free();
-  const PathReport report = load_path(
-      how.path, statics.accepted().t, increment, own.stops,
-      [&](double t) {
-        statics.begin(t);
-        return equilibrium_by(how.solver, statics);
-      },
-      [&](double, double taken, double next, const SolveReport& step) {
-        statics.accept();
-        StepRecord record = step_record(statics, body, taken, next, step);
-        out.steps.push_back(part ? part->whole(record) : record);
-        return true;
-      });
-  CAPTURE(report.why);
-  REQUIRE(report.complete);
+  out.free = run.body.dofs().n_free();
+  RunListener each;
+  each.of_whole = [&](const StepRecord& step, const SolveReport&) { out.steps.push_back(step); };
+  const RunEnd end = run.follow(each);
+  CAPTURE(end.path.why);
+  REQUIRE(end.path.complete);
   return out;
 }
 

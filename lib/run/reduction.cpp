@@ -1,0 +1,63 @@
+#include "run/reduction.hpp"
+
+#include <fmt/format.h>
+
+#include "run/step_record.hpp"
+
+namespace langer {
+
+Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part, int threads)
+    : mesh_(mesh), scene_(scene), threads_(threads), part_(std::move(part)) {}
+
+Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<HomogeneousScene> point)
+    : mesh_(mesh), scene_(scene), point_(std::move(point)) {}
+
+Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
+                          const std::function<Place(const std::string&)>& where, bool at_a_point) {
+  if (at_a_point)
+    if (auto point = HomogeneousScene::find(mesh, scene, config)) return {mesh, scene, std::move(point)};
+  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+}
+
+Reduction::Kind Reduction::kind() const {
+  if (point_) return Kind::homogeneous;
+  if (!part_) return Kind::none;
+  return mesh_.section ? Kind::section : Kind::symmetry;
+}
+
+const Mesh& Reduction::mesh() const { return point_ ? point_->mesh() : part_ ? part_->mesh() : mesh_; }
+
+const Scene& Reduction::scene() const { return point_ ? point_->scene() : part_ ? part_->scene() : scene_; }
+
+Equilibrium Reduction::equilibrium() const {
+  return Equilibrium(mesh(), scene().materials, scene().formulation, scene().dofs, point_ ? 1 : threads_, Kernel::packets,
+                     scene().fibres, part_ ? part_->cell_share() : std::vector<double>{});
+}
+
+Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }
+
+std::string Reduction::words() const {
+  switch (kind()) {
+    case Kind::homogeneous:
+      return fmt::format("homogeneous: one hexahedron stands for {} cells", mesh_.n_cells());
+    case Kind::symmetry:
+      return "symmetry: " + part_->words();
+    case Kind::section:
+      return part_->words();
+    case Kind::none:
+      break;
+  }
+  return "";
+}
+
+std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
+  if (point_) return point_->whole(of_part);
+  return part_ ? part_->whole(of_part) : of_part;
+}
+
+BodyState Reduction::reduced(const StepRecord& of_whole) const {
+  if (point_) return point_->reduced(of_whole);
+  return part_ ? part_->reduced(of_whole) : state_of(of_whole, scene_);
+}
+
+}  // namespace langer

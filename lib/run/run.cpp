@@ -1,0 +1,82 @@
+#include "run/run.hpp"
+
+#include <algorithm>
+
+#include "base/interrupt.hpp"
+#include "run/equilibrium_by.hpp"
+#include "run/step_record.hpp"
+
+namespace langer {
+
+namespace {
+
+StaticsOptions threads_of(const SolveConfig& config) {
+  StaticsOptions options;
+  options.threads = config.blas_threads;
+  return options;
+}
+
+}  // namespace
+
+Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point)
+    : mesh(std::move(mesh_)),
+      scene(make_scene(config, mesh, material, where)),
+      reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
+      body(reduction.equilibrium()),
+      statics(body, reduction.scene().contacts, threads_of(config)),
+      path(config.path),
+      solver(reduction.solver(config.solver)) {}
+
+Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part, const LoadPathOptions& path_, Solver solver_,
+         const StaticsOptions& options)
+    : mesh(std::move(mesh_)),
+      scene(std::move(scene_)),
+      reduction(mesh, scene, part),
+      body(reduction.equilibrium()),
+      statics(body, reduction.scene().contacts, options),
+      path(path_),
+      solver(std::move(solver_)) {}
+
+void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
+  const BodyState earlier = before ? reduction.reduced(*before) : statics.accepted();  // at rest
+  statics.restore(reduction.reduced(last), &earlier);
+  increment_ = last.scalars.at("next_increment");
+}
+
+RunEnd Run::follow(const RunListener& listener) {
+  RunEnd end;
+  const auto attempt = [&](double t) {
+    if (interrupted()) return SolveReport{};  // not converged
+    statics.begin(t);
+    const SolveReport report =
+        equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+    if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
+    return report;
+  };
+  const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
+    statics.accept();
+    const bool at_end = t >= 1 - 1e-10;
+    if (!at_end && !listener.of_part && !listener.of_whole) return !interrupted();
+    StepRecord record = step_record(statics, body, taken, next, report);
+    if (listener.of_part && !listener.of_part(record)) {
+      end.at = RunEnd::At::listener;
+      return false;
+    }
+    std::optional<StepRecord> whole = reduction.whole(record);
+    if (!whole) {
+      end.at = RunEnd::At::not_homogeneous;
+      return false;
+    }
+    SolveReport found = report;
+    if (reduction.kind() == Reduction::Kind::homogeneous)
+      found.residual = std::max(found.residual, whole->residual * report.reference);
+    if (listener.of_whole) listener.of_whole(*whole, found);
+    if (at_end) end.last = std::move(*whole);
+    return !interrupted();
+  };
+  end.path = load_path(path, statics.accepted().t, increment_, reduction.scene().stops, attempt, accepted);
+  if (!end.path.complete && end.at == RunEnd::At::the_end) end.at = interrupted() ? RunEnd::At::signal : RunEnd::At::no_equilibrium;
+  return end;
+}
+
+}  // namespace langer

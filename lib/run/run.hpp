@@ -1,0 +1,58 @@
+// A scene on its way along the load path: solved on the part of the body that decides the rest, told of the whole body.
+// The one place where a scene becomes equations: langer-solve, the estimate of its errors and the tests follow a Run.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "run/reduction.hpp"
+#include "solve/load_path.hpp"
+
+namespace langer {
+
+// Somebody who goes along; each may be empty.
+struct RunListener {
+  std::function<Problem(Problem problem, double t)> watched;                   // what the solver is given instead
+  std::function<void(double t, const SolveReport& report)> failed;             // no equilibrium at t: a shorter increment follows
+  std::function<bool(StepRecord& of_part)> of_part;                            // an accepted state; false ends the path there
+  std::function<void(StepRecord& whole, const SolveReport& report)> of_whole;  // the same, balanced
+};
+
+struct RunEnd {
+  enum class At { the_end, signal, no_equilibrium, listener, not_homogeneous };
+  At at = At::the_end;
+  PathReport path;
+  StepRecord last;  // of the whole body at the end of the path
+};
+
+class Run {
+ public:
+  using Where = std::function<Place(const std::string&)>;
+
+  // at_a_point: one hexahedron may stand for a body that deforms alike everywhere
+  Run(Mesh mesh, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point = false);
+  // of a scene that is there, or what is left of it
+  Run(Mesh mesh, Scene scene, const std::optional<ReducedScene>& part, const LoadPathOptions& path, Solver solver,
+      const StaticsOptions& options = {});
+  Run(const Run&) = delete;  // its parts refer to each other
+  Run& operator=(const Run&) = delete;
+
+  const Mesh mesh;
+  const Scene scene;  // of the whole body
+  const Reduction reduction;
+  Equilibrium body;  // balance of the part
+  Statics statics;
+  LoadPathOptions path;
+  Solver solver;
+
+  // To go on after `last`; before: the step before it, none where that was the body at rest.
+  void resume(const StepRecord& last, const std::optional<StepRecord>& before);
+  // From where it stands to t = 1. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
+  RunEnd follow(const RunListener& listener = {});
+
+ private:
+  std::optional<double> increment_;  // to begin with
+};
+
+}  // namespace langer

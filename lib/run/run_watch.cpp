@@ -1,0 +1,56 @@
+#include "run/run_watch.hpp"
+
+#include <fmt/format.h>
+
+namespace langer {
+
+RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
+    : run_(run), when_(config.stability), on_unstable_(config.on_unstable), stability_(std::move(tests)), result_(run.body) {
+  if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
+}
+
+void RunWatch::kept(const StepRecord& step) {
+  stability_.resume(step);
+  if (contact_) contact_->kept(step);
+  if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end())
+    last_said_ =
+        found->second < 0 ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second) : "";
+}
+
+bool RunWatch::of_part(StepRecord& record) {
+  const bool at_end = record.t >= 1 - 1e-10;
+  if (when_ != StabilityCheck::each_step && !(when_ == StabilityCheck::last && at_end)) return true;
+  const StabilityReport report = stability_.look(run_.body, run_.statics);
+  stability_.keep(report);
+  if (when_ == StabilityCheck::each_step) stability_.add_to(record, report);
+  last_said_ = in_words(report);
+  if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
+  unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
+  return false;
+}
+
+std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& report) {
+  if (contact_) contact_->look(record);
+  result_.look(record.t, run_.statics.accepted().u, report);
+  return result_.refusal();
+}
+
+std::vector<std::string> RunWatch::warnings() const {
+  std::vector<std::string> lines = stability_.warnings();
+  for (std::string& line : result_.warnings()) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> RunWatch::contact_warnings() const {
+  if (!contact_) return {};
+  contact_->finish();
+  return contact_->warnings();
+}
+
+std::vector<Summary> RunWatch::contact_summary() const { return contact_ ? contact_->summary() : std::vector<Summary>{}; }
+
+std::vector<Summary> RunWatch::stability_summary() const {
+  return when_ == StabilityCheck::off ? std::vector<Summary>{} : stability_.summary();
+}
+
+}  // namespace langer
