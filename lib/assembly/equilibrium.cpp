@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/in_order.hpp"
+#include "element/dilatation.hpp"
 
 namespace langer {
 
@@ -126,7 +127,7 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
     for (int l = 0; l < Packet::lanes; ++l) {
       const int e = block.cells[l];
       local.set(l, local_[e]);
-      for (int k = 0; k < n_p_; ++k) p[k].set(l, modal_share(e) * p_[static_cast<std::size_t>(e) * n_p_ + k]);
+      for (int k = 0; k < n_p_; ++k) p[k].set(l, modal_pressure(e, k));
     }
     packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out);
     return;
@@ -135,7 +136,7 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   std::vector<double> p(n_p_);
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
-    for (int k = 0; k < n_p_; ++k) p[k] = modal_share(e) * p_[static_cast<std::size_t>(e) * n_p_ + k];
+    for (int k = 0; k < n_p_; ++k) p[k] = modal_pressure(e, k);
     const bool whole =
         solid(formulation_, law, local_[e], geometry_[e], fibres_[e], element_displacements(u, e), p.data(), with_tangent, one);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
@@ -210,7 +211,7 @@ void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
 }
 
 void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed) {
-  const double kappa = material(block.cells[0]).volume.quadratic.bulk_modulus();
+  const double kappa = bulk_modulus(block.cells[0]);
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
     const auto nodes = mesh_.cell(e);
@@ -287,16 +288,29 @@ double Equilibrium::smallest_J(const VecX& u) const {
   return J_min;
 }
 
+double Equilibrium::modal_pressure(int e, int k) const {
+  const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
+  if (linear_pressure(material(e).volume)) return (1 - local_[e] / bulk_modulus(e)) * p_[at];
+  return p_[at] - local_[e] * J_minus_1_[at];
+}
+
+void Equilibrium::pressures_of(int e, const double* J_minus_1, double* p) const {
+  pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, J_minus_1, p);
+}
+
 VecX Equilibrium::turned_dilatations() const {
   VecX out = VecX::Zero(dofs_.n);
+  std::vector<double> now(n_p_);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = bulk_modulus(e), share = modal_share(e);
+    // what a linear pressure leaves to `local` follows the predicted dilatation, else it is the same in both
+    const double share = linear_pressure(material(e).volume) ? 1 - local_[e] / bulk_modulus(e) : 1;
+    pressures_of(e, &J_minus_1_[static_cast<std::size_t>(e) * n_p_], now.data());
     const auto nodes = mesh_.cell(e);
     const bool tied = !tied_.empty() && tied_[e];
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
-      const double w = geometry_[e].V * share * (kappa * J_minus_1_[at] - p_[at]);
+      const double w = geometry_[e].V * share * (now[k] - p_[at]);
       for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
     }
   }
@@ -305,22 +319,29 @@ VecX Equilibrium::turned_dilatations() const {
 
 void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
   const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
+  std::vector<double> predicted(n_p_), p(n_p_);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    const double kappa = bulk_modulus(e);
     const ElementNodes q = element_displacements(du, e);
+    const std::size_t first = static_cast<std::size_t>(e) * n_p_;
     for (int k = 0; k < n_p_; ++k) {
-      const std::size_t i = static_cast<std::size_t>(e) * n_p_ + k;
+      const std::size_t i = first + k;
       double change = 0;
       for (int a = 0; a < n_nodes_; ++a) change += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[i * n_dofs_ + 3 * a]));
-      p_[i] += step * (kappa * (J_minus_1_[i] + change) - p_[i]);
+      predicted[k] = J_minus_1_[i] + change;
     }
+    pressures_of(e, predicted.data(), p.data());
+    for (int k = 0; k < n_p_; ++k)  // a step too long may leave a law without pressure: the old one then stays
+      if (std::isfinite(p[k])) p_[first + k] += step * (p[k] - p_[first + k]);
   }
   follow_pressures();
 }
 
 void Equilibrium::pressures_from(const VecX& u) {
   if (!assemble(u, false)) return;
-  for (std::size_t i = 0; i < p_.size(); ++i) p_[i] = bulk_modulus(static_cast<int>(i) / n_p_) * J_minus_1_[i];
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    const std::size_t first = static_cast<std::size_t>(e) * n_p_;
+    pressures_of(e, &J_minus_1_[first], &p_[first]);
+  }
   follow_pressures();
 }
 

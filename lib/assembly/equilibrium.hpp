@@ -58,9 +58,11 @@ class Equilibrium {
   ElementNodes element_displacements(const VecX& u, int e) const;
 
  private:
-  double bulk_modulus(int e) const { return material(e).volume.quadratic.bulk_modulus(); }
-  double modal_share(int e) const { return 1 - local_[e] / bulk_modulus(e); }  // of kappa: what is not left to `local`
-  void follow_pressures();                                                     // local_ from p_
+  double bulk_modulus(int e) const { return langer::bulk_modulus(material(e)); }  // at rest [MPa]
+  // of the modes, at the pressure p_ of the tangent: what is not left to `local`
+  double modal_pressure(int e, int k) const;
+  void pressures_of(int e, const double* J_minus_1, double* p) const;
+  void follow_pressures();  // local_ from p_
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];

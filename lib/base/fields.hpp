@@ -36,6 +36,9 @@ inline constexpr const char* deg = "deg";
 inline constexpr const char* s = "s";
 }  // namespace unit
 
+// instead of a key, for a std::variant: the one key of its alternative stands among the keys of the struct
+inline constexpr const char* among_keys = "";
+
 struct Required {};
 inline constexpr Required required{};
 

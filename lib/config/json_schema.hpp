@@ -107,13 +107,25 @@ bool asks_within() {
 template <class T>
 Tree of(const Member& m, bool whole, Definitions& definitions);
 
+template <Listed T>
+Tree of_struct(bool whole, Definitions& definitions);
+
 // the keys of a struct; `whole`: those required must be there
 template <Listed T>
 Tree of_lines(bool whole, Definitions& definitions) {
-  Tree properties = object(), needed = list({});
+  Tree properties = object(), needed = list({}), one_of = list({});
   T defaults{};
   for_each_line(defaults, [&](const Member& m, const auto& value) {
     using V = std::remove_cvref_t<decltype(value)>;
+    if constexpr (is_choice<V>)
+      if (is_among_keys<V>(m)) {
+        for_each_alternative<V>([&](const auto& a) {
+          using A = std::remove_cvref_t<decltype(a)>;
+          properties.map.push_back({A::key, of_struct<A>(whole, definitions)});
+          one_of.list.push_back(object({{"required", words({A::key})}}));
+        });
+        return;
+      }
     Tree one = described(of<V>(m, whole, definitions), m);
     if constexpr ((is_leaf<V> && !std::is_same_v<V, InputPath>) || is_array<V>)
       if (!m.required) {
@@ -130,6 +142,7 @@ Tree of_lines(bool whole, Definitions& definitions) {
   properties.map.push_back({"include", included()});
   Tree t = object({{"type", words({"object", "null"})}, {"properties", std::move(properties)}});
   if (!needed.list.empty()) t.map.push_back({"required", std::move(needed)});
+  if (!one_of.list.empty() && whole) t.map.push_back({"oneOf", std::move(one_of)});
   refuse_others(t);
   return t;
 }

@@ -109,15 +109,6 @@ template <class T>
 inline constexpr bool is_leaf =
     std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string> || std::is_same_v<T, InputPath>;
 
-// keys of a listing, in order
-template <Listed T>
-std::vector<std::string> keys_of() {
-  std::vector<std::string> keys;
-  T object{};
-  for_each_line(object, [&](const Member& m, const auto&) { keys.push_back(m.key); });
-  return keys;
-}
-
 // calls on(alternative) with a default value of each alternative of a std::variant
 template <class Choice>
 void for_each_alternative(auto&& on) {
@@ -130,6 +121,27 @@ std::vector<std::string> alternatives() {
   for_each_alternative<Choice>([&](const auto& a) { words.push_back(std::remove_cvref_t<decltype(a)>::key); });
   return words;
 }
+
+// the key of the alternative stands among those of the struct (among_keys in base/fields.hpp)
+template <class V>
+bool is_among_keys(const Member& m) {
+  return is_choice<V> && !*m.key;
+}
+
+// keys of a listing, in order
+template <Listed T>
+std::vector<std::string> keys_of() {
+  std::vector<std::string> keys;
+  T object{};
+  for_each_line(object, [&](const Member& m, const auto& value) {
+    if constexpr (is_choice<std::remove_cvref_t<decltype(value)>>)
+      if (is_among_keys<std::remove_cvref_t<decltype(value)>>(m))
+        for (const std::string& key : alternatives<std::remove_cvref_t<decltype(value)>>()) keys.push_back(key);
+    if (*m.key) keys.push_back(m.key);
+  });
+  return keys;
+}
+
 template <Named E>
 std::vector<std::string> words_of() {
   const auto list = names(E{});

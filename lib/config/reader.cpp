@@ -134,6 +134,14 @@ void say_unknown(const Tree::Entry& entry, const std::string& path, const std::v
                     near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
+Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {
+  Tree part;
+  part.kind = Tree::Kind::map, part.place = tree.place, part.base = tree.base, part.layers = tree.layers;
+  for (const Tree::Entry& entry : tree.map)
+    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) part.map.push_back(entry);
+  return part;
+}
+
 std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum, Findings& f) {
   using Entries = std::vector<const Tree::Entry*>;
   const auto those = [&](auto&& hold) {

@@ -48,14 +48,29 @@ std::string item(const std::string& path, std::size_t index);
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
 
+// the entries of a map that have these keys
+Tree part_of(const Tree& tree, const std::vector<std::string>& keys);
+
 template <Listed T>
 void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f) {
   const std::size_t before = f.errors.size();
   std::vector<std::string> known;
   for_each_line(out, [&](const Member& m, auto& value) {
+    using V = std::remove_cvref_t<decltype(value)>;
+    if constexpr (is_choice<V>)
+      if (is_among_keys<V>(m)) {
+        const std::vector<std::string> keys = alternatives<V>();
+        known.insert(known.end(), keys.begin(), keys.end());
+        const Tree part = part_of(tree, keys);
+        if (!part.map.empty())
+          read_value(part, path, m, value, f);
+        else if (m.required)
+          f.say(tree.place, path, "none of the keys " + list_words(keys), "exactly one of them (" + std::string(m.doc) + ")",
+                m.hint);
+        return;
+      }
     known.push_back(m.key);
     const std::string key = join(path, m.key);
-    using V = std::remove_cvref_t<decltype(value)>;
     if (const Tree* given = tree.find(m.key))
       read_value(*given, key, m, value, f);
     else if (m.required)

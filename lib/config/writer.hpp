@@ -72,7 +72,9 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
         if (!part.path.empty()) t.map.push_back({m.key, to_tree(part, path_text)});
       } else if constexpr (is_optional<Part>) {
         if (part) t.map.push_back({m.key, to_tree(*part, path_text)});
-      } else
+      } else if (is_among_keys<Part>(m))
+        t.map.push_back(to_tree(part, path_text).map.at(0));
+      else
         t.map.push_back({m.key, to_tree(part, path_text)});
     });
   }
@@ -102,7 +104,7 @@ void collect_files(const T& value, const std::string& path, std::vector<NamedFil
   } else if constexpr (is_named_things<T>) {
     for (const auto& [name, one] : value) collect_files(one, below(name), files);
   } else if constexpr (Listed<T>)
-    for_each_line(value, [&](const Member& m, const auto& part) { collect_files(part, below(m.key), files); });
+    for_each_line(value, [&](const Member& m, const auto& part) { collect_files(part, *m.key ? below(m.key) : path, files); });
 }
 template <Listed Config>
 std::vector<NamedFile> files_named_by(const Config& config) {
@@ -171,6 +173,14 @@ void describe_lines(int level, std::vector<DescribedKey>& keys) {
   T object{};
   for_each_line(object, [&](const Member& m, const auto& value) {
     using V = std::remove_cvref_t<decltype(value)>;
+    if constexpr (is_choice<V>)
+      if (is_among_keys<V>(m)) {
+        const std::size_t first = keys.size();
+        describe_parts<V>(level, keys);
+        for (std::size_t i = first; i < keys.size(); ++i)
+          if (keys[i].level == level) keys[i].otherwise = "one of " + list_words(alternatives<V>()), keys[i].doc = m.doc;
+        return;
+      }
     std::string otherwise;
     if (m.required)
       otherwise = "required";

@@ -1,9 +1,9 @@
 #include "element/packet_solid.hpp"
 
 #include <algorithm>
-#include <limits>
 
-#include "material/existence.hpp"
+#include "element/dilatation.hpp"
+#include "element/spatial_terms.hpp"
 
 namespace langer {
 
@@ -39,54 +39,25 @@ struct Spatial {
 
 constexpr int most_families = 4;
 
-//   tau = dev sum 2 W' h,   h = I_bar-gradient pushed forward: b_bar for I1_bar,
-//   kappa b_bar + (1 - 3 kappa) m (F a)(F a)^T for a fibre family
+//   tau = dev sum 2 W' h,   h of spatial_terms.hpp
 void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres, Spatial& out) {
-  const P root = cbrt(J), m = 1.0 / (root * root);  // I3^(-1/3)
-  P b[6];
-  for (int p = 0; p < 6; ++p) {
-    const int i = voigt_i[p], j = voigt_j[p];
-    b[p] = m * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
-  }
-  const P I1_bar = b[0] + b[1] + b[2];
-  P dW{}, ddW{};
-  for (const MatrixTerm& term : material.matrix)
-    std::visit(
-        [&]<class Law>(const Law& t) {
-          if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<P> e = t(nan_outside_domain(t, I1_bar));
-            out.W += e.W, dW += e.dW, ddW += e.ddW;
-          }
-        },
-        term);
   const auto deviator = [](const P* h, P* d) {
     const P mean = (h[0] + h[1] + h[2]) * (1.0 / 3);
     for (int p = 0; p < 6; ++p) d[p] = p < 3 ? h[p] - mean : h[p];
   };
-  P sum[6];
-  for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * b[p];
+  const SpatialState state(F, J, [&](std::size_t k, int i) { return fibres[k].a[i]; });
+  P dW{}, ddW{}, sum[6];
+  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { out.W += e.W, dW += e.dW, ddW += e.ddW; });
+  for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * state.b[p];
   out.stiffness[0] = 4.0 * ddW;
-  deviator(b, out.h[0]);
+  deviator(state.b, out.h[0]);
   out.n = 1;
-  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
-    const Fibre& fibre = material.fibres[k];
-    if (fibre.hgo.c1 == 0) continue;
-    P a[3], h[6];
-    for (int i = 0; i < 3; ++i) a[i] = F[3 * i] * fibres[k].a[0] + F[3 * i + 1] * fibres[k].a[1] + F[3 * i + 2] * fibres[k].a[2];
-    const double along = 1 - 3 * fibre.kappa;
-    for (int p = 0; p < 6; ++p) h[p] = fibre.kappa * b[p] + along * m * a[voigt_i[p]] * a[voigt_j[p]];
-    const P I4_bar = h[0] + h[1] + h[2], I4 = I4_bar / m;
-    const Energy<P> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
-    // the same threshold as the scalar law
-    const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
-    const P test =
-        fibre.tension_switch == FibreSwitch::off ? P(1.0) : (fibre.tension_switch == FibreSwitch::I4 ? I4 : I4_bar) - from;
-    const P dW4 = where_not_negative(test, e.dW);
-    out.W += where_not_negative(test, e.W);
-    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * dW4 * h[p];
-    out.stiffness[out.n] = 4.0 * where_not_negative(test, e.ddW);
-    deviator(h, out.h[out.n++]);
-  }
+  fibre_terms<P>(material, state, [&](const auto& family, const Energy<P>& e) {
+    out.W += e.W;
+    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * e.dW * family.h[p];
+    out.stiffness[out.n] = 4.0 * e.ddW;
+    deviator(family.h, out.h[out.n++]);
+  });
   out.tau_trace = sum[0] + sum[1] + sum[2];
   deviator(sum, out.tau);
 }
@@ -157,7 +128,6 @@ template <int n, int n_gauss>
 void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
                      const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
   constexpr int n_dofs = 3 * n;
-  const P kappa = material.volume.quadratic.bulk_modulus() - local;
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
   P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
@@ -198,13 +168,21 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     const P inverse_V = 1.0 / geometry.V;
     for (int k = 0; k < n_p; ++k) {
       out.J_minus_1[k] = t[k] * inverse_V;
-      const P pressure = kappa * out.J_minus_1[k];
-      p[k] = p_tangent ? p_tangent[k] : pressure;
-      out.W += 0.5 * geometry.V * pressure * out.J_minus_1[k];
       P* dJ = out.dJ_du(k);
-      for (int i = 0; i < n_dofs; ++i) dJ[i] = b[k][i] * inverse_V, out.f[i] += pressure * b[k][i];
+      for (int i = 0; i < n_dofs; ++i) dJ[i] = b[k][i] * inverse_V;
+    }
+    const ModalVolume<P> volume = modal_volume(
+        material.volume, n_p, out.J_minus_1.data(), local, geometry.V, n_gauss, [&](int q) { return geometry.w[q]; },
+        [&](int q, int k) { return geometry.mode[q * n_modes + k]; });
+    out.W += volume.W;
+    for (int k = 0; k < n_p; ++k) {
+      p[k] = p_tangent ? p_tangent[k] : volume.p[k];
+      const P* dJ = out.dJ_du(k);
+      for (int i = 0; i < n_dofs; ++i) out.f[i] += volume.p[k] * b[k][i];
       for (int i = 0, entry = 0; i < n_dofs && with_tangent; ++i) {
-        const P row = kappa * dJ[i];
+        P row = volume.kappa[k][k] * dJ[i];
+        for (int l = 0; l < n_p && !volume.independent; ++l)
+          if (l != k) row += volume.kappa[k][l] * out.dJ_du(l)[i];
         if (k == 0)
           for (int j = 0; j <= i; ++j) out.K[entry++] = row * b[k][j];
         else
@@ -228,12 +206,12 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
       for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];
     }
     if (!modal || formulation == Formulation::linear_dilatation) {
-      const P at_point = modal ? local : kappa;
-      const P pressure = at_point * J_minus_1[q];
-      p_K += p_tangent && !modal ? p_tangent[q] : pressure;
-      out.W += 0.5 * w * pressure * J_minus_1[q];
-      for (int i = 0; i < 3; ++i) force[i] += w * pressure * J;
-      bulk = at_point * J * J;
+      const P x = J_minus_1[q];
+      const Energy<P> U = modal ? Energy<P>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
+      p_K += p_tangent && !modal ? p_tangent[q] : U.dW;
+      out.W += w * U.W;
+      for (int i = 0; i < 3; ++i) force[i] += w * U.dW * J;
+      bulk = U.ddW * J * J;
     }
     for (int a = 0; a < n; ++a) {
       const P* ga = g[q][a];
@@ -253,8 +231,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
 }  // namespace
 
 bool packet_form(const Material& material) {
-  const auto stiff = std::count_if(material.fibres.begin(), material.fibres.end(), [](const Fibre& f) { return f.hgo.c1 != 0; });
-  if (static_cast<std::size_t>(stiff) > most_families) return false;
+  if (std::count_if(material.fibres.begin(), material.fibres.end(), acts) > most_families) return false;
   for (const MatrixTerm& term : material.matrix)
     if (!std::visit([]<class Law>(const Law&) { return Law::of == Invariant::I1_bar; }, term)) return false;
   return true;

@@ -1,7 +1,8 @@
 // The cell of solid.hpp for eight elements of one material at once: same integrals over the reference volume, with
 // stress and tangent pushed forward to the deformed state, where the strain operator is sparse.   [A23] eqs 28-33
 //   K_ab = integral B_a^T c B_b + (g_a . tau g_b) I dV0,   g_a = F^-T dN_a/dX,  tau = F S F^T,  c = push-forward of D
-// Handles sums of terms in I1_bar and I4_bar; packet_form() says no to others, and solid() does them one by one.
+// Handles sums of terms in I1_bar and of up to four fibre families that act; packet_form() says no to others, and solid() does
+// them one by one.
 #pragma once
 
 #include <optional>

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "element/spatial_terms.hpp"
 #include "material/ellipticity.hpp"
-#include "material/existence.hpp"
 #include "tensor/kinematics.hpp"
 
 namespace langer {
@@ -56,43 +56,17 @@ struct Term {
 
 // the terms of a law in packet form; B gets sum 2 W' h
 int terms(const Material& material, const P* F, const P& J, std::span<const Vec3> a, Term* out, P* B) {
-  const P m = 1.0 / (cbrt(J) * cbrt(J));
-  Term& matrix = out[0];
-  for (int p = 0; p < 6; ++p) {
-    const int i = voigt_i[p], j = voigt_j[p];
-    matrix.h[p] = m * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
-  }
-  const P I1_bar = matrix.h[0] + matrix.h[1] + matrix.h[2];
+  const SpatialState state(F, J, [&](std::size_t k, int i) { return a[k][i]; });
   P dW{}, ddW{};
-  for (const MatrixTerm& term : material.matrix)
-    std::visit(
-        [&]<class Law>(const Law& t) {
-          if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<P> e = t(nan_outside_domain(t, I1_bar));
-            dW += e.dW, ddW += e.ddW;
-          }
-        },
-        term);
-  matrix.four_ddW = 4.0 * ddW;
-  for (int p = 0; p < 6; ++p) B[p] = 2.0 * dW * matrix.h[p];
+  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { dW += e.dW, ddW += e.ddW; });
+  for (int p = 0; p < 6; ++p) out[0].h[p] = state.b[p], B[p] = 2.0 * dW * state.b[p];
+  out[0].four_ddW = 4.0 * ddW;
   int n = 1;
-  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
-    const Fibre& fibre = material.fibres[k];
-    if (fibre.hgo.c1 == 0) continue;
+  fibre_terms<P>(material, state, [&](const auto& family, const Energy<P>& e) {
     Term& term = out[n++];
-    P f[3];
-    for (int i = 0; i < 3; ++i) f[i] = F[3 * i] * a[k][0] + F[3 * i + 1] * a[k][1] + F[3 * i + 2] * a[k][2];
-    for (int p = 0; p < 6; ++p) term.h[p] = fibre.kappa * matrix.h[p] + (1 - 3 * fibre.kappa) * m * f[voigt_i[p]] * f[voigt_j[p]];
-    const P I4_bar = term.h[0] + term.h[1] + term.h[2];
-    const Energy<P> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
-    const P from = 1 - 16 * std::numeric_limits<double>::epsilon();
-    const P test = fibre.tension_switch == FibreSwitch::off  ? P(1.0)
-                   : fibre.tension_switch == FibreSwitch::I4 ? I4_bar / m - from
-                                                             : I4_bar - from;
-    term.four_ddW = 4.0 * where_not_negative(test, e.ddW);
-    const P two_dW = 2.0 * where_not_negative(test, e.dW);
-    for (int p = 0; p < 6; ++p) B[p] += two_dW * term.h[p];
-  }
+    for (int p = 0; p < 6; ++p) term.h[p] = family.h[p], B[p] += 2.0 * e.dW * family.h[p];
+    term.four_ddW = 4.0 * e.ddW;
+  });
   return n;
 }
 

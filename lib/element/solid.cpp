@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "element/dilatation.hpp"
 #include "tensor/kinematics.hpp"
 #include "tensor/voigt.hpp"
 
@@ -60,7 +61,6 @@ double mode(const ElementGeometry& geometry, int g, int k) { return k == 0 ? 1 :
 template <int n>
 bool solid_of(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
               std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
-  const double kappa = material.volume.quadratic.bulk_modulus() - local;
   const bool modal = formulation != Formulation::displacement;
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
   typename Sizes<n>::Vec f = Sizes<n>::Vec::Zero();
@@ -83,6 +83,7 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
   }
   if (!(out.J_min > 0)) return false;
 
+  ModalVolume<double> volume;
   if (modal) {
     out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
     for (int k = 0; k < n_p; ++k) {
@@ -93,9 +94,13 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
         t += w * J_minus_1[g], b += w * dJ[g];
       }
       t /= geometry.V, b /= geometry.V;
-      out.W += 0.5 * geometry.V * kappa * t * t;
-      f += (geometry.V * kappa * t) * b;
-      if (with_tangent) K += (geometry.V * kappa) * b * b.transpose();
+    }
+    volume = modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
+    out.W += volume.W;
+    for (int k = 0; k < n_p; ++k) {
+      f += (geometry.V * volume.p[k]) * out.dJ_du[k];
+      for (int l = 0; l < n_p && with_tangent; ++l)
+        if (l == k || !volume.independent) K += (geometry.V * volume.kappa[k][l]) * out.dJ_du[k] * out.dJ_du[l].transpose();
     }
   } else {
     out.J_minus_1 = J_minus_1, out.dJ_du.assign(dJ.begin(), dJ.end());
@@ -109,18 +114,19 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
     Vec6 S = iso.S;
-    const double at_point = modal ? local : kappa, p = at_point * J_minus_1[g];
-    double p_K = p;
-    out.W += 0.5 * w * p * J_minus_1[g];
-    S += p * J * Ci;
-    for (int k = 0; k < n_p && modal; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : kappa * out.J_minus_1[k]);
+    const double x = J_minus_1[g];
+    const Energy<double> U = modal ? Energy<double>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
+    double p_K = U.dW;
+    out.W += w * U.W;
+    S += U.dW * J * Ci;
+    for (int k = 0; k < n_p && modal; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
     if (!modal && p_tangent) p_K = p_tangent[g];
     const typename Sizes<n>::Strain B = strain_operator<n>(F[g], dN[g]);
     f.noalias() += w * (B.transpose() * S);
     if (!with_tangent) continue;
     // dJ/dE = J C^-1,  d2J/dE2 = J (C^-1 x C^-1 - 2 C^-1 o C^-1)
     Mat6 D = iso.D + p_K * J * (Ci * Ci.transpose() - 2 * symmetric_product(C_inverse));
-    if (at_point != 0) D += at_point * J * J * Ci * Ci.transpose();
+    if (U.ddW != 0) D += U.ddW * J * J * Ci * Ci.transpose();
     const typename Sizes<n>::Strain DB = w * D * B;
     K.noalias() += B.transpose() * DB;
     add_geometric<n>(dN[g], iso.S + p_K * J * Ci, w, K);
@@ -159,7 +165,6 @@ bool solid(Formulation formulation, const Material& material, double local, cons
 
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
                                      std::span<const Vec3> a, const ElementNodes& u) {
-  const double kappa = material.volume.quadratic.bulk_modulus();
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
   const bool modal = formulation != Formulation::displacement;
   std::vector<GaussState> states(n_gauss);
@@ -169,12 +174,14 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
     states[g].F = Mat3::Identity() + H;
     const double J_minus_1 = volume_change(H);
     states[g].J = 1 + J_minus_1;
-    if (!modal) states[g].pressure = kappa * J_minus_1;
+    if (!modal) states[g].pressure = volume_energy(material.volume, J_minus_1).dW;
     for (int k = 0; k < n_p && modal; ++k) t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
   }
+  std::array<double, n_modes> p{};
+  if (modal) pressures(material.volume, true, geometry, n_p, t.data(), p.data());
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
-    for (int k = 0; k < n_p && modal; ++k) s.pressure += kappa * mode(geometry, g, k) * t[k];
+    for (int k = 0; k < n_p && modal; ++k) s.pressure += mode(geometry, g, k) * p[k];
     const Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
   }

@@ -6,8 +6,9 @@
 //   mean_dilatation    U(J_bar) with one J_bar = (1/V) integral J dV0 per element
 //   linear_dilatation  U(J_bar) with J_bar linear in X, discontinuous between elements: three-field Hu-Washizu with dilatation and
 //                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27, its like on tet15; hex8 would lock)                  [SH98]
-// With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one:
+// With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one, for a quadratic U:
 //   t_k = (1/V) integral m_k (J - 1) dV0,   W_vol = V kappa/2 sum t_k^2,   p = sum m_k kappa t_k;   K stays symmetric
+// Another U has W_vol = integral U(1 + sum t_k m_k) dV0 (dilatation.hpp).
 // What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's compressive pressure: movements h
 // that change J but no t_k meet p ((tr h)^2 - tr h^2) from the second derivative of J, and where p < 0 and varies within the cell
 // the first part drives them apart: the cell buckles within itself though the body is stable [ABLR05]. Modes: kappa - local.
@@ -53,7 +54,7 @@ struct GaussState {
   Mat3 F;
   Mat3 sigma;  // Cauchy stress [MPa]
   double J = 1;
-  double pressure = 0;  // p or kappa (J - 1): the volumetric part of the mean stress [MPa]
+  double pressure = 0;  // p or U'(J): the volumetric part of the mean stress [MPa]
 };
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
                                      std::span<const Vec3> a, const ElementNodes& u);

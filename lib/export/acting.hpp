@@ -7,8 +7,6 @@
 
 namespace langer {
 
-inline bool acts(const Fibre& family) { return family.hgo.c1 != 0; }
-
 inline Material acting(Material material) {
   std::erase_if(material.fibres, [](const Fibre& family) { return !acts(family); });
   return material;

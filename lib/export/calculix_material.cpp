@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "export/acting.hpp"
+#include "export/foreign_terms.hpp"
 #include "export/polynomial.hpp"
 
 namespace langer {
@@ -34,16 +35,20 @@ ForeignLaw with_fibres(const Material& m, const std::vector<Vec3>& fibres, const
     return {"", "fibres in a matrix other than neo-Hookean",
             "a neo-Hookean matrix, or no fibres: its ELASTIC_FIBER knows no other"};
   if (fibres.size() > 4) return {"", fmt::format("{} families of fibres", fibres.size()), "four at most"};
-  std::vector<double> constants{p->I1[0], m.volume.quadratic.d};
+  if (const auto law = beyond_hgo(m); !law.first.empty()) return {"", law.first, law.second};
+  if (const auto volume = beyond_volume(m.volume, VolumeTerm::quadratic); !volume.first.empty())
+    return {"", volume.first, volume.second};
+  std::vector<double> constants{p->I1[0], compressibility(m.volume)};
   for (std::size_t k = 0; k < fibres.size(); ++k) {
     const Fibre& f = m.fibres[k];
     if (f.kappa != 0) return {"", "dispersed fibres", "kappa: 0"};
     if (f.tension_switch != FibreSwitch::I4_bar) return {"", "fibres with another switch", "switch: I4_bar, which is its own"};
-    if (f.hgo.c2 == 0) return {"", "fibres with c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+    const HgoFibre law = *as_hgo(f);
+    if (law.c2 == 0) return {"", "fibres with c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
     Vec3 a = fibres[k];
     if (a[2] < 0) a = -a;  // it takes the third component as positive, and refuses what rounding makes longer than 1
     if (const double x = written(a[0]), y = written(a[1]); 1 - x * x - y * y < 0) a *= 1 - 2e-12;
-    for (double c : {a[0], a[1], f.hgo.c1, f.hgo.c2}) constants.push_back(c);
+    for (double c : {a[0], a[1], law.c1, law.c2}) constants.push_back(c);
   }
   return {fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}\n", calculix_name(m, name), constants.size()) +
               lines(constants),
@@ -54,7 +59,7 @@ ForeignLaw with_fibres(const Material& m, const std::vector<Vec3>& fibres, const
 
 std::string hyperelastic(const Material& m) {
   if (!m.fibres.empty()) return "";
-  const double d = m.volume.quadratic.d;
+  const double d = compressibility(m.volume);
   if (const auto p = polynomial(m)) return of_polynomial(*p, d);
   if (m.matrix.size() != 1) return "";
   if (const auto* t = std::get_if<ArrudaBoyce>(&m.matrix[0]))
@@ -78,6 +83,9 @@ ForeignLaw calculix_material(const Material& material, const std::vector<Vec3>& 
   if (law.empty())
     return {"", matrix_words(m),
             "one of its laws: neo-Hooke, Mooney-Rivlin, Yeoh, polynomials up to the third power, Ogden, Arruda-Boyce"};
+  const bool chains = std::holds_alternative<ArrudaBoyce>(m.matrix.front());
+  if (const auto volume = beyond_volume(m.volume, chains ? VolumeTerm::simo_taylor : VolumeTerm::quadratic); !volume.first.empty())
+    return {"", volume.first, volume.second};
   return {fmt::format("*MATERIAL, NAME={}\n", name) + law, "", ""};
 }
 

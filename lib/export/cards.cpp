@@ -10,6 +10,7 @@
 #include "export/calculix_material.hpp"
 #include "export/febio_material.hpp"
 #include "export/fibre_frame.hpp"
+#include "export/foreign_terms.hpp"
 #include "export/polynomial.hpp"
 
 namespace langer {
@@ -50,50 +51,57 @@ std::string note(const std::string& program, const std::string& lacks, const std
 std::string isotropic(const Material& m) {
   std::string law = hyperelastic(m);
   if (law.empty()) return "";
-  if (only<ArrudaBoyce>(m)) law = fmt::format("** {}\n", other_volume) + law;
+  if (only<ArrudaBoyce>(m) && of_other_form(m.volume)) law = fmt::format("** {}\n", other_volume) + law;
   if (only<Ogden>(m)) law = "** Ogden: mu here is mu alpha/2 of Langer\n" + law;
   return law;
 }
 
 // one c1, c2, kappa for all families, as HGO and GOH implementations ask
 bool alike(const std::vector<Fibre>& fibres) {
+  const HgoFibre first = *as_hgo(fibres[0]);
   for (const Fibre& f : fibres)
-    if (f.hgo.c1 != fibres[0].hgo.c1 || f.hgo.c2 != fibres[0].hgo.c2 || f.kappa != fibres[0].kappa) return false;
+    if (const HgoFibre law = *as_hgo(f); law.c1 != first.c1 || law.c2 != first.c2 || f.kappa != fibres[0].kappa) return false;
   return true;
 }
 
+VolumeTerm volume_of_keywords(const Material& m) { return only<ArrudaBoyce>(m) ? VolumeTerm::simo_taylor : VolumeTerm::quadratic; }
+
 // Holzapfel, Gasser and Ogden's law: what of a material it cannot hold, and the nearest; empty where it can
-std::pair<std::string, std::string> beyond_holzapfel(const Material& m) {
+LacksAndNearest beyond_holzapfel(const Material& m) {
   const auto p = polynomial(m);
   const std::string user = ", or UANISOHYPER_INV";
   if (!p || !p->neo_hookean()) return {"fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix" + user};
+  if (const auto law = beyond_hgo(m); !law.first.empty()) return {law.first, law.second + user};
   if (m.fibres.size() > 3) return {fmt::format("{} families of fibres", m.fibres.size()), "three at most" + user};
   if (!alike(m.fibres)) return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
-  if (m.fibres[0].hgo.c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+  if (as_hgo(m.fibres[0])->c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
   for (const Fibre& f : m.fibres)
     if (f.tension_switch != FibreSwitch::I4_bar) return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
-  return {};
+  return beyond_volume(m.volume, VolumeTerm::simo_taylor);
 }
 
 std::string holzapfel(const Material& m) {
-  const Fibre& f = m.fibres[0];
+  const HgoFibre law = *as_hgo(m.fibres[0]);
   std::string s = fmt::format(
-      "** {}\n** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
+      "{}** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
       "**  *ORIENTATION, NAME=FIBRES, LOCAL DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n**  3, 0.\n",
-      other_volume, m.fibres.size());
+      of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", m.fibres.size());
   for (const Fibre& one : m.fibres) s += fmt::format("**  {}, 0., {}\n", number(direction(one).x), number(direction(one).z));
   return s + fmt::format("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n", m.fibres.size(),
-                         number(polynomial(m)->I1[0]), number(m.volume.quadratic.d), number(f.hgo.c1), number(f.hgo.c2),
-                         number(f.kappa));
+                         number(polynomial(m)->I1[0]), number(compressibility(m.volume)), number(law.c1), number(law.c2),
+                         number(m.fibres[0].kappa));
 }
 
 Card abaqus(const Material& m) {
   Card card{"Abaqus", "abaqus.inp", "", true};
-  std::pair<std::string, std::string> beyond;
+  LacksAndNearest beyond;
   std::string law;
   if (m.fibres.empty()) {
     law = isotropic(m);
-    if (law.empty()) beyond = {matrix_words(m), "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
+    if (!law.empty() && (beyond = beyond_volume(m.volume, volume_of_keywords(m))).first.size())
+      law.clear();
+    else if (law.empty())
+      beyond = {matrix_words(m), "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
   } else if (beyond = beyond_holzapfel(m); beyond.first.empty()) {
     law = holzapfel(m);
   }
@@ -121,14 +129,16 @@ Card calculix(const Material& m) {
     return card;
   }
   card.text =
-      fmt::format("** {}\n{}{}{}", units, only<ArrudaBoyce>(m) ? fmt::format("** {}\n", other_volume) : "", law.text, section);
+      fmt::format("** {}\n{}{}{}", units,
+                  only<ArrudaBoyce>(m) && of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", law.text, section);
   return card;
 }
 
 // isotropic laws of TB,HYPER; empty where it has none
 std::string ansys_isotropic(const Material& m) {
-  const double d = m.volume.quadratic.d;
-  const char* other = "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n";
+  const double d = compressibility(m.volume);
+  const char* other =
+      of_other_form(m.volume) ? "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n" : "";
   const auto table = [](const char* option, int n, const std::vector<double>& constants) {
     std::string s = fmt::format("TB,HYPER,1,1,{},{}\n", n, option);
     for (std::size_t i = 0; i < constants.size(); i += 6) {
@@ -166,33 +176,38 @@ std::string ansys_fibres(const Material& m, const Polynomial& p) {
       number(p.I1[0]), number(p.I1[1]), number(p.I1[2]), number(p.I2[0]), number(p.I2[1]), number(p.I2[2]));
   for (std::size_t k = 0; k < 2; ++k) {
     const bool here = k < m.fibres.size();  // C1 = 0 with an exponent by which it may divide
-    s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(m.fibres[k].hgo.c1) : "0",
-                     here ? number(m.fibres[k].hgo.c2) : "1");
+    s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(as_hgo(m.fibres[k])->c1) : "0",
+                     here ? number(as_hgo(m.fibres[k])->c2) : "1");
   }
   for (std::size_t k = 0; k < m.fibres.size(); ++k)
     s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC", number(direction(m.fibres[k]).x),
                      number(direction(m.fibres[k]).z));
-  return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(m.volume.quadratic.d));
+  return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(compressibility(m.volume)));
 }
 
 // what TB,AHYPER cannot hold
-std::pair<std::string, std::string> beyond_ansys(const Material& m) {
+LacksAndNearest beyond_ansys(const Material& m) {
   if (!polynomial(m)) return {"fibres in " + matrix_words(m), "a polynomial matrix (yeoh), or UserMat"};
+  if (const auto law = beyond_hgo(m); !law.first.empty()) return {law.first, law.second + ", or UserMat"};
   if (m.fibres.size() > 2) return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
   for (const Fibre& f : m.fibres) {
     if (f.kappa != 0) return {"dispersed fibres", "kappa: 0, or UserMat"};
-    if (f.hgo.c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+    if (as_hgo(f)->c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
   }
-  return {};
+  return beyond_volume(m.volume, VolumeTerm::quadratic);
 }
 
 Card ansys(const Material& m) {
   Card card{"ANSYS", "ansys.txt", "", true};
   std::string law;
-  std::pair<std::string, std::string> beyond;
+  LacksAndNearest beyond;
   if (m.fibres.empty()) {
     law = ansys_isotropic(m);
-    if (law.empty()) beyond = {matrix_words(m), "one of its terms alone, or UserHyper"};
+    const bool other = only<ArrudaBoyce>(m) || only<Gent>(m);
+    if (!law.empty() && (beyond = beyond_volume(m.volume, other ? VolumeTerm::simo_taylor : VolumeTerm::quadratic)).first.size())
+      law.clear();
+    else if (law.empty())
+      beyond = {matrix_words(m), "one of its terms alone, or UserHyper"};
   } else if (beyond = beyond_ansys(m); beyond.first.empty()) {
     law = ansys_fibres(m, *polynomial(m));
   }

@@ -61,9 +61,9 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
   return &*part;
 }
 
-// no other program needs families with c1 = 0, and FEBio refuses them
+// no other program needs families whose modulus is 0, and FEBio refuses them
 void leave_out_slack_families(Scene& scene, const Mesh& mesh) {
-  const auto is_slack = [](const Fibre& f) { return f.hgo.c1 == 0; };
+  const auto is_slack = [](const Fibre& f) { return !acts(f); };
   for (int e = 0; e < mesh.n_cells() && !scene.fibres.empty(); ++e) {
     const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
     for (std::size_t k = families.size(); k-- > 0;)
@@ -161,7 +161,7 @@ std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
   constexpr double borne = 1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
   TooStiff worst;
   for (const Material& m : deck.materials) {
-    const double mu = shear_modulus(m), ratio = m.volume.quadratic.bulk_modulus() / mu;
+    const double mu = shear_modulus(m), ratio = bulk_modulus(m) / mu;
     if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (borne * mu)};
   }
   if (deck.contacts.empty() || worst.ratio <= borne * (1 + 1e-9)) return std::nullopt;

@@ -9,6 +9,7 @@
 
 #include "export/acting.hpp"
 #include "export/fibre_frame.hpp"
+#include "export/foreign_terms.hpp"
 #include "export/polynomial.hpp"
 
 namespace langer {
@@ -72,34 +73,48 @@ struct Matrix {
 
 std::vector<Lacking> lacking_of(const Fibre& f) {
   std::vector<Lacking> list;
-  if (f.hgo.c1 < 0) list.push_back({fmt::format("fibres with c1 = {:g} (it refuses ksi, k1 < 0)", f.hgo.c1), "c1 of 0 or more"});
+  if (const auto law = as_hgo(f); law && law->c1 < 0)
+    list.push_back({fmt::format("fibres with c1 = {:g} (it refuses ksi, k1 < 0)", law->c1), "c1 of 0 or more"});
+  if (f.kappa != 0 && !as_hgo(f)) list.push_back({"dispersed " + fibre_words(f), "kappa: 0, or hgo"});
   if (f.tension_switch != FibreSwitch::I4_bar)
     list.push_back({fmt::format("fibres with switch: {}", names(f.tension_switch)[static_cast<std::size_t>(f.tension_switch)]),
                     "switch: I4_bar, which is its own"});
   return list;
 }
 
-// one family: matrix c/2 (I1 - 3), two families at +gamma and -gamma from the first axis, which here fall together
+std::string parameters_of(const HgoFibre& law) { return tag("alpha", law.c2) + "<beta>2</beta>" + tag("ksi", law.c1); }
+std::string parameters_of(const ExpPowFibre& law) { return tag("alpha", law.alpha) + tag("beta", law.beta) + tag("ksi", law.ksi); }
+std::string parameters_of(const PowLinearFibre& law) { return tag("E", law.E) + tag("lam0", law.lam0) + tag("beta", law.beta); }
+
+// one family; dispersed: matrix c/2 (I1 - 3), two families at +gamma and -gamma from the first axis, which here fall together
 Solid family(const Fibre& f, const Vec3& a) {
   if (f.kappa == 0)
-    return {"fiber-exp-pow-uncoupled", tag("alpha", f.hgo.c2) + "<beta>2</beta>" + tag("ksi", f.hgo.c1) +
-                                           fmt::format("<fiber type=\"vector\">{}</fiber>", triple(a))};
-  return {"Holzapfel-Gasser-Ogden", "<c>0</c>" + tag("k1", f.hgo.c1 / 2) + tag("k2", f.hgo.c2) + "<gamma>0</gamma>" +
+    return {std::holds_alternative<PowLinearFibre>(f.law) ? "fiber-pow-linear-uncoupled" : "fiber-exp-pow-uncoupled",
+            std::visit([](const auto& law) { return parameters_of(law); }, f.law) +
+                fmt::format("<fiber type=\"vector\">{}</fiber>", triple(a))};
+  const HgoFibre law = *as_hgo(f);
+  return {"Holzapfel-Gasser-Ogden", "<c>0</c>" + tag("k1", law.c1 / 2) + tag("k2", law.c2) + "<gamma>0</gamma>" +
                                         tag("kappa", f.kappa) + axes(a, fibre_frame({a}).e2)};
 }
+
+int pressure_model(const QuadraticVolume&) { return 2; }
+int pressure_model(const SimoTaylorVolume&) { return 1; }
+int pressure_model(const LogarithmicVolume&) { return 0; }
 
 // Gasser, Ogden and Holzapfel's law as one material: a neo-Hookean matrix, one dispersed family or two alike; else empty.
 std::string dispersed(const Material& m, const std::vector<Vec3>& fibres) {
   const auto p = polynomial(m);
   if (!p || !p->neo_hookean() || p->I1[0] < 0 || m.fibres.empty()) return "";
+  if (!beyond_hgo(m).first.empty()) return "";
   const Fibre& f = m.fibres[0];
+  const HgoFibre law = *as_hgo(f), last = *as_hgo(m.fibres.back());
   const bool two = m.fibres.size() == 2;
-  const bool alike = two && f.hgo.c1 == m.fibres[1].hgo.c1 && f.hgo.c2 == m.fibres[1].hgo.c2 && f.kappa == m.fibres[1].kappa;
+  const bool alike = two && law.c1 == last.c1 && law.c2 == last.c2 && f.kappa == m.fibres[1].kappa;
   if (f.kappa == 0 || (m.fibres.size() > 1 && !alike)) return "";
   const Vec3 a = fibres[0], b = two ? (a.dot(fibres[1]) < 0 ? Vec3(-fibres[1]) : fibres[1]) : a;
   const double gamma = std::atan2((a - b).norm(), (a + b).norm());
   const Vec3 middle = (a + b).normalized(), across = gamma > 1e-9 ? Vec3((a - b).normalized()) : fibre_frame({a}).e2;
-  return tag("c", 2 * p->I1[0]) + tag("k1", two ? f.hgo.c1 : f.hgo.c1 / 2) + tag("k2", f.hgo.c2) +
+  return tag("c", 2 * p->I1[0]) + tag("k1", two ? law.c1 : law.c1 / 2) + tag("k2", law.c2) +
          tag("gamma", gamma * 180 / std::numbers::pi) + tag("kappa", f.kappa) + axes(middle, across);
 }
 
@@ -114,7 +129,9 @@ ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& dir
     for (const Lacking& l : lacking_of(f)) lacking.push_back(l);
   if (!lacking.empty()) return {"", lacking[0].what, lacking[0].nearest};
 
-  const std::string volume = tag("k", m.volume.quadratic.bulk_modulus()) + "<pressure_model>2</pressure_model>";
+  const std::string volume =
+      tag("k", bulk_modulus(m)) +
+      fmt::format("<pressure_model>{}</pressure_model>", std::visit([](const auto& law) { return pressure_model(law); }, m.volume));
   std::string remark;
   for (const Solid& s : matrix.solids)
     if (s.type == "Yeoh")

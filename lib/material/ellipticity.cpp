@@ -9,8 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "material/existence.hpp"
-#include "material/fibre_switch.hpp"
+#include "material/terms.hpp"
 #include "tensor/kinematics.hpp"
 #include "tensor/stress.hpp"
 
@@ -54,7 +53,6 @@ class Acoustic {
     double kappa, two_dW, four_ddW;
     Vec3 f;
   };
-  void add(const MatrixTerm& term, double I1_bar, double I2_bar);
   struct Part {
     double value = 0, size = 0;
     // d > 0; the derivative dW is known to the rounding of its invariant I, which ddW makes a stiffness
@@ -74,44 +72,40 @@ class Acoustic {
   mutable std::vector<Square> squares_;
 };
 
-void Acoustic::add(const MatrixTerm& term, double I1_bar, double I2_bar) {
-  std::visit(
-      [&](const auto& law) {
-        const auto of_I1 = [&](const Energy<double>& e) { two_dW1_ += 2 * e.dW, four_ddW1_ += 4 * e.ddW; };
-        const auto of_I2 = [&](const Energy<double>& e) { two_dW2_ += 2 * e.dW, four_ddW2_ += 4 * e.ddW; };
-        if constexpr (law.of == Invariant::I1_bar)
-          of_I1(law(nan_outside_domain(law, I1_bar)));
-        else if constexpr (law.of == Invariant::I2_bar)
-          of_I2(law(I2_bar));
-        else if constexpr (law.of == Invariant::I1_bar_and_I2_bar)
-          of_I1(law.of_I1(I1_bar)), of_I2(law.of_I2(I2_bar));
-        else
-          of_stretches_ = true;
-      },
-      term);
-}
+// invariants of an isochoric F as for_each_term() asks for them; f = F a of a family
+struct DeformedState {
+  const Mat3& FT;  // F^T, isochoric
+  std::span<const Vec3> a;
+  double I1, I2, factor;
+  struct Family {
+    double kappa;
+    Vec3 f;
+    double I;
+  };
+  double I1_bar() const { return I1; }
+  double I2_bar() const { return I2; }
+  double m() const { return factor; }
+  Family family(const Fibre& fibre, std::size_t k) const {
+    const Vec3 f = FT.transpose() * a[k];
+    return {fibre.kappa, f, fibre.kappa * I1 + (1 - 3 * fibre.kappa) * f.squaredNorm()};
+  }
+};
 
 Acoustic::Acoustic(const Material& material, const Mat3& F, std::span<const Vec3> a) {
   J_ = F.determinant();
   const double root = std::cbrt(J_);
   FT_ = F.transpose() / root, inverse_ = F.inverse() * root;
-  const double I1_bar = FT_.squaredNorm(), I2_bar = inverse_.squaredNorm();
+  const DeformedState state{FT_, a, FT_.squaredNorm(), inverse_.squaredNorm(), 1 / (root * root)};
   Material stretches;
-  for (const MatrixTerm& term : material.matrix) {
-    add(term, I1_bar, I2_bar);
-    if (std::holds_alternative<Ogden>(term)) stretches.matrix.push_back(term);
-  }
-  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
-    const Fibre& fibre = material.fibres[k];
-    if (fibre.hgo.c1 == 0) continue;
-    const Vec3 f = FT_.transpose() * a[k];
-    const double I = fibre.kappa * I1_bar + (1 - 3 * fibre.kappa) * f.squaredNorm();
-    if (slack(fibre.tension_switch, I * root * root, I)) continue;
-    const Energy<double> e = fibre.hgo(nan_outside_domain(fibre.hgo, I));
-    families_.push_back({fibre.kappa, 2 * e.dW, 4 * e.ddW, f});
-    f_.push_back(f);
-    finite_ = finite_ && std::isfinite(e.dW) && std::isfinite(e.ddW);
-  }
+  for_each_term<double>(material, state,
+                        Overloaded{[&](OfI1, const Energy<double>& e) { two_dW1_ += 2 * e.dW, four_ddW1_ += 4 * e.ddW; },
+                                   [&](OfI2, const Energy<double>& e) { two_dW2_ += 2 * e.dW, four_ddW2_ += 4 * e.ddW; },
+                                   [&](const Ogden& law) { of_stretches_ = true, stretches.matrix.push_back(law); },
+                                   [&](const DeformedState::Family& family, const Energy<double>& e) {
+                                     families_.push_back({family.kappa, 2 * e.dW, 4 * e.ddW, family.f});
+                                     f_.push_back(family.f);
+                                     finite_ = finite_ && std::isfinite(e.dW) && std::isfinite(e.ddW);
+                                   }});
   if (of_stretches_) {
     const Response r = isochoric(stretches, right_cauchy_green(F), {});
     c_ = push_forward(F, r.D, J_), sigma_ = cauchy(F, r.S, J_);

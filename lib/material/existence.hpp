@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "material/exp_pow_fibre.hpp"
 #include "material/gent.hpp"
 #include "material/hgo_fibre.hpp"
+#include "material/logarithmic_volume.hpp"
+#include "material/simo_taylor_volume.hpp"
 #include "tensor/packet.hpp"
 
 namespace langer {
@@ -17,6 +20,12 @@ constexpr double largest_exponent = 300;
 inline bool exists(const HgoFibre& fibre, double I4_bar) {
   return !std::isgreater(std::sqrt(fibre.c2) * std::abs(I4_bar - 1), std::sqrt(largest_exponent));
 }
+inline bool exists(const ExpPowFibre& fibre, double I4_bar) {
+  if (fibre.alpha == 0) return !std::isgreater(std::abs(I4_bar - 1), std::pow(1e150, 1 / fibre.beta));
+  return !std::isgreater(std::abs(I4_bar - 1), std::pow(largest_exponent / fibre.alpha, 1 / fibre.beta));
+}
+inline bool exists(const LogarithmicVolume&, double J_minus_1) { return std::isgreater(J_minus_1, -1); }
+inline bool exists(const SimoTaylorVolume&, double J_minus_1) { return std::isgreater(J_minus_1, -1); }
 inline bool exists(const Gent& law, double I1_bar) { return !std::isgreaterequal(I1_bar - 3, law.Jm); }
 
 // a test at such a stretch, whose invariants and their powers are numbers still
@@ -25,6 +34,7 @@ inline bool possible_stretch(double lambda) {
   return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch);
 }
 
+// invariant: of the term; J - 1 of a law of volume change
 template <class Law>
 double nan_outside_domain(const Law& law, double invariant) {
   if constexpr (requires { exists(law, invariant); })

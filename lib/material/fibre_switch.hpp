@@ -1,9 +1,9 @@
-// Whether a fibre is slack (FibreSwitch in material.hpp).
+// Whether a fibre is slack (FibreSwitch in fibre.hpp).
 #pragma once
 
 #include <limits>
 
-#include "material/material.hpp"
+#include "material/fibre.hpp"
 
 namespace langer {
 
@@ -11,16 +11,18 @@ namespace langer {
 // not depend on the digits of cos(alpha).
 inline constexpr double stretched_from = 1 - 16 * std::numeric_limits<double>::epsilon();
 
-inline bool slack(FibreSwitch tension_switch, double I4, double I4_bar) {
+// not negative where the fibre is stretched; m = I3^(-1/3), I4_bar = m I4
+template <class T>
+T stretched(FibreSwitch tension_switch, const T& I4_bar, const T& m) {
   switch (tension_switch) {
     case FibreSwitch::I4_bar:
-      return I4_bar < stretched_from;
+      return I4_bar - stretched_from;
     case FibreSwitch::I4:
-      return I4 < stretched_from;
+      return I4_bar / m - stretched_from;
     case FibreSwitch::off:
-      return false;
+      break;
   }
-  return false;
+  return T(1.0);
 }
 
 }  // namespace langer

@@ -1,7 +1,7 @@
 // Exponential fibre energy  W = c1/(2 c2) (exp(c2 x^2) - 1),  x = I4_bar - 1.          [A23] eq. 14, [HGO00]
 //   c1 [MPa] any sign (the paper identifies c1 < 0: W is then unbounded below)
 //   c2 [-] >= 0; at c2 = 0 the limit  W = c1 x^2 / 2.
-// Where the fibre is slack the caller sets the term to zero (FibreSwitch in material.hpp).
+// Where the fibre is slack the caller sets the term to zero (FibreSwitch in fibre.hpp).
 #pragma once
 
 #include <cmath>
@@ -18,6 +18,7 @@ struct HgoFibre {
     v(&HgoFibre::c1, "c1", unit::MPa, "fibre modulus", required);
     v(&HgoFibre::c2, "c2", unit::none, "exponent", required, at_least(0));
   }
+  double modulus() const { return c1; }
   // W = c1/2 x^2 phi(c2 x^2) with phi(y) = (exp(y) - 1)/y, regular at c2 = 0
   template <class T>
   Energy<T> operator()(T I4_bar) const {

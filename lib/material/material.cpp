@@ -3,8 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "material/existence.hpp"
-#include "material/fibre_switch.hpp"
+#include "material/terms.hpp"
 #include "tensor/invariants.hpp"
 #include "tensor/kinematics.hpp"
 
@@ -77,6 +76,23 @@ OfStretches of_stretches(const Ogden& law, const Invariants& v, bool with_tangen
   return s;
 }
 
+// the invariants of one C as for_each_term() asks for them; M of a family, in the reference state
+struct ReferenceState {
+  const Invariants& v;
+  std::span<const Vec3> a;
+  struct Family {
+    Vec6 M;
+    double I;
+  };
+  double I1_bar() const { return v.m * v.I1; }
+  double I2_bar() const { return langer::I2_bar(v); }
+  double m() const { return v.m; }
+  Family family(const Fibre& fibre, std::size_t k) const {
+    const Vec6 M = fibre_tensor(fibre, a[k]);
+    return {M, linear_bar(v, M)};
+  }
+};
+
 // the terms of one C, gathered before the derivatives of the invariants are formed once
 Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product) {
   Response r;
@@ -85,47 +101,28 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
   const auto square = [&](double ddW, const Vec6& dI_dC) {
     if (C_inverse_product && ddW != 0) r.D.noalias() += (4 * ddW * dI_dC) * dI_dC.transpose();
   };
-
-  for (const MatrixTerm& term : material.matrix)
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          if constexpr (Law::of == Invariant::I1_bar) {
-            const Energy<double> e = law(nan_outside_domain(law, v.m * v.I1));
-            r.W += e.W;
-            M.head<3>().array() += e.dW;
-            square(e.ddW, dlinear_bar_dC(v, identity6()));
-          } else if constexpr (Law::of == Invariant::I2_bar) {
-            const Energy<double> e = law(I2_bar(v));
-            r.W += e.W;
-            dW_I2 += e.dW;
-            square(e.ddW, dI2_bar_dC(v));
-          } else if constexpr (Law::of == Invariant::I1_bar_and_I2_bar) {
-            const Energy<double> e1 = law.of_I1(v.m * v.I1), e2 = law.of_I2(I2_bar(v));
-            r.W += e1.W + e2.W;
-            M.head<3>().array() += e1.dW;
-            dW_I2 += e2.dW;
-            square(e1.ddW, dlinear_bar_dC(v, identity6()));
-            square(e2.ddW, dI2_bar_dC(v));
-          } else {
-            const OfStretches s = of_stretches(law, v, C_inverse_product);
-            r.W += s.W;
-            M += s.G;
-            if (C_inverse_product) r.D += 4 * s.QHQ;
-          }
-        },
-        term);
-
-  for (std::size_t k = 0; k < material.fibres.size(); ++k) {
-    const Fibre& fibre = material.fibres[k];
-    if (fibre.hgo.c1 == 0) continue;
-    const Vec6 aa = fibre_tensor(fibre, a[k]);
-    const double I4_bar = linear_bar(v, aa);
-    if (slack(fibre.tension_switch, I4_bar / v.m, I4_bar)) continue;
-    const Energy<double> e = fibre.hgo(nan_outside_domain(fibre.hgo, I4_bar));
-    r.W += e.W;
-    M += e.dW * aa;
-    square(e.ddW, dlinear_bar_dC(v, aa));
-  }
+  for_each_term<double>(material, ReferenceState{v, a},
+                        Overloaded{[&](OfI1, const Energy<double>& e) {
+                                     r.W += e.W;
+                                     M.head<3>().array() += e.dW;
+                                     square(e.ddW, dlinear_bar_dC(v, identity6()));
+                                   },
+                                   [&](OfI2, const Energy<double>& e) {
+                                     r.W += e.W;
+                                     dW_I2 += e.dW;
+                                     square(e.ddW, dI2_bar_dC(v));
+                                   },
+                                   [&](const ReferenceState::Family& family, const Energy<double>& e) {
+                                     r.W += e.W;
+                                     M += e.dW * family.M;
+                                     square(e.ddW, dlinear_bar_dC(v, family.M));
+                                   },
+                                   [&](const Ogden& law) {
+                                     const OfStretches s = of_stretches(law, v, C_inverse_product);
+                                     r.W += s.W;
+                                     M += s.G;
+                                     if (C_inverse_product) r.D += 4 * s.QHQ;
+                                   }});
 
   r.S = 2 * dlinear_bar_dC(v, M);
   if (C_inverse_product) r.D += 4 * d2linear_bar_dC2(v, M, *C_inverse_product);
@@ -150,7 +147,7 @@ Response response(const Material& material, const Mat3& C, double J_minus_1, std
   const Mat6 P = inverse_product(v);
   Response r = isochoric(material, v, a, &P);
   const double J = 1 + J_minus_1;
-  const Energy<double> U = material.volume.quadratic.of_change(J_minus_1);
+  const Energy<double> U = volume_energy(material.volume, J_minus_1);
   const Vec6 g = dJ_dC(v, J);
   r.W += U.W;
   r.S += 2 * U.dW * g;

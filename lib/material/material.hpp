@@ -13,12 +13,12 @@
 
 #include "base/fields.hpp"
 #include "material/arruda_boyce.hpp"
+#include "material/fibre.hpp"
 #include "material/gent.hpp"
-#include "material/hgo_fibre.hpp"
 #include "material/mooney_rivlin.hpp"
 #include "material/neo_hooke.hpp"
 #include "material/ogden.hpp"
-#include "material/quadratic_volume.hpp"
+#include "material/volume.hpp"
 #include "material/yeoh.hpp"
 #include "tensor/invariants.hpp"
 #include "tensor/types.hpp"
@@ -29,30 +29,6 @@ namespace langer {
 using MatrixTerm = std::variant<NeoHooke, Yeoh, YeohI2, MooneyRivlin, Signorini, Ogden, ArrudaBoyce, Gent>;
 
 double shear_modulus(const MatrixTerm& term);  // at rest [MPa]
-
-enum class FibreSwitch { I4_bar, I4, off };  // off: the fibre also acts in compression
-constexpr auto names(FibreSwitch) { return std::array{"I4_bar", "I4", "off"}; }
-
-struct Fibre {
-  HgoFibre hgo;
-  double alpha_deg = 0;
-  FibreSwitch tension_switch = FibreSwitch::I4_bar;
-  double kappa = 0;
-  static void fields(auto& v) {
-    v(&Fibre::hgo, "hgo", unit::none, "exponential fibre energy, eq. 14", required);
-    v(&Fibre::alpha_deg, "alpha", unit::deg, "angle between the fibres and the frame's x axis, in the x-z plane, eq. 1",
-      between(-360, 360));
-    v(&Fibre::tension_switch, "switch", unit::none,
-      "which invariant decides that the fibre is stretched; the paper prints I4, eq. 16");
-    v(&Fibre::kappa, "kappa", unit::none, "dispersion: 0 all fibres along the direction, 1/3 no direction at all",
-      between(0, 1. / 3));
-  }
-};
-
-struct Volume {
-  QuadraticVolume quadratic;
-  static void fields(auto& v) { v(&Volume::quadratic, "quadratic", unit::none, "(J-1)^2/d, eq. 15", required); }
-};
 
 struct Material {
   std::vector<MatrixTerm> matrix;
@@ -66,6 +42,7 @@ struct Material {
 };
 
 double shear_modulus(const Material& material);  // of its matrix at rest [MPa]
+inline double bulk_modulus(const Material& material) { return bulk_modulus(material.volume); }
 
 struct Response {
   double W = 0;

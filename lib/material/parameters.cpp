@@ -1,5 +1,6 @@
 #include "material/parameters.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "config/member.hpp"
@@ -39,8 +40,25 @@ void collect_member(V& value, const Member& m, const std::string& path, List& li
 template <Listed T>
 void collect(T& object, const std::string& path, List& list) {
   for_each_line(object, [&](const Member& m, auto& value) {
-    collect_member(value, m, path.empty() ? std::string(m.key) : path + "." + m.key, list);
+    collect_member(value, m, path.empty() || !*m.key ? path + m.key : path + "." + m.key, list);
   });
+}
+
+// Two of one word that are not one quantity: the number of a law takes the law's name before its own (exp_pow_alpha, beside the
+// angle alpha of its family).
+void tell_apart(List& list) {
+  const auto depth = [](const MaterialParameter& p) { return std::count(p.key.begin(), p.key.end(), '.'); };
+  std::vector<MaterialParameter*> found;
+  for (MaterialParameter& p : list)
+    for (const MaterialParameter& other : list)
+      if (p.name == other.name && p.unit != other.unit && depth(p) > depth(other)) {
+        found.push_back(&p);
+        break;
+      }
+  for (MaterialParameter* p : found) {
+    const auto last = p->key.rfind('.'), before = p->key.rfind('.', last - 1) + 1;
+    p->name = p->key.substr(before, last - before) + "_" + p->name;
+  }
 }
 
 }  // namespace
@@ -48,6 +66,7 @@ void collect(T& object, const std::string& path, List& list) {
 std::vector<MaterialParameter> parameters(Material& material) {
   List list;
   collect(material, "", list);
+  tell_apart(list);
   std::map<std::string, int> count;
   for (MaterialParameter& p : list)
     if (const int n = ++count[p.name]; n > 1) p.name += "_" + std::to_string(n);

@@ -12,7 +12,7 @@ namespace langer {
 
 struct MaterialParameter {
   std::string key;   // path
-  std::string name;  // last word of the path, with a number where it comes again: a1, c1, alpha, c1_2
+  std::string name;  // last word of the path, with a number where it comes again: a1, c1, alpha, c1_2; exp_pow_alpha beside alpha
   std::string unit;
   Range range;  // that the law allows
   double* value = nullptr;

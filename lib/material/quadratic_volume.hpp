@@ -8,6 +8,7 @@ namespace langer {
 
 struct QuadraticVolume {
   static constexpr const char* key = "quadratic";
+  static constexpr bool linear_pressure = true;  // U' is linear in J
   double d = 0;
   static void fields(auto& v) {
     v(&QuadraticVolume::d, "d", unit::per_MPa, "compressibility: 2/d is the bulk modulus", required, positive,

@@ -49,7 +49,7 @@ struct Pull {
       s.g[0] = s.H(0, 1) = s.H(1, 0) = 0, s.H(0, 0) = 1;
     } else {
       const double J = std::exp(ln_J);
-      const Energy<double> U = material.volume.quadratic.of_change(std::expm1(ln_J));
+      const Energy<double> U = volume_energy(material.volume, std::expm1(ln_J));
       s.W += U.W;
       s.g[0] += J * U.dW;
       s.H(0, 0) += J * U.dW + J * J * U.ddW;

@@ -29,7 +29,7 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
   for (int e = 1; e < mesh.n_cells(); ++e) {
     const std::vector<Vec3> here = scene.fibres_of(mesh, e);
     for (std::size_t k = 0; k < first.size(); ++k)
-      if (families[k].hgo.c1 != 0 && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
+      if (acts(families[k]) && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
   }
   return true;
 }

@@ -54,7 +54,7 @@ Locking locking(const Equilibrium& body, const VecX& u) {
   double stored = 0, by_pressure = 0, missing = 0, most = 0;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const CellSums cell = sums(body, u, e);
-    const double kappa = body.material(e).volume.quadratic.bulk_modulus(), at_rest = std::abs(shear_modulus(body.material(e)));
+    const double kappa = bulk_modulus(body.material(e)), at_rest = std::abs(shear_modulus(body.material(e)));
     const double mu = std::max(cell.I1 > 1e-9 * body.geometry(e).V ? 2 * cell.W / cell.I1 : 0, at_rest);
     const double phi = 0.5 * kappa * cell.theta2, pressure = phi * kappa / (by_shear_if_stiff * mu);
     const double soft = 0.5 * cell.theta2 / (1 / kappa + 1 / (by_shear_if_soft * mu));

@@ -32,10 +32,13 @@ std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) m
 }  // namespace
 
 ResultWatch::ResultWatch(const Equilibrium& body)
-    : body_(body), may_lock_(may_lock(body.formulation(), body.mesh().type)), has_chains_(false), d_(INFINITY) {
+    : body_(body),
+      may_lock_(may_lock(body.formulation(), body.mesh().type)),
+      has_chains_(false),
+      stiffest_(body.material(0).volume) {
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const Material& material = body.material(e);
-    d_ = std::min(d_, material.volume.quadratic.d);
+    if (bulk_modulus(material) > bulk_modulus(stiffest_)) stiffest_ = material.volume;
     has_chains_ = has_chains_ || chains_of(material);
   }
 }
@@ -68,15 +71,25 @@ std::optional<Error> ResultWatch::refusal() const {
   if (!(residual_ > largest_residual * reactions_) || !(residual_ > asked_)) return std::nullopt;
   return Error{{},
                "",
-               fmt::format("at t = {:.6g} the residual is {:.2g} N beside reactions of {:.3g} N: with d = {:g} the rounding of the "
+               fmt::format("at t = {:.6g} the residual is {:.2g} N beside reactions of {:.3g} N: with {} the rounding of the "
                            "displacements leaves forces of this size",
-                           t_, residual_, reactions_, d_),
+                           t_, residual_, reactions_, stiffness()),
                fmt::format("a residual of at most {:g} % of the reactions", 100 * largest_residual),
-               fmt::format("material.volume.quadratic.d: {:.0e} leaves a residual as small as asked", large_enough_d())};
+               fmt::format("material.volume.{}.{} leaves a residual as small as asked",
+                           std::visit([](const auto& law) { return law.key; }, stiffest_), soft_enough())};
 }
 
-// rounding is inverse to d
-double ResultWatch::large_enough_d() const { return rounded_up(d_ * raised_ / std::max(asked_, 1e-300)); }
+std::string ResultWatch::stiffness() const {
+  if (const auto* law = std::get_if<QuadraticVolume>(&stiffest_)) return fmt::format("d = {:g}", law->d);
+  return fmt::format("bulk_modulus = {:g}", bulk_modulus(stiffest_));
+}
+
+// rounding is inverse to d = 2/bulk_modulus
+std::string ResultWatch::soft_enough() const {
+  const auto* law = std::get_if<QuadraticVolume>(&stiffest_);
+  const double d = rounded_up((law ? law->d : 2 / bulk_modulus(stiffest_)) * raised_ / std::max(asked_, 1e-300));
+  return law ? fmt::format("d: {:.0e}", d) : fmt::format("bulk_modulus: {:.0e}", 2 / d);
+}
 
 std::vector<std::string> ResultWatch::warnings() const {
   std::vector<std::string> lines;
@@ -94,8 +107,8 @@ std::vector<std::string> ResultWatch::warnings() const {
   if (raised_ > asked_)
     lines.push_back(
         fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
-                    "with d = {:g} rounding allows no less; d: {:.0e} leaves what was asked",
-                    asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), d_, large_enough_d()));
+                    "with {} rounding allows no less; {} leaves what was asked",
+                    asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), stiffness(), soft_enough()));
   if (chains_ > 0)
     lines.push_back(
         fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "

@@ -26,11 +26,12 @@ class ResultWatch {
 
  private:
   void look_at_chains(const VecX& u);
-  double large_enough_d() const;
+  std::string stiffness() const;    // of the volume: its key and number
+  std::string soft_enough() const;  // such a key with a number that rounding bears
 
   const Equilibrium& body_;
   bool may_lock_, has_chains_;
-  double d_;         // the smallest of all materials [1/MPa]
+  Volume stiffest_;  // of all materials
   Locking locking_;  // where the stored energy was largest
   double t_ = 0, residual_ = 0;
   double reactions_ = 0, asked_ = 0;   // largest on the path [N]

@@ -42,9 +42,7 @@ void keep_lowest(std::vector<Low>& lowest, const Low& one) {
 }
 
 // its volume should not change visibly at stresses of the order of its shear modulus
-bool nearly_incompressible(const Material& material) {
-  return material.volume.quadratic.bulk_modulus() > 1000 * std::abs(shear_modulus(material));
-}
+bool nearly_incompressible(const Material& material) { return bulk_modulus(material) > 1000 * std::abs(shear_modulus(material)); }
 
 std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }

@@ -127,8 +127,7 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
 
 int Scene::families() const {
   std::ptrdiff_t most = 0;
-  for (const Material& m : materials)
-    most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), [](const Fibre& f) { return f.hgo.c1 != 0; }));
+  for (const Material& m : materials) most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), acts));
   return static_cast<int>(most);
 }
 

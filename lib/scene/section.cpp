@@ -73,7 +73,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     if (families.empty() || said[body]) continue;
     const std::vector<Vec3> a = scene.fibres_of(mesh, e);
     for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
-      if (families[k].hgo.c1 == 0 || kept(families[k], a[k], mesh.section->of)) continue;
+      if (!acts(families[k]) || kept(families[k], a[k], mesh.section->of)) continue;
       said[body] = 1;
       const bool own = config.materials.count(mesh.bodies[body]) > 0;
       refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),

@@ -44,7 +44,7 @@ std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, con
     const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
     for (std::size_t k = 0; k < a.size(); ++k)
       if (const Vec3 turned = op.signs.cwiseProduct(a[k]);
-          families[k].hgo.c1 != 0 && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
+          acts(families[k]) && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
         return fmt::format("the fibres of cells {} and {}", e, g.cell[e]);
   }
   std::map<int, double> imposed;

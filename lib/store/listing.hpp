@@ -31,7 +31,7 @@ void write_member(const h5::Group& group, const Member& m, const std::string& na
   else if constexpr (is_optional<V>) {
     if (value) write_member(group, m, name, *value);
   } else if constexpr (is_choice<V>) {
-    const h5::Group choice = group.make_group(name);
+    const h5::Group choice = is_among_keys<V>(m) ? group : group.make_group(name);
     std::visit([&](const auto& a) { write_listing(choice.make_group(std::remove_cvref_t<decltype(a)>::key), a); }, value);
   } else if constexpr (is_vector<V>) {
     const h5::Group list = group.make_group(name);
@@ -61,7 +61,7 @@ void read_member(const h5::Group& group, const Member& m, const std::string& nam
     value.reset();
     if (group.has(name)) read_member(group, m, name, value.emplace());
   } else if constexpr (is_choice<V>) {
-    const h5::Group choice = group.group(name);
+    const h5::Group choice = is_among_keys<V>(m) ? group : group.group(name);
     bool found = false;
     for_each_alternative<V>([&](auto alternative) {
       if (found || !choice.has(decltype(alternative)::key)) return;

@@ -48,9 +48,14 @@ void FitConfig::complete(Tree& tree) {
 }
 
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start) {
-  const bool power = parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
+  const bool of_fibre = parameter.key.starts_with("fibres");
+  const bool power = !of_fibre && parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
   Range box{-10, 10, true, true};
-  if (parameter.unit == std::string(unit::MPa))
+  if (parameter.name.starts_with("bulk_modulus"))
+    box = {0.2, 2e8, true, true};
+  else if (parameter.key.ends_with("pow_linear.E"))
+    box = {0, 1e4, true, true};  // tendon: some 1000
+  else if (parameter.unit == std::string(unit::MPa))
     box.low = bounds == Bounds::admissible ? 0 : -10;
   else if (parameter.unit == std::string(unit::deg))
     box = {-90, 90, true, true};
@@ -60,6 +65,10 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
     box = {-20, 20, true, true};
   else if (parameter.name.starts_with("c2") && parameter.unit == std::string(unit::none))
     box.high = 100;  // skin in vivo, and porcine skin in stiff directions, is above 10
+  else if (of_fibre && parameter.key.ends_with("exp_pow.alpha"))
+    box.high = 100;
+  else if (parameter.name.starts_with("lam0"))
+    box = {1.001, 2, true, true};
   else if (parameter.name.starts_with("Jm"))
     box = {0.1, 200, true, true};
   else if (parameter.name.starts_with("locking"))

@@ -147,9 +147,9 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
       lines.push_back(fmt::format("{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
                                   std::visit([](const auto& law) { return law.key; }, term), mu));
   for (const Fibre& fibre : material.fibres)
-    if (fibre.hgo.c1 < 0)
+    if (const auto* hgo = std::get_if<HgoFibre>(&fibre.law); hgo && hgo->c1 < 0)
       lines.push_back(fmt::format(
-          "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only", fibre.hgo.c1));
+          "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only", hgo->c1));
   if (record.residual_correlation > 0) {
     std::size_t values = 0;
     for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();

@@ -33,6 +33,26 @@ struct Packet {
     for (int i = 0; i < lanes; ++i) r.v[i] = std::log1p(a.v[i]);
     return r;
   }
+  friend Packet expm1(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::expm1(a.v[i]);
+    return r;
+  }
+  friend Packet pow(const Packet& a, double exponent) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::pow(a.v[i], exponent);
+    return r;
+  }
+  friend Packet sqrt(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::sqrt(a.v[i]);
+    return r;
+  }
+  friend Packet abs(const Packet& a) {
+    Packet r;
+    for (int i = 0; i < lanes; ++i) r.v[i] = std::abs(a.v[i]);
+    return r;
+  }
   // near 1, where dilatations are: (1 + e)^(1/3) to e^3, and one step of Halley, which cubes what is left of it
   friend Packet cbrt(const Packet& a) {
     const Packet e = a - 1.0;
@@ -51,6 +71,18 @@ struct Packet {
 // x where test >= 0, else 0
 inline Packet where_not_negative(const Packet& test, const Packet& x) { return Packet(test.v >= 0 ? x.v : Packet::Lanes{}); }
 inline double where_not_negative(double test, double x) { return test >= 0 ? x : 0; }
+
+// x where test >= 0, else y
+inline Packet where_not_negative(const Packet& test, const Packet& x, const Packet& y) { return Packet(test.v >= 0 ? x.v : y.v); }
+inline double where_not_negative(double test, double x, double y) { return test >= 0 ? x : y; }
+
+// |a| < most in every lane; not of NaN, without a trap
+inline bool within(double a, double most) { return std::isless(std::abs(a), most); }
+inline bool within(const Packet& a, double most) {
+  bool all = true;
+  for (int i = 0; i < Packet::lanes; ++i) all = all && within(a.v[i], most);
+  return all;
+}
 
 inline double smallest(const Packet& a) {
   double m = a.v[0];

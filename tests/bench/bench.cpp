@@ -59,7 +59,7 @@ void measure_sobol(const Material& skin) {
   const CurveMaker maker = [&] {
     return ParametricCurve([&, m = skin](const VecX& p, VecX& y) mutable {
       m.matrix = {Yeoh{p[0], p[1], p[2]}};
-      m.fibres[0].hgo = {p[3], p[4]};
+      std::get<HgoFibre>(m.fibres[0].law) = {p[3], p[4]};
       const auto sigma = path_curve(m, Path::uniaxial, strain, StressMeasure::cauchy);
       if (sigma) y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
       return sigma.has_value();

@@ -230,6 +230,25 @@ TEST_CASE("the paper's material is read and written back") {
   CHECK(again(written) == written);
 }
 
+TEST_CASE("the law of a family is the one key among its keys that names one") {
+  const auto read = [](const std::string& family) {
+    return read_config<Material>(
+               parse_yaml("matrix: {neo_hooke: {a1: 0.1}}\nfibres: [" + family + "]\nvolume: {simo_taylor: {bulk_modulus: 100}}\n",
+                          "law.yaml"))
+        .config;
+  };
+  const Material m = read("{kappa: 0.1, exp_pow: {ksi: 0.3, beta: 2.5}, alpha: 20}");
+  CHECK(std::get<ExpPowFibre>(m.fibres[0].law).beta == 2.5);
+  CHECK(std::get<ExpPowFibre>(m.fibres[0].law).alpha == 0);
+  CHECK(m.fibres[0].alpha_deg == 20);
+  CHECK(to_yaml(m).find("  - exp_pow:\n      ksi: 0.3\n      alpha: 0\n      beta: 2.5\n    alpha: 20\n") != std::string::npos);
+  CHECK(to_yaml(read_config<Material>(parse_yaml(to_yaml(m), "text")).config) == to_yaml(m));
+  CHECK(std::get<PowLinearFibre>(read("{pow_linear: {E: 3, lam0: 1.05}}").fibres[0].law).beta == 2);
+  const std::string text = describe<Material>();
+  for (const char* part : {"  exp_pow", "one of hgo, exp_pow, pow_linear", "    ksi", "  alpha"})
+    CHECK(text.find(part) != std::string::npos);
+}
+
 // Any bytes: a tree or a Failure, never a crash or a hang.
 TEST_CASE("broken and random texts are refused or read, nothing else") {
   std::mt19937 random(11);

@@ -20,9 +20,15 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
   };
   Material dispersed = with(Yeoh{0.05, 0.05, 0.02}, 0.1);
   dispersed.fibres[0].tension_switch = FibreSwitch::off;
-  for (const Material& material :
-       {test::table1(30, 1e-2), test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4), with(Gent{0.3, 4}),
-        with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
+  const auto with_laws = [](const FibreLaw& fibre, const Volume& volume) {
+    Material m = test::stable(40, 1e-3);
+    m.fibres[0].law = fibre, m.volume = volume;
+    return m;
+  };
+  for (const Material& material : {with_laws(ExpPowFibre{0.3, 0.8, 2.5}, LogarithmicVolume{200}),
+                                   with_laws(PowLinearFibre{0.4, 1.04, 3}, SimoTaylorVolume{2e3}), test::table1(30, 1e-2),
+                                   test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4), with(Gent{0.3, 4}),
+                                   with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
     REQUIRE(packet_form(material));
     const auto a = fibre_directions(material);
     for (const auto& [n, formulation] : {std::pair{8, Formulation::mean_dilatation},

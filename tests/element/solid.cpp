@@ -103,6 +103,32 @@ TEST_CASE("the tangent is the derivative of the force, and symmetric") {
   }
 }
 
+TEST_CASE(
+    "whatever resists the volume: the force is the gradient of the energy, the tangent the symmetric derivative of the force") {
+  for (const Volume& volume : {Volume(LogarithmicVolume{300}), Volume(SimoTaylorVolume{300})})
+    for (const auto& [n, formulation] : kinds) {
+      One one = distorted(n, 1e-2);
+      one.material.volume = volume, one.material.fibres[0].law = ExpPowFibre{0.1, 0.3, 2.5};
+      const double local = test::local_modulus(formulation, one.material);
+      const ElementNodes u = some_displacement(n, 7);
+      SolidElement at, plus, minus;
+      REQUIRE(solid(formulation, one.material, local, one.geometry, one.a, u, nullptr, true, at));
+      const double force = at.f.lpNorm<Eigen::Infinity>(), scale = at.K.lpNorm<Eigen::Infinity>(), h = 3e-6;
+      CHECK((at.K - at.K.transpose()).lpNorm<Eigen::Infinity>() <= 1e-13 * scale);
+      for (int j = 0; j < 3 * n; j += n == 8 ? 1 : 5) {
+        ElementNodes up = u, down = u;
+        up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
+        solid(formulation, one.material, local, one.geometry, one.a, up, nullptr, false, plus);
+        solid(formulation, one.material, local, one.geometry, one.a, down, nullptr, false, minus);
+        CHECK(std::abs((plus.W - minus.W) / (2 * h) - at.f[j]) <= 1e-7 * force);
+        CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <= 1e-7 * scale);
+      }
+      // the mean stress of its points is the volume's pressure, since the rest is isochoric
+      for (const GaussState& s : gauss_states(formulation, one.material, one.geometry, one.a, u))
+        CHECK(s.sigma.trace() / 3 == doctest::Approx(s.pressure).epsilon(1e-9).scale(1));
+    }
+}
+
 TEST_CASE("the dilatation's gradient is its derivative") {
   for (const auto& [n, formulation] : kinds) {
     const One one = distorted(n, 1e-2);

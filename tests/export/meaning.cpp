@@ -126,14 +126,14 @@ const std::vector<Kind> kinds = {
     {"a family that does nothing",
      [] {
        Fibre none = family();
-       none.hgo.c1 = 0;
+       std::get<HgoFibre>(none.law).c1 = 0;
        return Material{{yeoh()}, {none}, {}};
      },
      "ANFC"},
     {"a family beside one that does nothing",
      [] {
        Fibre none = family();
-       none.hgo.c1 = 0;
+       std::get<HgoFibre>(none.law).c1 = 0;
        return Material{{NeoHooke{dice(0.1, 1)}}, {none, family()}, {}};
      },
      "ANFC"},
@@ -155,7 +155,7 @@ const std::vector<Kind> kinds = {
     {"c2 = 0",
      [] {
        Fibre f = family();
-       f.hgo.c2 = 0;
+       std::get<HgoFibre>(f.law).c2 = 0;
        return Material{{yeoh()}, {f}, {}};
      },
      "F"},
@@ -185,10 +185,45 @@ const std::vector<Kind> kinds = {
     {"c1 < 0",
      [] {
        Fibre f = family();
-       f.hgo.c1 = -0.3;
+       std::get<HgoFibre>(f.law).c1 = -0.3;
        return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
      },
      "ANC"},
+    {"exp_pow of the second power",
+     [] {
+       Fibre f = family();
+       f.law = ExpPowFibre{dice(0.05, 1), dice(0.05, 2), 2};
+       return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
+     },
+     "ANFC"},
+    {"exp_pow",
+     [] {
+       Fibre f = family();
+       f.law = ExpPowFibre{dice(0.05, 1), dice(0, 2), dice(2.1, 4)};
+       return Material{{yeoh()}, {f, family()}, {}};
+     },
+     "F"},
+    {"pow_linear",
+     [] {
+       Fibre f = family();
+       f.law = PowLinearFibre{dice(0.05, 10), dice(1.02, 1.2), dice(2, 4)};
+       return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
+     },
+     "F"},
+    {"dispersed exp_pow of the second power",
+     [] {
+       Fibre f = family(0.1);
+       f.law = ExpPowFibre{dice(0.05, 1), dice(0.05, 2), 2};
+       return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
+     },
+     "AF"},
+    {"dispersed exp_pow",
+     [] {
+       Fibre f = family(0.1);
+       f.law = ExpPowFibre{dice(0.05, 1), dice(0.05, 2), 3};
+       return Material{{NeoHooke{dice(0.3, 1)}}, {f}, {}};
+     },
+     ""},
     {"fibres that push",
      [] {
        Fibre f = family();
@@ -211,14 +246,14 @@ void compare(const Card& card, const Material& m, const Mat3& F) {
   }
   // no switch in ANSYS: compared where all families are stretched, or act anyway
   for (std::size_t k = 0; card.program == "ANSYS" && k < a.size(); ++k)
-    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && m.fibres[k].hgo.c1 != 0 && m.fibres[k].tension_switch != FibreSwitch::off)
+    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && acts(m.fibres[k]) && m.fibres[k].tension_switch != FibreSwitch::off)
       return;
   const foreign::Energies theirs = card.program == "ANSYS" ? foreign::by_ansys(card.text, F) : foreign::by_keywords(card.text, F);
   const double own = isochoric(m, C, a).W;
   // twelve digits of two components leave the third, their length's rest, to 1e-6
   const bool user = card.text.find("USER MATERIAL") != std::string::npos;
   CHECK(theirs.isochoric == doctest::Approx(own).epsilon(user ? 1e-5 : tolerance));
-  const double square = (J - 1) * (J - 1) / m.volume.quadratic.d;
+  const double square = volume_energy(m.volume, J - 1).W;
   if (card.text.find("volume term here") == std::string::npos)
     CHECK(theirs.volumetric == doctest::Approx(square).epsilon(tolerance));
   else  // of another form, of the same bulk modulus
@@ -232,7 +267,7 @@ TEST_CASE("a card means Langer's law, or says what the program lacks and the nea
     CAPTURE(kind.name);
     for (int draw = 0; draw < 10; ++draw) {
       Material m = kind.draw();
-      m.volume.quadratic.d = std::pow(10, dice(-6, -2));
+      m.volume = QuadraticVolume{std::pow(10, dice(-6, -2))};
       for (const Card& card : cards(m)) {
         CAPTURE(card.program);
         CAPTURE(card.text);
@@ -272,6 +307,38 @@ TEST_CASE("a group of cells with directions of its own gets them in FEBio") {
       const Mat3 F = dice.state();
       const Mat3 own = cauchy(F, response(m, right_cauchy_green(F), F.determinant() - 1, a).S, F.determinant());
       CHECK((own - foreign::febio_stress(law.text, F)).norm() <= 1e-11 * own.norm());
+    }
+  }
+}
+
+TEST_CASE("another law of volume change goes where a program has it, and is refused by name with the nearest where not") {
+  struct Case {
+    Material m;
+    Volume volume;
+    std::string held_by, nearest;  // nearest: of Abaqus
+  };
+  const Fibre fibre{HgoFibre{0.3, 0.8}, 30};
+  const std::string square = "volume: {quadratic: {d: 0.002}}", other = "volume: {simo_taylor: {bulk_modulus: 1000}}";
+  for (const auto& [m, volume, held_by, nearest] : {Case{{{NeoHooke{0.3}}, {}, {}}, LogarithmicVolume{1000}, "F", square},
+                                                    Case{{{NeoHooke{0.3}}, {}, {}}, SimoTaylorVolume{1000}, "F", square},
+                                                    Case{{{NeoHooke{0.3}}, {fibre}, {}}, LogarithmicVolume{1000}, "F", other},
+                                                    Case{{{NeoHooke{0.3}}, {fibre}, {}}, SimoTaylorVolume{1000}, "AF", ""},
+                                                    Case{{{ArrudaBoyce{0.3, 2}}, {}, {}}, SimoTaylorVolume{1000}, "ANC", ""},
+                                                    Case{{{Gent{0.3, 30}}, {}, {}}, SimoTaylorVolume{1000}, "NF", ""}}) {
+    Material law = m;
+    law.volume = volume;
+    for (const Card& card : cards(law)) {
+      CAPTURE(card.program);
+      CAPTURE(card.text);
+      const char letter = card.program == "ANSYS" ? 'N' : card.program[0];
+      REQUIRE(card.exists == (held_by.find(letter) != std::string::npos));
+      if (card.exists) {
+        CHECK(card.text.find("volume term here") == std::string::npos);
+        for (int state = 0; state < 10; ++state) compare(card, law, dice.state());
+      } else if (card.program == "Abaqus" && !nearest.empty()) {
+        CHECK(card.text.find("lacks volume: ") != std::string::npos);
+        CHECK(card.text.find("nearest: " + nearest) != std::string::npos);
+      }
     }
   }
 }

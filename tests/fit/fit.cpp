@@ -88,6 +88,17 @@ TEST_CASE("known parameters come back to 1e-6 from noise-free tests of every kin
             {free("matrix.yeoh.a1", 0.1, 0, 10), free("matrix.yeoh.a2", 0.1, 0, 10), free("matrix.yeoh.a3", 0.1, 0, 10),
              free("fibres[0].hgo.c1", 0.1, 0, 10), free("fibres[0].hgo.c2", 1, 0, 5), free("fibres[0].alpha", 45, -60, 80)},
             {0.05, 0.05, 0.02, 0.10, 0.30, 20});
+  recovered(
+      "a power of the strain in the exponent", {{NeoHooke{0.05}}, {{ExpPowFibre{0.2, 0.8, 2.5}, 20}}, LogarithmicVolume{1e3}},
+      {{NeoHooke{0.1}}, {{ExpPowFibre{0.1, 1, 3}, 45}}, volume},
+      {free("matrix.neo_hooke.a1", 0.1, 0, 10), free("fibres[0].exp_pow.ksi", 0.1, 0, 10),
+       free("fibres[0].exp_pow.alpha", 1, 0, 10), free("fibres[0].exp_pow.beta", 3, 2, 6), free("fibres[0].alpha", 45, -60, 80)},
+      {0.05, 0.2, 0.8, 2.5, 20});
+  recovered("a toe", {{NeoHooke{0.05}}, {{PowLinearFibre{0.5, 1.2, 3}, 0}}, volume},
+            {{NeoHooke{0.1}}, {{PowLinearFibre{1, 1.15, 3}, 0}}, volume},
+            {free("matrix.neo_hooke.a1", 0.1, 0, 10), free("fibres[0].pow_linear.E", 1, 0, 100),
+             free("fibres[0].pow_linear.lam0", 1.15, 1.05, 1.4)},
+            {0.05, 0.5, 1.2});
   recovered("GOH with angle and dispersion", {{NeoHooke{0.05}}, {hgo_fibre(0.2, 0.8, 20, FibreSwitch::I4_bar, 0.1)}, volume},
             {{NeoHooke{0.1}}, {hgo_fibre(0.1, 1, 45, FibreSwitch::I4_bar, 0.2)}, volume},
             {free("matrix.neo_hooke.a1", 0.1, 0, 10), free("fibres[0].hgo.c1", 0.1, 0, 10), free("fibres[0].hgo.c2", 1, 0, 5),

@@ -182,8 +182,8 @@ TEST_CASE("two families tied to each other: symmetric angles, shared c1, c2 and 
     for (int i = 0; i < 5; ++i) CHECK(std::abs(f.best.p[i] - expected[i]) <= 1e-6 * expected[i]);
     const auto& [first, second] = std::pair{f.material.fibres[0], f.material.fibres[1]};
     CHECK(second.alpha_deg == -first.alpha_deg);
-    CHECK(second.hgo.c1 == first.hgo.c1);
-    CHECK(second.hgo.c2 == first.hgo.c2);
+    CHECK(std::get<HgoFibre>(second.law).c1 == std::get<HgoFibre>(first.law).c1);
+    CHECK(std::get<HgoFibre>(second.law).c2 == std::get<HgoFibre>(first.law).c2);
     CHECK(second.kappa == first.kappa);
     // the columns are those of the law whose families vary together
     LeastSquares problem = least_squares_problem(q);
@@ -203,9 +203,9 @@ TEST_CASE("a tie to a number that is not fitted, and one with factor and offset"
             {"fibres[1].alpha", "fibres[0].alpha", 1, 90},
             {"fibres[1].hgo.c2", "fibres[0].hgo.c2", 1, 0}};
   const Material truth = with_parameters(q, VecX::Constant(1, 0.3));
-  CHECK(truth.fibres[1].hgo.c1 == 0.5 * 0.3 + 0.01);
+  CHECK(std::get<HgoFibre>(truth.fibres[1].law).c1 == 0.5 * 0.3 + 0.01);
   CHECK(truth.fibres[1].alpha_deg == 110);
-  CHECK(truth.fibres[1].hgo.c2 == 2);
+  CHECK(std::get<HgoFibre>(truth.fibres[1].law).c2 == 2);
   q.tests = measured(truth, 0, 1);
   CHECK(fit(q, {.starts = 2}).best.p[0] == doctest::Approx(0.3).epsilon(1e-9));
 }

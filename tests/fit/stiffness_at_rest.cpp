@@ -32,7 +32,7 @@ FitProblem problem_of(const Material& truth, const Material& law, std::vector<Fr
   return problem;
 }
 
-Material yeoh_and_fibre(double a1) { return {{Yeoh{a1, 0.05, 0}}, {Fibre{{0.05, 1}, 0}}, {QuadraticVolume{1e-3}}}; }
+Material yeoh_and_fibre(double a1) { return {{Yeoh{a1, 0.05, 0}}, {Fibre{HgoFibre{0.05, 1}, 0}}, {QuadraticVolume{1e-3}}}; }
 std::vector<FreeParameter> yeoh_parameters() {
   return {{"matrix.yeoh.a1", 0.01, 0, 10, true},
           {"matrix.yeoh.a2", 0.01, 0, 10, true},
@@ -93,8 +93,10 @@ TEST_CASE("the least modulus is the standard error of a neo-Hookean modulus alon
 }
 
 TEST_CASE("every law of the matrix gets stiffness at rest by one of its numbers") {
-  const Material truth{{Yeoh{0, 0.02, 0.05}}, {Fibre{{0.03, 1}, 0}}, {QuadraticVolume{1e-3}}};
-  const auto law = [](MatrixTerm term) { return Material{{std::move(term)}, {Fibre{{0.01, 0.5}, 0}}, {QuadraticVolume{1e-3}}}; };
+  const Material truth{{Yeoh{0, 0.02, 0.05}}, {Fibre{HgoFibre{0.03, 1}, 0}}, {QuadraticVolume{1e-3}}};
+  const auto law = [](MatrixTerm term) {
+    return Material{{std::move(term)}, {Fibre{HgoFibre{0.01, 0.5}, 0}}, {QuadraticVolume{1e-3}}};
+  };
   const FreeParameter c1{"fibres[0].hgo.c1", 0.01, 0, 10, true}, c2{"fibres[0].hgo.c2", 0.5, 0, 10};
   struct Case {
     Material law;

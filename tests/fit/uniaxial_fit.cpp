@@ -79,7 +79,7 @@ TEST_CASE("known parameters come back from their own curve, along and off the fi
     const double expected[] = {0.05, 0.05, 0.02, 0.10, 0.30};
     for (int i = 0; i < 5; ++i) CHECK(std::abs(f.best.p[i] - expected[i]) <= 1e-6 * expected[i]);
     CHECK(f.max_error_percent <= 1e-6);
-    CHECK(f.material.volume.quadratic.d == c.d);
+    CHECK(std::get<QuadraticVolume>(f.material.volume).d == c.d);
   }
 }
 

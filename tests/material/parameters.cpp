@@ -24,7 +24,7 @@ TEST_CASE("every number of a law has its YAML path, its name and its unit") {
   CHECK(all[3].unit == "MPa");
   CHECK(all[4].range.low == 0);
   *all[3].value = 7;
-  CHECK(m.fibres[0].hgo.c1 == 7);
+  CHECK(std::get<HgoFibre>(m.fibres[0].law).c1 == 7);
 }
 
 TEST_CASE("terms that stand twice are told apart by index, and names by a number") {
@@ -37,4 +37,14 @@ TEST_CASE("terms that stand twice are told apart by index, and names by a number
   CHECK(all[0].name == "a1");
   CHECK(all[3].name == "a1_2");
   CHECK(all[10].name == "c1_2");
+}
+
+TEST_CASE("a number of a fibre law with the word of its family's angle takes the name of the law") {
+  Material m{{NeoHooke{0.1}}, {{ExpPowFibre{0.3, 0.8, 2.5}, 20}, {PowLinearFibre{3, 1.1, 3}, 40}}, LogarithmicVolume{1e3}};
+  std::vector<std::string> names;
+  for (const MaterialParameter& p : parameters(m)) names.push_back(p.name);
+  CHECK(keys(m)[2] == "fibres[0].exp_pow.alpha");
+  CHECK(keys(m).back() == "volume.logarithmic.bulk_modulus");
+  CHECK(names == std::vector<std::string>{"a1", "ksi", "exp_pow_alpha", "beta", "alpha", "kappa", "E", "lam0", "beta_2", "alpha_2",
+                                          "kappa_2", "bulk_modulus"});
 }

@@ -100,7 +100,7 @@ TEST_CASE("the map: losses by direction, the plane of stretches, the safe radius
   CHECK(map.safe_hencky == again.safe_hencky);
 
   Material positive = table1_hgo_yeoh();
-  positive.fibres[0].hgo.c1 = 0.317;
+  std::get<HgoFibre>(positive.fibres[0].law).c1 = 0.317;
   CHECK(std::isinf(safe_hencky(positive, 1.2)));
   for (Path path : all_paths)
     for (double alpha : {0., 30., 90.}) {
@@ -129,7 +129,7 @@ Material polyconvex(Random& random) {
       m.matrix = {MooneyRivlin{up_to(0.1), up_to(0.1)}};
   }
   for (std::uint64_t k = random.below(3); k > 0; --k) {
-    Fibre f{{up_to(2), std::pow(10, up_to(2))}, up_to(180)};
+    Fibre f{HgoFibre{up_to(2), std::pow(10, up_to(2))}, up_to(180)};
     f.kappa = random.below(2) ? up_to(1. / 3) : 0;
     m.fibres.push_back(f);
   }
@@ -159,14 +159,14 @@ TEST_CASE("a law that is polyconvex is nowhere said to be unstable, however stif
 
 TEST_CASE("a stiff fibre hides no loss of the matrix across it") {
   // along the fibre the tangent is 1e12 times as stiff as the matrix, whose shear modulus is negative
-  const Material m{{Yeoh{-0.01, 0, 0}}, {Fibre{{1, 5}, 0}}, {QuadraticVolume{1e-3}}};
+  const Material m{{Yeoh{-0.01, 0, 0}}, {Fibre{HgoFibre{1, 5}, 0}}, {QuadraticVolume{1e-3}}};
   const Mat3 F = Vec3(1.9, 1 / std::sqrt(1.9), 1 / std::sqrt(1.9)).asDiagonal();
   const ShearStiffness s = smallest_shear_stiffness(m, F, fibre_directions(m));
   CHECK(s.value == doctest::Approx(-0.02 / 1.9).epsilon(1e-6));  // waves in the plane across the fibre, n.b n = 1 / 1.9
 }
 
 TEST_CASE("where a law has no number it is not said to be lost") {
-  const Material m{{Yeoh{0.01, 0.03, 0}}, {Fibre{{0.02, 100}, 0}}, {QuadraticVolume{1e-3}}};
+  const Material m{{Yeoh{0.01, 0.03, 0}}, {Fibre{HgoFibre{0.02, 100}, 0}}, {QuadraticVolume{1e-3}}};
   const PathStability s = path_stability(m, Path::uniaxial, amounts(1, 51));
   CHECK(std::isinf(s.slope_loss));
   CHECK(std::isinf(s.ellipticity_loss));
@@ -181,7 +181,7 @@ TEST_CASE("the map takes seconds where fibres are stiff, and a law without stiff
     const std::clock_t began = std::clock();
     StabilityOptions options;
     options.points = 51, options.stretches = 41;
-    const StabilityMap map = stability_map({{Yeoh{a1, 0.03, 0}}, {Fibre{{0.02, 10}, 0}}, {QuadraticVolume{1e-3}}}, options);
+    const StabilityMap map = stability_map({{Yeoh{a1, 0.03, 0}}, {Fibre{HgoFibre{0.02, 10}, 0}}, {QuadraticVolume{1e-3}}}, options);
     CHECK(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC < 10);
     CHECK(std::isinf(map.safe_hencky));
     for (const PathStability& p : map.paths) {
@@ -192,14 +192,14 @@ TEST_CASE("the map takes seconds where fibres are stiff, and a law without stiff
 }
 
 TEST_CASE("stiffness at rest is that of the matrix alone") {
-  const Material with{{Yeoh{1e-6, 1, 0}}, {Fibre{{5, 1}, 0}}, {QuadraticVolume{1}}};
+  const Material with{{Yeoh{1e-6, 1, 0}}, {Fibre{HgoFibre{5, 1}, 0}}, {QuadraticVolume{1}}};
   CHECK(at_rest(with) == AtRest::stiff);
   CHECK(at_rest_in_words(with).empty());
-  const Material without{{Yeoh{0, 1, 0}}, {Fibre{{5, 1}, 0}, Fibre{{5, 1}, 60}}, {QuadraticVolume{1}}};
+  const Material without{{Yeoh{0, 1, 0}}, {Fibre{HgoFibre{5, 1}, 0}, Fibre{HgoFibre{5, 1}, 60}}, {QuadraticVolume{1}}};
   CHECK(at_rest(without) == AtRest::without_stiffness);
   CHECK(at_rest_in_words(without) == "no stiffness at rest: the shear modulus of yeoh is 0 MPa there");
   CHECK(stiffness_at_rest_cure(without).starts_with("matrix.yeoh.a1 other than 0"));
   CHECK(at_rest({{MooneyRivlin{0.1, -0.1}}, {}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
   CHECK(at_rest({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}) == AtRest::unstable);
-  CHECK(at_rest({{}, {Fibre{{5, 1}, 0}}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
+  CHECK(at_rest({{}, {Fibre{HgoFibre{5, 1}, 0}}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
 }

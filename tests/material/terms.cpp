@@ -49,6 +49,26 @@ struct Samples<HgoFibre> {
   static std::vector<double> at() { return {0.8, 1, 1.05, 1.4, 2}; }
 };
 template <>
+struct Samples<ExpPowFibre> {  // away from 1, where a power that is no whole number has no fourth derivative
+  static std::vector<ExpPowFibre> terms() { return {{0.1, 0.3, 2}, {0.2, 0, 3.5}, {0.3, 4, 2.5}, {0.2, 1e-9, 4}, {5, 20, 3}}; }
+  static std::vector<double> at() { return {0.8, 1.05, 1.4, 2}; }
+};
+template <>
+struct Samples<PowLinearFibre> {  // and from lam0^2
+  static std::vector<PowLinearFibre> terms() { return {{1, 1.1, 2}, {100, 1.05, 3}, {0.3, 1.3, 4.5}}; }
+  static std::vector<double> at() { return {0.6, 0.95, 1.05, 1.3, 1.8, 4}; }
+};
+template <>
+struct Samples<LogarithmicVolume> {
+  static std::vector<LogarithmicVolume> terms() { return {{4}, {1e3}, {2e6}}; }
+  static std::vector<double> at() { return {0.3, 0.7, 1, 1.001, 1.4, 4}; }
+};
+template <>
+struct Samples<SimoTaylorVolume> {
+  static std::vector<SimoTaylorVolume> terms() { return {{4}, {1e3}, {2e6}}; }
+  static std::vector<double> at() { return {0.3, 0.7, 1, 1.001, 1.4, 4}; }
+};
+template <>
 struct Samples<QuadraticVolume> {
   static std::vector<QuadraticVolume> terms() { return {{0.5}, {2e-3}, {1e-6}}; }
   static std::vector<double> at() { return {0.7, 1, 1.001, 1.4}; }
@@ -57,7 +77,7 @@ struct Samples<QuadraticVolume> {
 }  // namespace
 
 TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2, ArrudaBoyce, Gent, Ogden, HgoFibre,
-                   QuadraticVolume) {
+                   ExpPowFibre, PowLinearFibre, QuadraticVolume, LogarithmicVolume, SimoTaylorVolume) {
   static_assert(EnergyTerm<Term>);
   for (const Term& term : Samples<Term>::terms())
     for (double x : Samples<Term>::at()) {
@@ -82,7 +102,16 @@ TEST_CASE("a term costs no energy in the undeformed state") {
   CHECK(HgoFibre{0.1, 0.3}(1.).W == 0);
   CHECK(HgoFibre{0.1, 0.3}(1.).dW == 0);
   CHECK(QuadraticVolume{1e-6}(1.).W == 0);
-  CHECK(QuadraticVolume{1e-6}.bulk_modulus() == 2e6);
+  CHECK(ExpPowFibre{0.1, 0.3, 2.5}(1.).W == 0);
+  CHECK(ExpPowFibre{0.1, 0.3, 2.5}(1.).dW == 0);
+  CHECK(PowLinearFibre{0.1, 1.2, 2.5}(1.).W == 0);
+  CHECK(PowLinearFibre{0.1, 1.2, 2.5}(1.).dW == 0);
+  for (const Volume& law : {Volume(QuadraticVolume{1e-6}), Volume(LogarithmicVolume{2e6}), Volume(SimoTaylorVolume{2e6})}) {
+    CHECK(volume_energy(law, 0.).W == 0);
+    CHECK(volume_energy(law, 0.).dW == 0);
+    CHECK(bulk_modulus(law) == 2e6);
+    CHECK(linear_pressure(law) == std::holds_alternative<QuadraticVolume>(law));
+  }
 }
 
 TEST_CASE("the fibre energy tends to its quadratic limit as c2 goes to zero") {
@@ -144,4 +173,77 @@ TEST_CASE("beyond its limit Gent's law has no energy, and says so") {
     CHECK(std::isnan(e.dW));
     CHECK(std::isnan(e.ddW));
   }
+}
+
+TEST_CASE("exp_pow of the second power is HGO's energy, and a power law without its exponent") {
+  for (double I4 : {0.7, 1., 1.2, 1.9}) {
+    const Energy<double> a = ExpPowFibre{0.3, 0.8, 2}(I4), b = HgoFibre{0.3, 0.8}(I4);
+    CHECK(a.W == doctest::Approx(b.W).epsilon(1e-13));
+    CHECK(a.dW == doctest::Approx(b.dW).epsilon(1e-13));
+    CHECK(a.ddW == doctest::Approx(b.ddW).epsilon(1e-13));
+    const double y = std::abs(I4 - 1);
+    CHECK(ExpPowFibre{0.3, 0, 3}(I4).W == doctest::Approx(0.1 * y * y * y));
+    CHECK(ExpPowFibre{0.3, 1e-12, 3}(I4).W == doctest::Approx(0.1 * y * y * y));
+  }
+}
+
+TEST_CASE("a pow_linear fibre is smooth where its toe ends, and its nominal stress linear beyond") {
+  for (const PowLinearFibre& law : {PowLinearFibre{2, 1.1, 2}, PowLinearFibre{300, 1.03, 3.5}}) {
+    const double I0 = law.lam0 * law.lam0;
+    const Energy<double> before = law(I0 * (1 - 1e-12)), after = law(I0 * (1 + 1e-12));
+    CHECK(before.W == doctest::Approx(after.W).epsilon(1e-9));
+    CHECK(before.dW == doctest::Approx(after.dW).epsilon(1e-9));
+    CHECK(before.ddW == doctest::Approx(after.ddW).epsilon(1e-9));
+    const auto nominal = [&](double stretch) { return 2 * stretch * law(stretch * stretch).dW; };
+    const double slope = law.E * (1 / law.lam0 + (I0 - 1) / (2 * (law.beta - 1) * I0 * law.lam0));
+    for (double stretch : {law.lam0 + 0.01, law.lam0 + 0.3, 3.})
+      CHECK((nominal(stretch + 0.1) - nominal(stretch)) / 0.1 == doctest::Approx(slope).epsilon(1e-10));
+    CHECK(nominal(law.lam0 - 0.001) - nominal(law.lam0 - 0.002) < 0.001 * slope);
+  }
+}
+
+TEST_CASE("energies of volume change keep their digits near rest, have no number without volume, and are one for eight at once") {
+  const LogarithmicVolume logarithmic{2e6};
+  const SimoTaylorVolume simo_taylor{2e6};
+  for (double x : {1e-12, -1e-9, 3e-7, -1e-4}) {
+    CHECK(logarithmic.of_change(x).W == doctest::Approx(1e6 * x * x * (1 - x)).epsilon(2 * x * x + 1e-15));
+    CHECK(simo_taylor.of_change(x).W == doctest::Approx(1e6 * x * x * (1 - x / 3)).epsilon(2 * x * x + 1e-15));
+  }
+  for (double x : {0.0999999, 0.1000001, -0.0999999, -0.1000001})
+    CHECK(minus_its_logarithm(x) == doctest::Approx(x - std::log1p(x)).epsilon(1e-13));
+  Packet all(0.0);
+  for (int i = 0; i < Packet::lanes; ++i) all.set(i, -0.35 + 0.1 * i);
+  for (const Volume& law : {Volume(QuadraticVolume{1e-3}), Volume(logarithmic), Volume(simo_taylor)}) {
+    const Energy<Packet> e = volume_energy(law, all);
+    for (int i = 0; i < Packet::lanes; ++i) {
+      const Energy<double> one = volume_energy(law, all[i]);
+      CHECK(e.W[i] == doctest::Approx(one.W).epsilon(1e-13));
+      CHECK(e.dW[i] == doctest::Approx(one.dW).epsilon(1e-13));
+      CHECK(e.ddW[i] == doctest::Approx(one.ddW).epsilon(1e-13));
+    }
+  }
+  for (double x : {-1., -1.5})
+    for (const Volume& law : {Volume(logarithmic), Volume(simo_taylor)}) CHECK(std::isnan(volume_energy(law, x).W));
+}
+
+TEST_CASE("fibres of every law: eight at once are eight alone, and an exponential beyond the range of forces is no number") {
+  Packet all(0.0);
+  for (int i = 0; i < Packet::lanes; ++i) all.set(i, 0.75 + 0.15 * i);
+  const auto same = [&](const auto& law) {
+    const Energy<Packet> e = law(all);
+    for (int i = 0; i < Packet::lanes; ++i) {
+      const Energy<double> one = law(all[i]);
+      CHECK(e.W[i] == doctest::Approx(one.W).epsilon(1e-13));
+      CHECK(e.dW[i] == doctest::Approx(one.dW).epsilon(1e-13));
+      CHECK(e.ddW[i] == doctest::Approx(one.ddW).epsilon(1e-13));
+    }
+  };
+  for (const auto& law : Samples<ExpPowFibre>::terms()) same(law);
+  for (const auto& law : Samples<PowLinearFibre>::terms()) same(law);
+  const ExpPowFibre steep{0.1, 1000, 3};  // exp(300) at a cube of 0.3
+  for (double I4 : {0.5, 1., 1.3, 1.66}) CHECK(nan_outside_domain(steep, I4) == I4);
+  for (double I4 : {1.68, 2., 1e200}) CHECK(std::isnan(steep(nan_outside_domain(steep, I4)).ddW));
+  const Energy<double> far = PowLinearFibre{1, 1.1, 20}(1e30);
+  CHECK(std::isfinite(far.W));
+  CHECK(far.ddW > 0);
 }

@@ -58,10 +58,10 @@ TEST_CASE("tied numbers of a material follow exactly") {
   Material m = test::stable(30, 1e-6);
   m.fibres.push_back(m.fibres[0]);
   const TiedNumbers tied(m, {{"fibres[1].alpha", "fibres[0].alpha", -1, 0}, {"fibres[1].hgo.c1", "fibres[0].hgo.c1", 1, 0}});
-  m.fibres[0].alpha_deg = 41.3, m.fibres[0].hgo.c1 = 0.7;
+  m.fibres[0].alpha_deg = 41.3, std::get<HgoFibre>(m.fibres[0].law).c1 = 0.7;
   tied.follow();
   CHECK(m.fibres[1].alpha_deg == -41.3);
-  CHECK(m.fibres[1].hgo.c1 == 0.7);
-  CHECK(m.fibres[1].hgo.c2 == 0.30);
+  CHECK(std::get<HgoFibre>(m.fibres[1].law).c1 == 0.7);
+  CHECK(std::get<HgoFibre>(m.fibres[1].law).c2 == 0.30);
   CHECK_THROWS_AS(TiedNumbers(m, {{"fibres[2].alpha", "fibres[0].alpha", 1, 0}}), std::logic_error);
 }

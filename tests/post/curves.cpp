@@ -121,8 +121,8 @@ TEST_CASE("a column has the dimension that its unit says") {
     value *= std::map<std::string, double>{{"-", 1}, {"mm", length}, {"N mm", length * force}, {"MPa", stress}}.at(
         solution::unit_of(name));
   Material law = test::table1(30, 1e-2), stiffer = law;
-  stiffer.volume.quadratic.d /= stress;
-  for (Fibre& f : stiffer.fibres) f.hgo.c1 *= stress;
+  std::get<QuadraticVolume>(stiffer.volume).d /= stress;
+  for (Fibre& f : stiffer.fibres) std::get<HgoFibre>(f.law).c1 *= stress;
   for (MatrixTerm& term : stiffer.matrix)
     for (double* a : {&std::get<Yeoh>(term).a1, &std::get<Yeoh>(term).a2, &std::get<Yeoh>(term).a3}) *a *= stress;
   const Body body(s.mesh, {law}, Formulation::mean_dilatation), other(scaled.mesh, {stiffer}, Formulation::mean_dilatation);

@@ -97,7 +97,7 @@ TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed
   const auto phi = [&](const VecX& p, VecX& y) {
     Material m = truth;
     m.matrix = {Yeoh{p[0], p[1], p[2]}};
-    m.fibres[0].hgo = {p[3], p[4]};
+    std::get<HgoFibre>(m.fibres[0].law) = {p[3], p[4]};
     const auto sigma = uniaxial_curve(m, strain, StressMeasure::cauchy, Dilatation::incompressible);
     if (sigma) y = Eigen::Map<const VecX>(sigma->data(), 3);
     return sigma.has_value();

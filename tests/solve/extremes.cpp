@@ -32,7 +32,7 @@ double final_force(const test::Indentation& scene, const Material& material) {
 Material yeoh(double d) {
   Material m;
   m.matrix = {Yeoh{0.05, 0.02, 0.002}};
-  m.volume.quadratic.d = d;
+  m.volume = QuadraticVolume{d};
   return m;
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("extremes: c2 from 0 to 1000, the limit without a division by zero") {
     CAPTURE(c2);
     Pull pull(test::cube(1));
     Material m = test::stable(0, 1e-9);
-    m.fibres[0].hgo.c2 = c2;
+    std::get<HgoFibre>(m.fibres[0].law).c2 = c2;
     pull.run({m}, 1.2);
     REQUIRE(pull.path.complete);
     const Uniaxial exact = uniaxial(m, 1.2);
@@ -123,7 +123,7 @@ TEST_CASE("extremes: c2 from 0 to 1000, the limit without a division by zero") {
 TEST_CASE("extremes: an exponent that overflows is refused by name, never inf") {
   Pull pull(test::cube(1));
   Material m = test::stable(0, 1e-6);
-  m.fibres[0].hgo.c2 = 1000;
+  std::get<HgoFibre>(m.fibres[0].law).c2 = 1000;
   pull.steps_of = 1;
   pull.run({m}, 3, 0.9);
   CHECK_FALSE(pull.path.complete);
@@ -252,7 +252,7 @@ TEST_CASE("extremes: metres and pascals give what millimetres and megapascals gi
     Material m;
     m.matrix = {Yeoh{0.05 * pressure, 0.05 * pressure, 0.02 * pressure}};
     m.fibres = {Fibre{HgoFibre{0.1 * pressure, 0.3}, 30, FibreSwitch::I4_bar}};
-    m.volume.quadratic.d = 1e-4 / pressure;
+    m.volume = QuadraticVolume{1e-4 / pressure};
     pull.newton.relative = 1e-11, pull.newton.largest_move = length;
     pull.run({m}, 1.4);
     REQUIRE_MESSAGE(pull.path.complete, pull.path.why);

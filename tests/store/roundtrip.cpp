@@ -117,8 +117,8 @@ namespace {
 Material two_families() {
   Material m;
   m.matrix = {Yeoh{0.269, 0.376, 0.415}, NeoHooke{0.1}, YeohI2{0.01, 0.02, 0.03}};
-  m.fibres = {{{-0.317, 0.319}, 30, FibreSwitch::I4}, {{0.1, 0}, -30, FibreSwitch::off}};
-  m.volume.quadratic.d = 1e-6;
+  m.fibres = {{HgoFibre{-0.317, 0.319}, 30, FibreSwitch::I4}, {HgoFibre{0.1, 0}, -30, FibreSwitch::off}};
+  m.volume = QuadraticVolume{1e-6};
   return m;
 }
 FitRecord fit() {
@@ -149,12 +149,30 @@ TEST_CASE("a material comes back as written: terms, families, switches") {
   CHECK(std::get<NeoHooke>(file.material.matrix[1]).a1 == 0.1);
   CHECK(std::get<YeohI2>(file.material.matrix[2]).b2 == 0.02);
   REQUIRE(file.material.fibres.size() == 2);
-  CHECK(file.material.fibres[0].hgo.c1 == -0.317);
+  CHECK(std::get<HgoFibre>(file.material.fibres[0].law).c1 == -0.317);
   CHECK(file.material.fibres[0].tension_switch == FibreSwitch::I4);
   CHECK(file.material.fibres[1].alpha_deg == -30);
   CHECK(file.material.fibres[1].tension_switch == FibreSwitch::off);
-  CHECK(file.material.volume.quadratic.d == 1e-6);
+  CHECK(std::get<QuadraticVolume>(file.material.volume).d == 1e-6);
   CHECK(h5::File::open(path).root().group("material/volume/quadratic").unit("d") == "1/MPa");
+}
+
+TEST_CASE("every law of fibres and of volume change stands in a group of its key, and comes back") {
+  const std::string path = example::folder("laws") + "/material.h5";
+  Material m = two_families();
+  m.fibres = {{ExpPowFibre{0.3, 0.8, 2.5}, 30}, {PowLinearFibre{12, 1.06, 3}, -30, FibreSwitch::I4_bar, 0.1}};
+  for (const Volume& volume : {Volume(LogarithmicVolume{1e3}), Volume(SimoTaylorVolume{2e3})}) {
+    m.volume = volume;
+    write_material(path, m, {}, example::identity());
+    const Material back = read_material(path).material;
+    CHECK(back.volume.index() == volume.index());
+    CHECK(bulk_modulus(back) == bulk_modulus(m));
+    CHECK(std::get<ExpPowFibre>(back.fibres[0].law).beta == 2.5);
+    CHECK(back.fibres[0].alpha_deg == 30);
+    CHECK(std::get<PowLinearFibre>(back.fibres[1].law).lam0 == 1.06);
+    CHECK(back.fibres[1].kappa == 0.1);
+    CHECK(h5::File::open(path).root().group("material/fibres/0/exp_pow").unit("ksi") == "MPa");
+  }
 }
 
 TEST_CASE("the record of a fit comes back, and its parameters stand in the summary") {

@@ -10,8 +10,8 @@ inline SolutionHeader header(bool contact) {
   SolutionHeader h;
   h.mesh = bar();
   h.material.matrix = {Yeoh{0.269, 0.376, 0.415}};
-  h.material.fibres = {{{-0.317, 0.319}, 30, FibreSwitch::I4_bar}};
-  h.material.volume.quadratic.d = 1e-3;
+  h.material.fibres = {{HgoFibre{-0.317, 0.319}, 30, FibreSwitch::I4_bar}};
+  h.material.volume = QuadraticVolume{1e-3};
   h.formulation = "mean_dilatation";
   if (contact) h.contact_nodes = {{"indenter", {3, 4, 5}}};
   h.identity = identity();

@@ -11,7 +11,7 @@ namespace langer::test {
 inline FitProblem protocols(int n) {
   FitProblem q;
   q.law = stable(30, 1e-6);
-  q.law.fibres[0].hgo.c2 = 2;
+  std::get<HgoFibre>(q.law.fibres[0].law).c2 = 2;
   q.free = {{"matrix.yeoh.a1", 0.05, -10, 10},
             {"matrix.yeoh.a2", 0.05, -10, 10},
             {"fibres[0].hgo.c1", 0.10, -10, 10},

@@ -1,7 +1,7 @@
 // What other programs make of a material card, by the formulas that they publish: text in, energy or stress at a state out.
 //   FEBio     its source, github.com/febiosoftware/FEBio at 65622b5, FEBioMech/: FEMooneyRivlin, FEYeoh, FEOgdenMaterial,
-//             FEGentMaterial, FEArrudaBoyce, FEFiberExpPowUncoupled, FEHolzapfelGasserOgden, FEUncoupledElasticMixture,
-//             FEUncoupledMaterial (U of pressure model 2), FECore/FEMaterial (axes of parent and child)
+//             FEGentMaterial, FEArrudaBoyce, FEFiberExpPowUncoupled, FEFiberPowLinearUncoupled, FEHolzapfelGasserOgden, FEUncoupledElasticMixture,
+//             FEUncoupledMaterial (U of the pressure models), FECore/FEMaterial (axes of parent and child)
 //   Abaqus    Materials Guide, "Hyperelastic behavior of rubberlike materials", "Anisotropic hyperelastic behavior"; Keywords
 //             Guide, *ORIENTATION: axes, additional rotation, then the local directions
 //   CalculiX  ccx 2.20 manual, *HYPERELASTIC and "Fiber-reinforced material model" (ELASTIC_FIBER)
@@ -96,6 +96,19 @@ inline Mat3 febio_deviator(const Solid& s, const Mat3& F, const Mat3& parent) {
     if (x < 0) return Mat3::Zero();
     return 2 / J * s.value("ksi") * std::pow(x, beta - 1) * std::exp(alpha * std::pow(x, beta)) * dev(nt * nt.transpose());
   }
+  if (s.type == "fiber-pow-linear-uncoupled") {
+    std::smatch found;
+    REQUIRE(std::regex_search(s.body, found, std::regex("<fiber type=\"vector\">([^<]*)</fiber>")));
+    const std::vector<double> n = numbers(found[1]);
+    const Vec3 n0 = Q * Vec3(n.at(0), n.at(1), n.at(2)).normalized(), nt = f * n0;
+    const double E = s.value("E"), lam0 = s.value("lam0"), beta = s.value("beta"), I0 = lam0 * lam0, In = n0.dot(c * n0);
+    const double ksi = E / 4 / (beta - 1) * std::pow(I0, -1.5) * std::pow(I0 - 1, 2 - beta);
+    const double slope = ksi * std::pow(I0 - 1, beta - 1) + E / 2 / std::sqrt(I0);
+    CHECK(E > 0);
+    if (In < 1) return Mat3::Zero();
+    const double sn = In < I0 ? 2 * In * ksi * std::pow(In - 1, beta - 1) : 2 * slope * In - E * std::sqrt(In);
+    return dev(nt * nt.transpose()) * (sn / In / J);
+  }
   REQUIRE(s.type == "Holzapfel-Gasser-Ogden");
   const double k1 = s.value("k1"), k2 = s.value("k2"), kappa = s.value("kappa"), g = s.value("gamma") * M_PI / 180;
   CHECK(s.value("c") >= 0);
@@ -120,8 +133,10 @@ inline Mat3 febio_stress(const std::string& text, const Mat3& F) {
   const std::regex part("[ ]*<solid type=\"([^\"]*)\">([^\n]*)</solid>\n");
   for (std::sregex_iterator i(all.begin(), all.end(), part), none; i != none; ++i) solids.push_back({(*i)[1], (*i)[2]});
   const Solid whole{head[1], std::regex_replace(all, part, "")};
-  Mat3 sigma = whole.value("k") * (F.determinant() - 1) * Mat3::Identity();
-  REQUIRE(whole.value("pressure_model") == 2);
+  const double J = F.determinant(), model = whole.value("pressure_model", -1);
+  REQUIRE((model == 0 || model == 1 || model == 2));
+  const double slope = model == 0 ? std::log(J) / J : model == 1 ? 0.5 * (J - 1 / J) : J - 1;
+  Mat3 sigma = whole.value("k") * slope * Mat3::Identity();
   if (whole.type != "uncoupled solid mixture") return sigma + febio_deviator(whole, F, Mat3::Identity());
   REQUIRE(!solids.empty());
   for (const Solid& s : solids) sigma += febio_deviator(s, F, whole.axes());
