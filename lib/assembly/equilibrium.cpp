@@ -122,7 +122,7 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   const Material& law = material(block.cells[0]);
   if (kernel_ == Kernel::packets) {
     const std::size_t b = &block - blocks_.data();
-    Packet q[Hex27::n_dofs], p[Hex27::n_gauss], local;
+    Packet q[most_dofs], p[most_gauss], local;
     load(block, u, q);
     for (int l = 0; l < Packet::lanes; ++l) {
       const int e = block.cells[l];
@@ -239,7 +239,7 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
     if (!du_prescribed) continue;
     const ElementNodes du_nodes = element_displacements(*du_prescribed, e);
     if (du_nodes.isZero(0)) continue;
-    std::array<double, Hex27::n_dofs> du, K_du{};
+    std::array<double, most_dofs> du, K_du{};
     for (int i = 0; i < n_dofs_; ++i) du[i] = du_nodes(i / 3, i % 3);
     for (int i = 0, k = 0; i < n_dofs_; ++i)
       for (int j = 0; j <= i; ++j, ++k) {
@@ -252,7 +252,7 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
 
 bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   // blocks computed by one thread before it waits for its turn to add them; they stay in its cache
-  const int chunk = threads_ == 1 ? 1 : n_nodes_ == 8 ? 8 : 2;
+  const int chunk = threads_ == 1 ? 1 : mesh_.cell().second_order() ? 2 : 8;
   const int n = static_cast<int>(blocks_.size()), n_chunks = (n + chunk - 1) / chunk;
   f_.setZero(), K_du_.setZero();
   if (with_tangent)
@@ -280,7 +280,7 @@ bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_pres
 double Equilibrium::smallest_J(const VecX& u) const {
   double J_min = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    Packet q[Hex27::n_dofs], J_minus_1[Hex27::n_gauss];
+    Packet q[most_dofs], J_minus_1[most_gauss];
     load(blocks_[b], u, q);
     packet_dilatations(packet_geometry_[b], q, J_minus_1);
     for (int g = 0; g < packet_geometry_[b].n_gauss; ++g) J_min = std::min(J_min, 1 + smallest(J_minus_1[g]));

@@ -19,13 +19,14 @@ namespace langer {
 namespace {
 
 // nodes in z = 0 of a facet between z = 0 and the plane behind: the ends in the order of the facet, and the middle
-std::vector<int> front_edge(const std::vector<int>& facet, int n_front) {
+std::vector<int> front_edge(const ReferenceCell& cell, const std::vector<int>& facet, int n_front) {
   std::vector<int> edge;
-  for (int k = 0; k < 4; ++k) {
-    const int a = facet[k], b = facet[(k + 1) % 4];
+  const int sides = cell.facet_corners;
+  for (int k = 0; k < sides; ++k) {
+    const int a = facet[k], b = facet[(k + 1) % sides];
     if (a >= n_front || b >= n_front) continue;
     edge = {a, b};
-    if (facet.size() == 9) edge.push_back(facet[4 + k]);
+    if (cell.second_order()) edge.push_back(facet[sides + k]);
   }
   return edge;
 }
@@ -83,7 +84,7 @@ SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size
     Patch patch{facet_nodes(mesh, facet)};
     if (mesh.section) {
       const bool flat = std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return n < front; });
-      patch.nodes = flat ? std::vector<int>{} : front_edge(patch.nodes, front);
+      patch.nodes = flat ? std::vector<int>{} : front_edge(mesh.cell(), patch.nodes, front);
       if (patch.nodes.empty()) continue;
       patch.axis = mesh.section->of == SectionOf::axisymmetric &&
                    std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return mesh.X[n][0] == 0; });
@@ -114,12 +115,12 @@ VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
   } else if (n == 3) {
     w << 0.5 * s * (s - 1), 0.5 * s * (s + 1), 1 - s * s;
   } else {  // all facets of a cell have the same functions in the order of their nodes
-    const ReferenceCell& cell = reference(nodes_per_cell(mesh_.type));
+    const ReferenceCell& cell = mesh_.cell();
     const auto& local = cell.facet[0];
     const auto corner = [&](int k) { return cell.node[local[k]]; };
-    const Vec3 xi = n == 7 ? Vec3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
-                           : Vec3(0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
-                                          (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3)));
+    const Vec3 xi = cell.facet_corners == 3 ? Vec3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
+                                            : Vec3(0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
+                                                           (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3)));
     const VecX N = cell.shape(xi);
     for (std::size_t k = 0; k < n; ++k) w[k] = N[local[k]];
   }
@@ -129,7 +130,7 @@ VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
 // Least gap of a facet: pieces of it that may hold something less than what is known, halved until the indenter is smooth across one.
 SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x,
                                             const Vec3& c) const {
-  const bool line = patch.nodes.size() < 4, triangle = patch.nodes.size() == 7;
+  const bool line = mesh_.section.has_value(), triangle = mesh_.cell().facet_corners == 3;
   const double low = triangle ? 0 : -1;
   const double width = half_width(contact.shape);
   double size = 0;

@@ -63,7 +63,7 @@ ElementGeometry element_geometry(const ElementNodes& X) {
     geometry.w.push_back(cell.weight[g] * dX_dxi.determinant());
     geometry.V += geometry.w[g];
   }
-  if (cell.n_nodes > cell.n_corners) add_modes(cell, X, geometry);
+  if (cell.second_order()) add_modes(cell, X, geometry);
   return geometry;
 }
 

@@ -25,7 +25,7 @@ struct ElementGeometry {
   int n_gauss() const { return static_cast<int>(w.size()); }
 };
 
-using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;  // one row per node
+using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_nodes, 3>;  // one row per node
 
 ElementNodes element_nodes(const Mesh& mesh, int e);                  // reference positions
 ElementNodes element_values(const Mesh& mesh, int e, const VecX& u);  // of a field with three components per node

@@ -261,19 +261,17 @@ void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet*
   for (int q = 0; q < geometry.n_gauss; ++q) {
     P H[9];
     const P* dN = &geometry.dN_dX[q * 3 * geometry.n_nodes];
-    (geometry.n_nodes == 8    ? displacement_gradient<8>
-     : geometry.n_nodes == 15 ? displacement_gradient<15>
-                              : displacement_gradient<27>)(dN, u, H);
+    with_cell(geometry.n_nodes, [&](auto cell) { displacement_gradient<decltype(cell)::n_nodes>(dN, u, H); });
     J_minus_1[q] = dilatation(H);
   }
 }
 
 void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
                   const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
-  const auto of = geometry.n_nodes == 8    ? packet_solid_of<8, 8>
-                  : geometry.n_nodes == 15 ? packet_solid_of<Tet15::n_nodes, Tet15::n_gauss>
-                                           : packet_solid_of<27, 27>;
-  of(formulation, material, local, geometry, fibres, u, p_tangent, with_tangent, out);
+  with_cell(geometry.n_nodes, [&](auto cell) {
+    packet_solid_of<decltype(cell)::n_nodes, decltype(cell)::n_gauss>(formulation, material, local, geometry, fibres, u, p_tangent,
+                                                                      with_tangent, out);
+  });
 }
 
 }  // namespace langer

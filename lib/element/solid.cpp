@@ -153,14 +153,16 @@ int n_pressures(Formulation f, int n_nodes) {
 }
 
 Formulation usual_formulation(CellType type) {
-  return type == CellType::hex8 ? Formulation::mean_dilatation : Formulation::linear_dilatation;
+  return reference(type).second_order() ? Formulation::linear_dilatation : Formulation::mean_dilatation;
 }
 
 bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
            std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
-  return (u.rows() == 8    ? solid_of<8>
-          : u.rows() == 15 ? solid_of<15>
-                           : solid_of<27>)(formulation, material, local, geometry, a, u, p_tangent, with_tangent, out);
+  bool done = false;
+  with_cell(static_cast<int>(u.rows()), [&](auto cell) {
+    done = solid_of<decltype(cell)::n_nodes>(formulation, material, local, geometry, a, u, p_tangent, with_tangent, out);
+  });
+  return done;
 }
 
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,

@@ -8,7 +8,7 @@ namespace langer {
 
 VecX nodal_areas(const Mesh& mesh, const std::vector<Facet>& facets) {
   VecX areas = VecX::Zero(mesh.n_nodes());
-  const ReferenceCell& reference_cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& reference_cell = mesh.cell();
   for (const Facet& facet : facets) {
     const auto cell = mesh.cell(facet.cell);
     const ElementNodes X = element_nodes(mesh, facet.cell);

@@ -10,6 +10,7 @@
 #include "export/export_scene.hpp"
 #include "export/fibre_frame.hpp"
 #include "mesh/raise.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -38,7 +39,7 @@ std::string list(const std::vector<int>& numbers) {
 
 // hex8 with the middles of edges (and others, which C3D20R do not use); a set that has both ends of an edge has its middle
 Mesh with_middles(const Mesh& mesh) {
-  if (mesh.type != CellType::hex8) return mesh;
+  if (mesh.cell().second_order()) return mesh;
   constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   Mesh out = raised(mesh, CellType::hex27);
   for (const auto& [name, nodes] : mesh.node_sets) {

@@ -12,6 +12,7 @@
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -25,9 +26,6 @@ std::string escaped(const std::string& text) {
 
 std::string triple(const Vec3& x) { return fmt::format("{:.16g},{:.16g},{:.16g}", x[0], x[1], x[2]); }
 
-// middles of hex27's facets and cell: ours by its order (-y +x +y -x -z +z, middle)
-constexpr int febio_hex27[7] = {22, 21, 23, 20, 24, 25, 26};
-
 // letters that a file's name may have anywhere
 std::string file_name(std::string name) {
   for (char& c : name)
@@ -37,7 +35,7 @@ std::string file_name(std::string name) {
 
 std::vector<std::string> warnings_of(const Deck& deck) {
   std::vector<std::string> list;
-  if (deck.mesh.type == CellType::hex27)
+  if (deck.mesh.cell().second_order())
     list.push_back(
         "hex27 are plain displacement cells in FEBio: its forces were 16 to 18 % too high near incompressibility; solve "
         "with hex8, which are three-field cells there as here, and export that");
@@ -115,15 +113,15 @@ class Writer {
     for (int n = 0; n < mesh_.n_nodes(); ++n) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
     nodes_ += "    </Nodes>\n";
     next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
-    const bool quadratic = mesh_.type == CellType::hex27;
+    const CellNames& type = mesh_.cell().names;
     for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
       const std::string name = fmt::format("cells{}", g + 1);
-      cells_ += fmt::format("    <Elements type=\"{}\" name=\"{}\">\n", quadratic ? "hex27" : "hex8", name);
+      cells_ += fmt::format("    <Elements type=\"{}\" name=\"{}\">\n", type.febio, name);
       for (int e : deck_.groups[g].cells) {
         cells_ += fmt::format("      <elem id=\"{}\">", e + 1);
         const auto cell = mesh_.cell(e);
         for (std::size_t a = 0; a < cell.size(); ++a)
-          cells_ += fmt::format("{}{}", a == 0 ? "" : ",", cell[a < 20 ? a : static_cast<std::size_t>(febio_hex27[a - 20])] + 1);
+          cells_ += fmt::format("{}{}", a == 0 ? "" : ",", cell[static_cast<std::size_t>(type.febio_order[a])] + 1);
         cells_ += "</elem>\n";
       }
       cells_ += "    </Elements>\n";
@@ -197,7 +195,7 @@ class Writer {
     cells_ += "    </Elements>\n";
     next_node_ += 2 * n;
     domains_ += fmt::format("    <SolidDomain name=\"{0}\" mat=\"{0}\"/>\n", name);
-    const char* quad = mesh_.type == CellType::hex27 ? "quad9" : "quad4";
+    const char* quad = mesh_.cell().names.febio_facet;
     sets_ += fmt::format("    <Surface name=\"body_of_{}\">\n", name);
     for (std::size_t f = 0; f < c.facets.size(); ++f) {
       sets_ += fmt::format("      <{} id=\"{}\">", quad, f + 1);

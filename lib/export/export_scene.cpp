@@ -13,6 +13,7 @@
 #include "config/reader.hpp"
 #include "export/acting.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 #include "scene/scene.hpp"
 #include "scene/symmetry.hpp"
 
@@ -94,7 +95,7 @@ std::vector<Facet> outer_facets(const Mesh& mesh, const std::vector<int>& nodes)
   const std::set<int> may(nodes.begin(), nodes.end());
   std::map<std::array<int, 4>, std::pair<int, Facet>> seen;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; f < n_facets(mesh.type); ++f) {
+    for (int f = 0; f < mesh.cell().n_facets(); ++f) {
       const auto key = facet_key(mesh, {e, f});
       if (!std::all_of(key.begin(), key.end(), [&](int n) { return may.count(n) > 0; })) continue;
       auto& [times, facet] = seen[key];
@@ -174,8 +175,9 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     refuse(path, "", "a section",
            "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
   const SolveConfig config = config_of(header, path);
-  if (header.mesh.type == CellType::tet15)
-    refuse(path, "", "cells tet15", "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
+  if (!header.mesh.cell().names.febio)
+    refuse(path, "", fmt::format("cells {}", names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
+           "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
   Scene whole = make_scene(config, header.mesh, {}, nowhere);
   whole.fibres = header.fibres;
   leave_out_slack_families(whole, header.mesh);

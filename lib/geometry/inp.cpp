@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "geometry/exchange.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -369,7 +370,7 @@ std::string inp_text(const Mesh& mesh) {
   std::string s = "** a mesh of Langer; mm\n*NODE\n";
   for (int n = 0; n < mesh.n_nodes(); ++n) s += fmt::format("{}, {}, {}, {}\n", n + 1, mesh.X[n][0], mesh.X[n][1], mesh.X[n][2]);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    s += fmt::format("*ELEMENT, TYPE=C3D8, ELSET={}\n", quoted_name(mesh.bodies[b]));
+    s += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", mesh.cell().names.abaqus, quoted_name(mesh.bodies[b]));
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (mesh.body[e] != static_cast<int>(b)) continue;
       s += std::to_string(e + 1);

@@ -12,6 +12,7 @@
 #include "geometry/gmsh/load.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/raise.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -28,6 +29,14 @@ std::vector<Group> named(std::vector<Group> groups) {
   return groups;
 }
 
+// what cells of a type of gmsh's become: of those with its corners the one with the fewest nodes; none: no cell of ours
+const ReferenceCell* cell_of(int gmsh_type) {
+  const ReferenceCell* found = nullptr;
+  for (const ReferenceCell& cell : reference_cells())
+    if (cell.names.gmsh == gmsh_type && (!found || cell.n_nodes < found->n_nodes)) found = &cell;
+  return found;
+}
+
 class MshReader {
  public:
   MshReader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
@@ -35,10 +44,9 @@ class MshReader {
   Mesh made_of(const Model& model) {
     const char* expected = "8-node hexahedra only, or 4-node tetrahedra only";
     for (const Elements& of : model.cells)
-      if (of.type != hexahedron && of.type != tetrahedron) refuse("found cells of the kind " + of.name, expected);
+      if (!cell_of(of.type)) refuse("found cells of the kind " + of.name, expected);
     if (model.cells.size() != 1) refuse(model.cells.empty() ? "no cells" : "hexahedra beside tetrahedra", expected);
     const Elements& cells = model.cells[0];
-    const bool split = cells.type == tetrahedron;
 
     const std::vector<std::size_t>& tags = model.node_tags;
     std::map<std::size_t, std::size_t> place;  // by tag, ascending
@@ -54,16 +62,14 @@ class MshReader {
     std::vector<std::pair<std::size_t, std::size_t>> order;  // tag, place
     for (std::size_t e = 0; e < cells.tags.size(); ++e) order.emplace_back(cells.tags[e], e);
     std::sort(order.begin(), order.end());
-    const std::size_t n_corners = split ? 4 : 8;
+    const ReferenceCell& cell = *cell_of(cells.type);
+    const auto n_corners = static_cast<std::size_t>(cell.n_corners);
     std::vector<int> corners;
     for (const auto& [tag, e] : order) {
       cell_at_[tag] = static_cast<int>(corners.size() / n_corners);
       for (std::size_t a = 0; a < n_corners; ++a) corners.push_back(node_at_.at(cells.nodes[n_corners * e + a]));
     }
-    if (split)
-      mesh_ = raised_tetrahedra(mesh_.X, corners);
-    else
-      mesh_.connectivity = corners;
+    mesh_ = raised(mesh_.X, corners, cell.type);
     mesh_.body.assign(static_cast<std::size_t>(mesh_.n_cells()), -1);
     for (const Group& group : named(model.groups)) {
       if (group.dim == 3) add_body(group);
@@ -105,14 +111,14 @@ class MshReader {
   void add_facets(const Group& group) {
     if (facet_at_.empty())
       for (int e = mesh_.n_cells() - 1; e >= 0; --e)  // of two cells that share it the first
-        for (int f = 0; f < n_facets(mesh_.type); ++f) facet_at_[facet_key(mesh_, {e, f})] = {e, f};
+        for (int f = 0; f < mesh_.cell().n_facets(); ++f) facet_at_[facet_key(mesh_, {e, f})] = {e, f};
     std::vector<Facet> facets;
-    const bool triangles = mesh_.type == CellType::tet15;
-    const std::size_t n_corners = triangles ? 3 : 4;
+    const ReferenceCell& cell = mesh_.cell();
+    const auto n_corners = static_cast<std::size_t>(cell.facet_corners);
     for (const Elements& of : group.elements) {
-      if (of.type != (triangles ? triangle : quadrangle))
+      if (of.type != cell.names.gmsh_facet)
         refuse(fmt::format("the surface \"{}\" has faces of the kind {}", group.name, of.name),
-               triangles ? "triangles, the facets of tetrahedra" : "quadrangles, the facets of hexahedra");
+               fmt::format("{}, the facets of {}", cell.names.facet_shape, cell.names.shape));
       for (std::size_t i = 0; i < of.nodes.size(); i += n_corners) {
         std::array<int, 4> key{-1, -1, -1, -1};
         for (std::size_t k = 0; k < n_corners; ++k) {
@@ -151,7 +157,7 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
 }
 
 Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells, std::vector<std::string>& notes) {
-  const Model model = mesh_by_gmsh(path, facets, edge, cells != CellType::tet15);
+  const Model model = mesh_by_gmsh(path, facets, edge, reference(cells).hexahedron());
   MshReader reader(path, notes);
   if (!model.has_volumes) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
   return reader.made_of(model);
@@ -233,7 +239,7 @@ void add_elements(std::string& s, const Mesh& mesh, const MshParts& parts) {
     for (const auto& [sets, part] : of_one_dimension) ++n_parts, n_elements += part.elements.size();
   fmt::format_to(out, "$Elements\n{} {} 1 {}\n", n_parts, n_elements, n_elements);
   std::size_t next = n_cells;
-  for (const auto& [dim, type] : {std::pair{0, point}, {2, quadrangle}}) {
+  for (const auto& [dim, type] : {std::pair{0, point}, {2, mesh.cell().names.gmsh_facet}}) {
     int entity = 0;
     for (const auto& [sets, part] : parts.all[static_cast<std::size_t>(dim)]) {
       fmt::format_to(out, "{} {} {} {}\n", dim, ++entity, type, part.elements.size());
@@ -241,7 +247,8 @@ void add_elements(std::string& s, const Mesh& mesh, const MshParts& parts) {
     }
   }
   for (std::size_t b = 0; b < parts.volumes.size(); ++b) {
-    fmt::format_to(out, "3 {} {} {}\n", b + 1, hexahedron, std::count(mesh.body.begin(), mesh.body.end(), static_cast<int>(b)));
+    fmt::format_to(out, "3 {} {} {}\n", b + 1, mesh.cell().names.gmsh,
+                   std::count(mesh.body.begin(), mesh.body.end(), static_cast<int>(b)));
     for (std::size_t e = 0; e < n_cells; ++e)
       if (mesh.body[e] == static_cast<int>(b)) add_line(s, e + 1, mesh.cell(static_cast<int>(e)));
   }

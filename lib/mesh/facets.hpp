@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
-
-inline constexpr int n_facets(CellType type) { return type == CellType::tet15 ? 4 : 6; }
 
 // as mesh/reference.hpp orders them: corners counter-clockwise from outside, middles of edges, the middle
 std::vector<int> facet_nodes(const Mesh& mesh, const Facet& facet);

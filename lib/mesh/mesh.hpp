@@ -19,10 +19,12 @@
 
 namespace langer {
 
+// Whatever else depends on the type of a cell stands in its row, the reference cell (mesh/reference.hpp).
 enum class CellType { hex8, hex27, tet15 };
 constexpr auto names(CellType) { return std::array{"hex8", "hex27", "tet15"}; }
-constexpr const char* shape_name(CellType type) { return type == CellType::tet15 ? "tetrahedra" : "hexahedra"; }
 constexpr int nodes_per_cell(CellType type) { return std::array{8, 27, 15}[static_cast<std::size_t>(type)]; }
+struct ReferenceCell;
+const ReferenceCell& reference(CellType type);
 
 struct Facet {
   int cell = 0;
@@ -48,6 +50,7 @@ struct Mesh {
   std::map<std::string, std::vector<Facet>> facet_sets;
   std::optional<Section> section;
 
+  const ReferenceCell& cell() const { return reference(type); }
   int n_nodes() const { return static_cast<int>(X.size()); }
   int n_cells() const { return static_cast<int>(connectivity.size()) / nodes_per_cell(type); }
   std::span<const int> cell(int e) const {

@@ -59,7 +59,7 @@ std::vector<int> sorted_by_place(const std::vector<Vec3>& places, double unit) {
 namespace {
 
 void turn_cell(Mesh& mesh, int e, const Mat3& R) {
-  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& cell = mesh.cell();
   std::vector<int> nodes;
   for (const Vec3& xi : cell.node) nodes.push_back(mesh.cell(e)[node_at(cell, R * xi)]);
   std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + cell.n_nodes * e);

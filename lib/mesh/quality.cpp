@@ -20,7 +20,7 @@ namespace {
 Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
   Vec3 x = Vec3::Zero();
   const auto nodes = mesh.cell(cell);
-  const VecX N = reference(nodes_per_cell(mesh.type)).shape(xi);
+  const VecX N = mesh.cell().shape(xi);
   for (int a = 0; a < N.size(); ++a) x += N[a] * mesh.X[nodes[a]];
   return x;
 }
@@ -29,7 +29,7 @@ Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
 
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
   const auto nodes = mesh.cell(cell);
-  const Gradients dN = reference(nodes_per_cell(mesh.type)).gradient(xi);
+  const Gradients dN = mesh.cell().gradient(xi);
   Mat3 J = Mat3::Zero();
   for (int a = 0; a < dN.rows(); ++a) J += mesh.X[nodes[a]] * dN.row(a);
   return J;
@@ -38,7 +38,7 @@ Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
 namespace {
 
 double volume(const Mesh& mesh) {
-  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& cell = mesh.cell();
   double volume = 0;
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int g = 0; g < cell.n_gauss; ++g) volume += cell.weight[g] * jacobian(mesh, e, cell.gauss[g]).determinant();
@@ -52,7 +52,7 @@ Quality shapes(const Mesh& mesh, bool of_section) {
   const auto notice = [&](double det, int e, const Vec3& xi) {
     if (det < q.least_jacobian) q.least_jacobian = det, q.at_cell = e, q.at = position(mesh, e, xi);
   };
-  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& cell = mesh.cell();
   for (int e = 0; e < mesh.n_cells(); ++e) {
     for (int a = 0; a < cell.n_nodes; ++a) {
       const Mat3 J = jacobian(mesh, e, cell.node[a]);

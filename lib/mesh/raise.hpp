@@ -6,8 +6,9 @@
 
 namespace langer {
 
-Mesh raised(const Mesh& mesh, CellType to);                                           // of hex8
-Mesh raised_tetrahedra(const std::vector<Vec3>& X, const std::vector<int>& corners);  // four for each cell; becomes tet15
+// connectivity: the corners only, of as many for each cell as `to` has
+Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity, CellType to);
+Mesh raised(const Mesh& mesh, CellType to);  // of hex8
 
 // What draws straight-edged cells only sees those between neighbouring nodes: the mesh itself, eight hex8 for each hex27, four for each tet15, one
 // after the other. Nodes, positions and connectivity; bodies, frames and sets are left out.

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <initializer_list>
-#include <stdexcept>
+#include <numeric>
 
 namespace langer {
 
@@ -16,52 +16,75 @@ double slope(double node, double x) { return node == 0 ? -2 * x : x + 0.5 * node
 Vec3 point(const double* x) { return {x[0], x[1], x[2]}; }
 
 template <class Cell>
-ReferenceCell hexahedron(const double (*node)[3]) {
+ReferenceCell empty_row(const CellNames& names) {
   ReferenceCell cell;
-  cell.n_nodes = Cell::n_nodes, cell.n_gauss = Cell::n_gauss, cell.n_corners = 8;
+  cell.type = Cell::type, cell.names = names;
+  cell.n_nodes = Cell::n_nodes, cell.n_gauss = Cell::n_gauss;
   cell.shape = [](const Vec3& xi) -> VecX { return Cell::shape(xi); };
   cell.gradient = [](const Vec3& xi) -> Gradients { return Cell::gradient(xi); };
-  for (int a = 0; a < cell.n_nodes; ++a) cell.node.push_back(point(node[a])), cell.nearest_gauss.push_back(a);
-  // In hex27 the stress is best where 2 x 2 x 2 Gauss points would lie; a trilinear field fitted to all goes through there.
-  MatX at_gauss(cell.n_gauss, 8), at_nodes(cell.n_nodes, 8);
+  return cell;
+}
+
+// What follows from nodes and Gauss points; linear: a basis of the fields that stress is taken for. In hex27 the stress is best where 2 x 2 x 2 Gauss points would lie; a trilinear field
+// fitted to all goes through there.
+void add_values(ReferenceCell& cell, VecX (*linear)(const Vec3& xi)) {
+  MatX at_gauss(cell.n_gauss, cell.n_corners), at_nodes(cell.n_nodes, cell.n_corners);
   for (int g = 0; g < cell.n_gauss; ++g) {
-    const Vec3 xi = Cell::gauss(g);
-    cell.gauss.push_back(xi), cell.weight.push_back(Cell::weight(g));
+    const Vec3& xi = cell.gauss[g];
     cell.N.push_back(cell.shape(xi)), cell.dN.push_back(cell.gradient(xi));
-    at_gauss.row(g) = Hex8::shape(xi).transpose();
+    at_gauss.row(g) = linear(xi).transpose();
   }
-  for (int a = 0; a < cell.n_nodes; ++a) at_nodes.row(a) = Hex8::shape(cell.node[a]).transpose();
+  for (int a = 0; a < cell.n_nodes; ++a) at_nodes.row(a) = linear(cell.node[a]).transpose();
   const MatX weighted = at_gauss.transpose() * Eigen::Map<VecX>(cell.weight.data(), cell.n_gauss).asDiagonal();
   cell.at_nodes = at_nodes * (weighted * at_gauss).inverse() * weighted;
-  const auto node_at = [&](const Vec3& xi) {
-    for (int a = 0; a < cell.n_nodes; ++a)
-      if ((cell.node[a] - xi).norm() < 0.5) return a;
-    return -1;
-  };
+}
+
+int node_at(const ReferenceCell& cell, const Vec3& xi) {
+  for (int a = 0; a < cell.n_nodes; ++a)
+    if ((cell.node[a] - xi).norm() < 1e-9) return a;
+  return -1;
+}
+
+template <class Cell>
+ReferenceCell hexahedron(const double (*node)[3], double end_weight, const CellNames& names) {
+  ReferenceCell cell = empty_row<Cell>(names);
+  cell.n_corners = 8, cell.facet_corners = 4;
+  cell.corner_shape = [](const Vec3& xi) -> VecX { return Hex8::shape(xi); };
+  for (int a = 0; a < cell.n_nodes; ++a) cell.node.push_back(point(node[a])), cell.nearest_gauss.push_back(a);
+  for (int g = 0; g < cell.n_gauss; ++g) cell.gauss.push_back(Cell::gauss(g)), cell.weight.push_back(Cell::weight(g));
+  add_values(cell, cell.corner_shape);
+  const bool second_order = cell.second_order();
+  cell.layers = second_order ? 3 : 2;
   for (int a = 0; a < 8; ++a)
     for (int b = a + 1; b < 8; ++b)
       if ((cell.node[a] - cell.node[b]).norm() == 2) cell.edge.push_back({a, b});
   for (const auto& corners : Hex8::facet) {
     std::vector<int> nodes(corners, corners + 4);
     Vec3 middle = Vec3::Zero();
-    for (int k = 0; k < 4 && cell.n_nodes > 8; ++k) {
-      nodes.push_back(node_at((cell.node[corners[k]] + cell.node[corners[(k + 1) % 4]]) / 2));
+    for (int k = 0; k < 4 && second_order; ++k) {
+      nodes.push_back(node_at(cell, (cell.node[corners[k]] + cell.node[corners[(k + 1) % 4]]) / 2));
       middle += cell.node[corners[k]] / 4;
     }
-    if (cell.n_nodes > 8) nodes.push_back(node_at(middle));
+    if (second_order) nodes.push_back(node_at(cell, middle));
     cell.facet.push_back(nodes);
   }
   for (int f = 0; f < 6; ++f) {  // n x n Gauss points of the facet: a layer of those of the cell, moved onto its plane
     const int axis = f / 2;
-    const double side = f % 2 == 0 ? -1 : 1, layer = cell.n_nodes == 8 ? 1 : 5. / 9;
+    const double side = f % 2 == 0 ? -1 : 1;
     std::vector<FacetPoint>& points = cell.facet_points.emplace_back();
     for (int g = 0; g < cell.n_gauss; ++g) {
       Vec3 xi = cell.gauss[g];
       if (xi[axis] * side < 0.5) continue;
       xi[axis] = side;
-      points.push_back({xi, cell.weight[g] / layer, Vec3::Unit((axis + 1) % 3), Vec3::Unit((axis + 2) % 3)});
+      points.push_back({xi, cell.weight[g] / end_weight, Vec3::Unit((axis + 1) % 3), Vec3::Unit((axis + 2) % 3)});
     }
   }
+  for (int octant = 0; octant < 8; ++octant)
+    for (int corner = 0; corner < 8; ++corner)
+      if (second_order)
+        cell.parts.push_back(node_at(cell, (cell.node[octant] + cell.node[corner]) / 2));
+      else if (octant == 0)
+        cell.parts.push_back(corner);
   return cell;
 }
 
@@ -105,13 +128,27 @@ void to_nodes(Values& N) {
   }
 }
 
+// one at each corner, up to the middles of the edges, facets and cell; its neighbours in right-handed order
+void add_parts_of_tetrahedron(ReferenceCell& cell) {
+  constexpr int around[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+  const auto middle = [&](std::initializer_list<int> corners) {
+    Vec3 x = Vec3::Zero();
+    for (int c : corners) x += cell.node[c] / static_cast<double>(corners.size());
+    cell.parts.push_back(node_at(cell, x));
+  };
+  for (int i = 0; i < 4; ++i) {
+    const auto [j, k, l] = around[i];
+    middle({i}), middle({i, j}), middle({i, j, k}), middle({i, k});
+    middle({i, l}), middle({i, j, l}), middle({0, 1, 2, 3}), middle({i, k, l});
+  }
+}
+
 // 14 points of degree 5 with positive weights (N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000);
 // on facets the 7 points of degree 5 (J. Radon, 1948)
-ReferenceCell tetrahedron() {
-  ReferenceCell cell;
-  cell.n_nodes = Tet15::n_nodes, cell.n_gauss = Tet15::n_gauss, cell.n_corners = 4;
-  cell.shape = [](const Vec3& xi) -> VecX { return Tet15::shape(xi); };
-  cell.gradient = [](const Vec3& xi) -> Gradients { return Tet15::gradient(xi); };
+ReferenceCell tetrahedron(const CellNames& names) {
+  ReferenceCell cell = empty_row<Tet15>(names);
+  cell.n_corners = 4, cell.facet_corners = 3, cell.layers = 0;
+  cell.corner_shape = [](const Vec3& xi) -> VecX { return Eigen::Vector4d(1 - xi.sum(), xi[0], xi[1], xi[2]); };
   const Vec3 corner[4] = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   for (const Vec3& x : corner) cell.node.push_back(x);
   for (const auto& [a, b] : Tet15::edge) cell.node.push_back((corner[a] + corner[b]) / 2), cell.edge.push_back({a, b});
@@ -125,22 +162,15 @@ ReferenceCell tetrahedron() {
   constexpr double a = 0.045503704125649649492;
   for (const auto& [i, j] : Tet15::edge) add(Vec3::Constant(a) + (0.5 - 2 * a) * (corner[i] + corner[j]), 0.042546020777081466438);
 
-  MatX at_gauss(cell.n_gauss, 4), at_nodes(cell.n_nodes, 4);
-  for (int g = 0; g < cell.n_gauss; ++g) {
-    cell.N.push_back(cell.shape(cell.gauss[g])), cell.dN.push_back(cell.gradient(cell.gauss[g]));
-    at_gauss.row(g) << 1, cell.gauss[g].transpose();
-  }
+  add_values(cell, [](const Vec3& xi) -> VecX { return Eigen::Vector4d(1, xi[0], xi[1], xi[2]); });
   for (int n = 0; n < cell.n_nodes; ++n) {
-    at_nodes.row(n) << 1, cell.node[n].transpose();
     const auto distance = [&](int g) { return (cell.gauss[g] - cell.node[n]).norm(); };
     int nearest = 0;
     for (int g = 1; g < cell.n_gauss; ++g)
       if (distance(g) < distance(nearest) - 1e-12) nearest = g;
     cell.nearest_gauss.push_back(nearest);
   }
-  const MatX weighted = at_gauss.transpose() * Eigen::Map<VecX>(cell.weight.data(), cell.n_gauss).asDiagonal();
-  cell.at_nodes = at_nodes * (weighted * at_gauss).inverse() * weighted;
-
+  add_parts_of_tetrahedron(cell);
   for (int f = 0; f < 4; ++f) {
     const auto& corners = Tet15::facet[f];
     std::vector<int> nodes(corners, corners + 3);
@@ -161,6 +191,14 @@ ReferenceCell tetrahedron() {
     }
   }
   return cell;
+}
+
+// 0 to n - 1, and further ones
+std::vector<int> in_order(int n, std::initializer_list<int> further = {}) {
+  std::vector<int> nodes(static_cast<std::size_t>(n));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  nodes.insert(nodes.end(), further);
+  return nodes;
 }
 
 }  // namespace
@@ -204,16 +242,26 @@ Hex27::Gradient Hex27::gradient(const Vec3& xi) {
   return dN;
 }
 
+const std::vector<ReferenceCell>& reference_cells() {
+  static const std::vector<ReferenceCell> rows{
+      hexahedron<Hex8>(Hex8::corner, 1, {"hexahedra", "quadrangles", 12, "hexahedron", 5, 3, "C3D8", "hex8", "quad4", in_order(8)}),
+      hexahedron<Hex27>(Hex27::node, 5. / 9,
+                        {"hexahedra", "quadrangles", 29, "triquadratic hexahedron", 5, 3, nullptr, "hex27", "quad9",
+                         in_order(20, {22, 21, 23, 20, 24, 25, 26})}),
+      tetrahedron({"tetrahedra", "triangles", 71, "Lagrange tetrahedron", 4, 2, nullptr, nullptr, nullptr, {}}),
+  };
+  return rows;
+}
+
+const ReferenceCell& reference(CellType type) {
+  for (const ReferenceCell& cell : reference_cells())
+    if (cell.type == type) return cell;
+  throw std::logic_error("no reference cell of that type");
+}
+
 const ReferenceCell& reference(int n_nodes) {
-  static const ReferenceCell hex8 = hexahedron<Hex8>(Hex8::corner), hex27 = hexahedron<Hex27>(Hex27::node), tet15 = tetrahedron();
-  switch (n_nodes) {
-    case 8:
-      return hex8;
-    case 15:
-      return tet15;
-    case 27:
-      return hex27;
-  }
+  for (const ReferenceCell& cell : reference_cells())
+    if (cell.n_nodes == n_nodes) return cell;
   throw std::logic_error("no reference cell has " + std::to_string(n_nodes) + " nodes");
 }
 

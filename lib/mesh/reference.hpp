@@ -6,17 +6,22 @@
 //          every node of a facet has a positive share of a pressure on it (a quadratic facet's corners have none);
 //          corners, middles of the edges 01 12 02 03 13 23, of the facets, of the cell; 14 Gauss points, of degree 5
 // Gauss point g of a hexahedron lies towards node g.
+// A new type of cell: its struct and its word in `Cells` here, its tables in reference.cpp, its name in mesh.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <tuple>
 #include <vector>
 
-#include "tensor/types.hpp"
+#include "mesh/mesh.hpp"
 
 namespace langer {
 
 struct Hex8 {
+  static constexpr CellType type = CellType::hex8;
   static constexpr int n_nodes = 8;
   static constexpr int n_gauss = 8;
   static constexpr int n_dofs = 24;
@@ -52,6 +57,7 @@ struct Hex8 {
 };
 
 struct Hex27 {
+  static constexpr CellType type = CellType::hex27;
   static constexpr int n_nodes = 27;
   static constexpr int n_gauss = 27;
   static constexpr int n_dofs = 81;
@@ -76,6 +82,7 @@ struct Hex27 {
 };
 
 struct Tet15 {
+  static constexpr CellType type = CellType::tet15;
   static constexpr int n_nodes = 15;
   static constexpr int n_gauss = 14;
   static constexpr int n_dofs = 45;
@@ -99,15 +106,31 @@ struct FacetPoint {
   Vec3 along_1, along_2;
 };
 
+// What a cell, the one of first order with its corners, and its facets are called elsewhere; none: not written there.
+struct CellNames {
+  const char *shape, *facet_shape;  // "hexahedra", "quadrangles"
+  int vtk;
+  const char* vtk_word;
+  int gmsh, gmsh_facet;  // of first order, as meshes from files are
+  const char* abaqus;
+  const char *febio, *febio_facet;
+  std::vector<int> febio_order;  // our node by theirs
+};
+
 // Any of them as tables, for loops that do not care which.
 struct ReferenceCell {
+  CellType type;
+  CellNames names;
   int n_nodes, n_gauss, n_corners;  // corners are the first nodes
-  std::vector<Vec3> node, gauss;    // xi
+  int facet_corners;
+  int layers;                     // of nodes along zeta; 0 in a tetrahedron, whose edges stand for no direction
+  std::vector<Vec3> node, gauss;  // xi
   std::vector<double> weight;
   std::vector<VecX> N;        // at the Gauss points
   std::vector<Gradients> dN;  // dN_a/dxi_k there
   VecX (*shape)(const Vec3& xi);
   Gradients (*gradient)(const Vec3& xi);
+  VecX (*corner_shape)(const Vec3& xi);  // shape functions of the corners alone: trilinear, in a tetrahedron linear
   std::vector<std::array<int, 2>> edge;  // its corners
   std::vector<std::vector<int>> facet;   // nodes: the corners counter-clockwise from outside, then middles of edges in that
                                          // order, then the middle
@@ -115,8 +138,31 @@ struct ReferenceCell {
   MatX at_nodes;                   // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of Gauss
                                    // values, taken at the nodes
   std::vector<int> nearest_gauss;  // by node
+  std::vector<int> parts;          // hexahedra between neighbouring nodes that together are the cell, eight nodes for each
+
+  bool hexahedron() const { return layers > 0; }
+  bool second_order() const { return n_nodes > n_corners; }
+  int n_facets() const { return static_cast<int>(facet.size()); }
 };
 
-const ReferenceCell& reference(int n_nodes);  // which of them, its number of nodes says
+const std::vector<ReferenceCell>& reference_cells();
+const ReferenceCell& reference(int n_nodes);  // the one with so many
+
+using Cells = std::tuple<Hex8, Hex27, Tet15>;
+inline constexpr int most_nodes = std::apply([](auto... cell) { return std::max({decltype(cell)::n_nodes...}); }, Cells{});
+inline constexpr int most_gauss = std::apply([](auto... cell) { return std::max({decltype(cell)::n_gauss...}); }, Cells{});
+inline constexpr int most_dofs = 3 * most_nodes;
+
+// on(Hex8()), or whichever has so many nodes: for loops whose sizes the compiler must know
+template <class On>
+void with_cell(int n_nodes, const On& on) {
+  const auto is_it = [&](auto cell) {
+    if (decltype(cell)::n_nodes != n_nodes) return false;
+    on(cell);
+    return true;
+  };
+  if (!std::apply([&](auto... cell) { return (is_it(cell) || ...); }, Cells{}))
+    throw std::logic_error("no reference cell has " + std::to_string(n_nodes) + " nodes");
+}
 
 }  // namespace langer

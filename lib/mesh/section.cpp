@@ -17,14 +17,14 @@ double depth_at(const Section& section, const Vec3& X, double share) {
 }
 
 // local nodes of a cell: those with zeta = -1, and behind each the further ones
-std::vector<std::vector<int>> columns(CellType type) {
-  const auto& node = reference(nodes_per_cell(type)).node;
+std::vector<std::vector<int>> columns(const ReferenceCell& cell) {
+  const auto& node = cell.node;
   std::vector<std::vector<int>> columns;
   for (std::size_t a = 0; a < node.size(); ++a) {
     if (node[a][2] != -1) continue;
     std::vector<int> behind;
-    for (int k = 0; k < n_layers(type); ++k) {
-      const Vec3 xi(node[a][0], node[a][1], -1 + 2.0 * k / (n_layers(type) - 1));
+    for (int k = 0; k < cell.layers; ++k) {
+      const Vec3 xi(node[a][0], node[a][1], -1 + 2.0 * k / (cell.layers - 1));
       behind.push_back(static_cast<int>(std::find(node.begin(), node.end(), xi) - node.begin()));
     }
     columns.push_back(behind);
@@ -34,15 +34,14 @@ std::vector<std::vector<int>> columns(CellType type) {
 
 }  // namespace
 
-int n_layers(CellType type) { return type == CellType::hex8 ? 2 : 3; }
-int n_front(const Mesh& mesh) { return mesh.n_nodes() / n_layers(mesh.type); }
+int n_front(const Mesh& mesh) { return mesh.n_nodes() / mesh.cell().layers; }
 
 double cell_share(const Section& section) {
   return section.of == SectionOf::axisymmetric ? 2 * std::numbers::pi / section.depth : 1;
 }
 
 std::vector<Image> section_ties(const Mesh& mesh) {
-  const int n = n_front(mesh), layers = n_layers(mesh.type);
+  const int n = n_front(mesh), layers = mesh.cell().layers;
   const bool round = mesh.section->of == SectionOf::axisymmetric;
   std::vector<Image> ties;
   for (int i = 0; i < mesh.n_nodes(); ++i) {
@@ -54,10 +53,10 @@ std::vector<Image> section_ties(const Mesh& mesh) {
 }
 
 void make_section(Mesh& mesh, const Section& section) {
-  const int layers = n_layers(mesh.type);
+  const int layers = mesh.cell().layers;
   std::vector<int> front(mesh.X.size(), -1), layer(mesh.X.size(), 0);
   std::vector<Vec3> X;
-  const auto in_cell = columns(mesh.type);
+  const auto in_cell = columns(mesh.cell());
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (const auto& column : in_cell)
       for (int k = 0; k < layers; ++k) {
@@ -75,8 +74,8 @@ void make_section(Mesh& mesh, const Section& section) {
 
 std::string section_fault(const Mesh& mesh) {
   const Section& section = *mesh.section;
-  const int n = n_front(mesh), layers = n_layers(mesh.type);
-  if (mesh.type != CellType::hex8 && mesh.type != CellType::hex27) return "cells that are no hexahedra";
+  if (!mesh.cell().hexahedron()) return "cells that are no hexahedra";
+  const int n = n_front(mesh), layers = mesh.cell().layers;
   if (!(section.depth > 0 && std::isfinite(section.depth))) return fmt::format("a depth of {}", section.depth);
   if (mesh.n_nodes() != n * layers) return fmt::format("{} nodes in {} layers", mesh.n_nodes(), layers);
   for (int i = 0; i < mesh.n_nodes(); ++i) {
@@ -86,7 +85,7 @@ std::string section_fault(const Mesh& mesh) {
       return fmt::format("node {} is not behind node {}", i, i % n);
     if (section.of == SectionOf::axisymmetric && X[0] < 0) return fmt::format("node {} lies at the radius {} mm", i, X[0]);
   }
-  const auto in_cell = columns(mesh.type);
+  const auto in_cell = columns(mesh.cell());
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (const auto& column : in_cell)
       for (int k = 0; k < layers; ++k)
@@ -115,7 +114,7 @@ std::vector<int> in_front(const Mesh& mesh, const std::vector<int>& nodes) {
 
 Mesh as_plate(const Mesh& mesh) {
   Mesh plate = mesh;
-  const int n = n_front(mesh), layers = n_layers(mesh.type);
+  const int n = n_front(mesh), layers = mesh.cell().layers;
   for (int i = 0; i < mesh.n_nodes(); ++i) plate.X[i][2] = 2.0 * (i / n) / (layers - 1);
   plate.section.reset();
   return plate;

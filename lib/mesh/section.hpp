@@ -16,7 +16,6 @@
 
 namespace langer {
 
-int n_layers(CellType type);    // of nodes
 int n_front(const Mesh& mesh);  // nodes in z = 0
 double cell_share(const Section& section);
 std::vector<Image> section_ties(const Mesh& mesh);

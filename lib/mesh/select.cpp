@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -83,7 +84,7 @@ std::vector<int> select(const Mesh& mesh, const Selection& selection, const std:
 std::vector<Facet> boundary(const Mesh& mesh) {
   std::map<std::array<int, 4>, std::vector<Facet>> by_nodes;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; f < n_facets(mesh.type); ++f) by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
+    for (int f = 0; f < mesh.cell().n_facets(); ++f) by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
   std::vector<Facet> outer;
   for (const auto& [nodes, facets] : by_nodes)
     if (facets.size() == 1) outer.push_back(facets[0]);

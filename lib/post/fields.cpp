@@ -68,9 +68,7 @@ Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int
   return Mat3::Identity() + displacement_gradient(element_displacements(body.mesh(), u, e), dN);
 }
 
-Vec3 gauss_position(const Mesh& mesh, int e, int g) {
-  return element_nodes(mesh, e).transpose() * reference(nodes_per_cell(mesh.type)).N[g];
-}
+Vec3 gauss_position(const Mesh& mesh, int e, int g) { return element_nodes(mesh, e).transpose() * mesh.cell().N[g]; }
 
 void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss) {
   gauss.resize(static_cast<std::size_t>(body.mesh().n_cells()));
@@ -86,7 +84,7 @@ GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u) {
 VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at) {
   VecX sum = VecX::Zero(body.n_values());
   double V = 0;
-  const ReferenceCell& cell = reference(nodes_per_cell(body.mesh().type));
+  const ReferenceCell& cell = body.mesh().cell();
   for (const auto [e, a] : body.corners(node)) {
     const double w = body.geometry(e).V;
     const ElementValues& values = gauss[e];

@@ -12,7 +12,7 @@ namespace {
 // averages of the cells of one region at its nodes, (n, 6)
 std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int region) {
   const Mesh& mesh = body.mesh();
-  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& cell = mesh.cell();
   std::vector<Vec6> sum(mesh.X.size(), Vec6::Zero());
   std::vector<double> V(mesh.X.size(), 0);
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -34,7 +34,7 @@ double deviatoric(const Vec6& stress) { return std::pow(von_mises(tensor(stress)
 
 RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
   const Mesh& mesh = body.mesh();
-  const ReferenceCell& cell = reference(nodes_per_cell(mesh.type));
+  const ReferenceCell& cell = mesh.cell();
   const GaussValues gauss = gauss_values(body, u);
   int regions = 1;
   for (int e = 0; e < mesh.n_cells(); ++e) regions = std::max(regions, body.region(e) + 1);

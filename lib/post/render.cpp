@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -209,7 +210,7 @@ std::vector<Complaint> RenderChoice::complaints() const {
 std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept) {
   std::map<std::array<int, 4>, std::pair<int, Facet>> seen;  // how often, the last
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; kept[e] && f < n_facets(mesh.type); ++f) {
+    for (int f = 0; kept[e] && f < mesh.cell().n_facets(); ++f) {
       auto& entry = seen[facet_key(mesh, {e, f})];
       ++entry.first, entry.second = {e, f};
     }

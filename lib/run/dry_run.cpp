@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/say.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -55,7 +56,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
     say_line("solve: dry run, nothing is solved or written");
     line("body",
-         fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), shape_name(body.mesh().type),
+         fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().cell().names.shape,
                      body.mesh().n_nodes(), body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
     const int families = scene.families();
     line("fibres", families == 0 ? "off, not in the material"

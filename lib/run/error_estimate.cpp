@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "assembly/equilibrium.hpp"
 #include "base/interrupt.hpp"
+#include "mesh/reference.hpp"
 #include "post/fields.hpp"
 #include "post/recovery.hpp"
 #include "run/body_mesh.hpp"
@@ -96,7 +98,7 @@ SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
   Geometry& geometry = other.mesh->geometry;
   const double edge = *edge_in_contact_radii(geometry);
   const Lengths lengths = is_section(geometry) ? of_disc : of_block;
-  const bool quadratic = config.mesh->cells == CellType::hex27;
+  const bool quadratic = reference(config.mesh->cells).second_order();
   const bool locks = config.formulation == Formulation::displacement;  // and with it its limit on such cells
   rungs.own = !quadratic && !locks && edge <= lengths.fine_enough;
   if (!rungs.own) {

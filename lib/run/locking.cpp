@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/reference.hpp"
 #include "tensor/kinematics.hpp"
 
 namespace langer {
@@ -44,7 +45,8 @@ CellSums sums(const Equilibrium& body, const VecX& u, int e) {
 }  // namespace
 
 bool may_lock(Formulation formulation, CellType type) {
-  return formulation == Formulation::displacement || (formulation == Formulation::mean_dilatation && type != CellType::hex8);
+  return formulation == Formulation::displacement ||
+         (formulation == Formulation::mean_dilatation && reference(type).second_order());
 }
 
 Locking locking(const Equilibrium& body, const VecX& u) {

@@ -6,6 +6,7 @@
 #include "base/memory.hpp"
 #include "base/say.hpp"
 #include "base/stopwatch.hpp"
+#include "mesh/reference.hpp"
 
 namespace langer {
 
@@ -20,7 +21,7 @@ bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !s
 
 std::string sizes(const Run& run) {
   const Mesh& mesh = run.body.mesh();
-  return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), shape_name(mesh.type), mesh.n_nodes(),
+  return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), mesh.cell().names.shape, mesh.n_nodes(),
                      run.body.dofs().n_free(), names(run.body.formulation())[static_cast<int>(run.body.formulation())]);
 }
 

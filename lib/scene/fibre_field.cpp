@@ -13,6 +13,7 @@
 #include "base/csv_table.hpp"
 #include "config/formula.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 #include "store/h5.hpp"
 #include "store/units.hpp"
 
@@ -151,7 +152,7 @@ FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(i
   FibreJump jump;
   std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; f < n_facets(mesh.type); ++f) {
+    for (int f = 0; f < mesh.cell().n_facets(); ++f) {
       const std::array<int, 4> nodes = facet_key(mesh, {e, f});
       const auto [entry, is_new] = open.try_emplace(nodes, e);
       if (is_new) continue;

@@ -13,6 +13,7 @@
 #include "geometry/block.hpp"
 #include "geometry/exchange.hpp"
 #include "mesh/frames.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/select.hpp"
 
 namespace langer {
@@ -76,6 +77,8 @@ struct MeshConfig {
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found = std::visit([&](const auto& g) { return contradictions(g, positions()); }, geometry);
+    const ReferenceCell& cell = reference(cells);
+    const char* name = names(cells)[static_cast<std::size_t>(cells)];
     double thickness = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       thickness += bodies[i].thickness;
@@ -88,22 +91,23 @@ struct MeshConfig {
       if (!bodies.empty())
         found.push_back(
             {"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
-      if (cells == CellType::hex27) found.push_back({"cells", "found hex27", "hex8 or tet15, where geometry is a file", ""});
-      if (cells == CellType::tet15 && frames != Frames::global)
-        found.push_back(
-            {"frames", "found element_edges beside cells: tet15", "global: no edge of a tetrahedron stands for a direction", ""});
+      if (cell.hexahedron() && cell.second_order())
+        found.push_back({"cells", std::string("found ") + name, "hex8 or tet15, where geometry is a file", ""});
+      if (!cell.hexahedron() && frames != Frames::global)
+        found.push_back({"frames", std::string("found element_edges beside cells: ") + name,
+                         "global: no edge of a tetrahedron stands for a direction", ""});
     } else {
-      if (cells == CellType::tet15)
-        found.push_back(
-            {"cells", "found tet15", "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
+      if (!cell.hexahedron())
+        found.push_back({"cells", std::string("found ") + name,
+                         "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
       if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
         found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                          std::to_string(height) + " mm, the height of the geometry", ""});
     }
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
-    else if (!exports.empty() && cells != CellType::hex8)
-      found.push_back({"export", "found beside cells: " + std::string(names(cells)[static_cast<int>(cells)]), "cells: hex8", ""});
+    else if (!exports.empty() && !cell.names.abaqus)
+      found.push_back({"export", std::string("found beside cells: ") + name, "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
     for (const auto& [name, x] : points)

@@ -8,6 +8,7 @@
 
 #include "contact/surface_check.hpp"
 #include "geometry/read_surface.hpp"
+#include "mesh/reference.hpp"
 #include "scene/section.hpp"
 
 namespace langer {
@@ -141,7 +142,7 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
   Scene scene;
   Composer composer(mesh, where);
   scene.formulation = config.formulation.value_or(usual_formulation(mesh.type));
-  if (scene.formulation == Formulation::linear_dilatation && mesh.type == CellType::hex8)
+  if (scene.formulation == Formulation::linear_dilatation && !mesh.cell().second_order())
     composer.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
                                "mean_dilatation", "cells: hex27 in the mesh's config"});
   std::vector<Prescribed> prescribed;

@@ -192,7 +192,7 @@ void Statics::need_tangent() {
 // machine of 2020 (`langer-bench indentation`); what counts is their ratio.
 double Statics::price() const {
   const LinearSolver::Size size = factor_.linear().size();
-  const ReferenceCell& cell = reference(nodes_per_cell(equilibrium_.mesh().type));
+  const ReferenceCell& cell = equilibrium_.mesh().cell();
   const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss, n = cell.n_nodes;
   const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
   const double tangents = 4e-9 * points * n * n, forces = 15e-9 * points * n;

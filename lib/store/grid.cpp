@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mesh/facets.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 #include "store/units.hpp"
 
@@ -17,8 +17,6 @@ namespace langer {
 namespace {
 
 using Integers = std::vector<std::int64_t>;
-// hexahedron, triquadratic, Lagrange tetrahedron (of 15 points)
-constexpr std::uint8_t vtk_type(CellType type) { return std::array<std::uint8_t, 3>{12, 29, 71}[static_cast<std::size_t>(type)]; }
 constexpr const char* axes[3] = {"e_x", "e_y", "e_z"};
 
 void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape, const Integers& values) {
@@ -75,7 +73,7 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   Integers offsets(e + 1);
   for (std::size_t i = 0; i <= e; ++i) offsets[i] = static_cast<std::int64_t>(i * per_cell);
   write_integers(grid, "Offsets", {e + 1}, offsets);
-  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, vtk_type(mesh.type)));
+  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
 
   const h5::Group cells = grid.make_group("CellData");
   write_integers(cells, "body", {e}, {mesh.body.begin(), mesh.body.end()});
@@ -122,6 +120,16 @@ void read_section(const h5::Group& root, Mesh& mesh) {
   if (const std::string fault = section_fault(mesh); !fault.empty()) group.refuse("", fault, "one layer of cells behind z = 0");
 }
 
+CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) {
+  std::string known;
+  for (const ReferenceCell& cell : reference_cells()) {
+    if (std::all_of(types.begin(), types.end(), [&](std::uint8_t type) { return type == cell.names.vtk; })) return cell.type;
+    known += fmt::format("{}{} ({})", known.empty() ? "one of " : ", ", cell.names.vtk, cell.names.vtk_word);
+  }
+  const auto other = std::find_if(types.begin(), types.end(), [&](std::uint8_t type) { return type != types[0]; });
+  grid.refuse("Types", fmt::format("VTK cell type {}", other == types.end() ? types[0] : *other), known + "; one for all");
+}
+
 }  // namespace
 
 Mesh read_grid(const h5::Group& root) {
@@ -130,12 +138,7 @@ Mesh read_grid(const h5::Group& root) {
   const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints")),
                     e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
   const auto types = grid.read<std::uint8_t>("Types", {e}).values;
-  for (CellType type : {CellType::hex8, CellType::hex27, CellType::tet15})
-    if (types[0] == vtk_type(type)) mesh.type = type;
-  for (std::uint8_t type : types)
-    if (type != vtk_type(mesh.type))
-      grid.refuse("Types", fmt::format("VTK cell type {}", type),
-                  "12 (hexahedron), 29 (triquadratic hexahedron) or 71 (Lagrange tetrahedron), one for all");
+  mesh.type = type_of(grid, types);
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
   need_unit(grid, "Points", "mm");
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
@@ -157,10 +160,10 @@ Mesh read_grid(const h5::Group& root) {
     mesh.node_sets[name] = indices(nodes, name, {h5::any}, static_cast<std::int64_t>(n));
   for (const std::string& name : facets.datasets()) {
     const std::vector<int> pairs =
-        indices(facets, name, {h5::any, 2}, std::max(static_cast<std::int64_t>(e), std::int64_t{n_facets(mesh.type)}));
+        indices(facets, name, {h5::any, 2}, std::max(static_cast<std::int64_t>(e), std::int64_t{mesh.cell().n_facets()}));
     auto& set = mesh.facet_sets[name];
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
-      if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= n_facets(mesh.type))
+      if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= mesh.cell().n_facets())
         facets.refuse(name, fmt::format("cell {}, local facet {}", pairs[i], pairs[i + 1]), "a facet of this mesh");
       set.push_back({pairs[i], pairs[i + 1]});
     }

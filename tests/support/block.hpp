@@ -45,7 +45,7 @@ inline Mesh tetrahedra(const Mesh& hexahedra) {
   for (int e = 0; e < hexahedra.n_cells(); ++e)
     for (const auto& [a, b] : through)
       for (int local : {0, a, b, 6}) corners.push_back(hexahedra.cell(e)[static_cast<std::size_t>(local)]);
-  Mesh mesh = raised_tetrahedra(hexahedra.X, corners);
+  Mesh mesh = raised(hexahedra.X, corners, CellType::tet15);
   mesh.bodies = hexahedra.bodies, mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
   mesh.frames.assign(mesh.body.size(), Mat3::Identity());
   return mesh;
