@@ -107,35 +107,82 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, 
   return summary;
 }
 
-std::vector<Summary> post(const Job<PostConfig>& job) {
-  const PostConfig& config = job.config;
-  const Solution solution(job.input("solution"));
-  const SolutionHeader& header = solution.reader.header();
-  const Body& body = solution.body;
-  const std::vector<RigidContact> indenters = indenters_of(header);
+using Renders = std::map<std::string, std::pair<std::string, RenderChoice>>;  // name -> its key, how
 
-  Available available{!header.contact_nodes.empty(), indenters.size() == header.contact_nodes.size(), {}};
-  if (solution.reader.n_steps() > 0)
-    for (const auto& [name, value] : solution.reader.step(0).scalars) available.histories.push_back(name);
-  Measures shown = look_up(config.columns, "columns", body, available);
-  Measures further = look_up(config.further, "further", body, available);
-  std::vector<Complaint> complaints = std::move(shown.complaints);
-  complaints.insert(complaints.end(), further.complaints.begin(), further.complaints.end());
+Renders renders_of(const PostConfig& config) {
+  Renders renders;
+  if (config.render) renders["render"] = {"render", *config.render};
+  for (const auto& [name, choice] : config.renders) renders[name] = {"renders." + name, choice};
+  return renders;
+}
+
+std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders, const Body& body) {
+  std::vector<Complaint> complaints;
   for (const auto& [name, map] : config.maps)
     for (const Complaint& c : langer::complaints(map, body))
       complaints.push_back({"maps." + name + "." + c.key, c.found, c.expected, c.hint});
-  std::map<std::string, std::pair<std::string, RenderChoice>> renders;  // name -> its key, how
-  if (config.render) renders["render"] = {"render", *config.render};
-  for (const auto& [name, choice] : config.renders) renders[name] = {"renders." + name, choice};
+  const auto& sets = body.mesh().node_sets;
   for (const auto& [name, keyed] : renders) {
     const auto& [key, choice] = keyed;
     if (choice.field && line_of(*choice.field).needs.fibres && choice.family > body.n_families())
       complaints.push_back({key + ".family", "a fibre family that the material lacks", "another field", ""});
     for (std::size_t i = 0; i < choice.points.size(); ++i)
-      if (const auto set = header.mesh.node_sets.find(choice.points[i]);
-          set == header.mesh.node_sets.end() || set->second.size() != 1)
+      if (const auto set = sets.find(choice.points[i]); set == sets.end() || set->second.size() != 1)
         complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i], "an observation point of the mesh", ""});
   }
+  return complaints;
+}
+
+Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const Table& table, std::size_t n_shown) {
+  Curves curves;
+  curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(n_shown));
+  const Column& x = table.columns.front();
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
+    const Column& y = table.columns[c];
+    curves.curves.push_back({y.name, x.name, x.unit, y.name, y.unit, x.values, y.values});
+  }
+  for (const auto& [name, map] : job.config.maps) {
+    const StepState state = state_of(solution.record(table.row(job, "maps." + name + ".step", map.step)));
+    const auto values = picture_values(solution.body, state, map.field, map.family, job.config.stress);
+    curves.maps.push_back(surface_map(solution.body, map, name, values, state.t));
+  }
+  curves.summary = summary_of(job, table, curves.maps);
+  return curves;
+}
+
+Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& indenters, const StepState& state,
+                   const RenderChoice& choice, StressAt stress) {
+  const SolutionHeader& header = solution.reader.header();
+  RenderScene scene{header.mesh, header.mesh.X, {}, "", {}};
+  for (const RigidContact& indenter : indenters) scene.indenters.push_back(outline_at(indenter, state.t, shown_of(header.mesh)));
+  for (std::size_t i = 0; i < scene.x.size(); ++i) scene.x[i] += state.u[i];
+  for (const std::string& point : choice.points)
+    scene.points.push_back({point, scene.x[static_cast<std::size_t>(header.mesh.node_sets.at(point)[0])]});
+  if (choice.actions) scene.actions = actions_of(header, state.u);
+  if (choice.field) {
+    const QuantityLine& field = line_of(*choice.field);
+    scene.values = picture_values(solution.body, state, *choice.field, choice.family, stress);
+    scene.label = with_unit(field.label, field.unit);
+  }
+  return render(scene, choice);
+}
+
+std::vector<Summary> post(const Job<PostConfig>& job) {
+  const PostConfig& config = job.config;
+  const Solution solution(job.input("solution"));
+  const SolutionHeader& header = solution.reader.header();
+  const std::vector<RigidContact> indenters = indenters_of(header);
+  const std::vector<std::string> missing = indenters_missing(header, indenters);
+
+  Available available{!header.contact_nodes.empty(), missing.empty(), {}};
+  if (solution.reader.n_steps() > 0)
+    for (const auto& [name, value] : solution.reader.step(0).scalars) available.histories.push_back(name);
+  const Measures shown = look_up(config.columns, "columns", solution.body, available);
+  const Measures further = look_up(config.further, "further", solution.body, available);
+  const Renders renders = renders_of(config);
+  std::vector<Complaint> complaints = shown.complaints;
+  for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body)})
+    complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
 
   std::vector<Measure> measures = shown.measures;
@@ -146,26 +193,13 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
   std::map<std::string, int> pictured;
   for (const auto& [name, keyed] : renders) pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
-
-  Curves curves;
-  curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(shown.measures.size()));
-  const Column& x = table.columns.front();
-  for (std::size_t c = 1; c < table.columns.size(); ++c) {
-    const Column& y = table.columns[c];
-    curves.curves.push_back({y.name, x.name, x.unit, y.name, y.unit, x.values, y.values});
-  }
-  for (const auto& [name, map] : config.maps) {
-    const StepState state = state_of(solution.record(table.row(job, "maps." + name + ".step", map.step)));
-    const auto values = picture_values(body, state, map.field, map.family, config.stress);
-    curves.maps.push_back(surface_map(body, map, name, values, state.t));
-  }
-  curves.summary = summary_of(job, table, curves.maps);
+  Curves curves = curves_of(job, solution, table, shown.measures.size());
 
   // the main output comes last: once it is there, everything is
   const std::filesystem::path csv_file = std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
   for (int row : snapshots) {
-    const SnapshotFields fields = snapshot_fields(body, header, solution.record(row), config.stress);
+    const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
     write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity);
   }
   Pictures pictures(std::filesystem::path(job.output).parent_path().string());
@@ -178,21 +212,10 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
     pictures.draw(map.name, map_drawing({{"", &map}}, config.maps.at(map.name).style));
   }
-  for (const auto& [name, keyed] : renders) {
-    const RenderChoice& choice = keyed.second;
-    const StepState state = state_of(solution.record(pictured.at(name)));
-    RenderScene scene{header.mesh, header.mesh.X, {}, "", sphere_of(indenters, state.u_ind)};
-    for (std::size_t i = 0; i < scene.x.size(); ++i) scene.x[i] += state.u[i];
-    for (const std::string& point : choice.points)
-      scene.points.push_back({point, scene.x[static_cast<std::size_t>(header.mesh.node_sets.at(point)[0])]});
-    if (choice.actions) scene.actions = actions_of(header, state.u);
-    if (choice.field) {
-      const QuantityLine& field = line_of(*choice.field);
-      scene.values = picture_values(body, state, *choice.field, choice.family, config.stress);
-      scene.label = with_unit(field.label, field.unit);
-    }
-    pictures.draw(name, render(scene, choice));
-  }
+  for (const auto& [name, keyed] : renders)
+    pictures.draw(name, drawing_of(solution, indenters, state_of(solution.record(pictured.at(name))), keyed.second, config.stress));
+  for (const std::string& name : renders.empty() ? std::vector<std::string>{} : missing)
+    job.say("not drawn: the indenter \"{}\", whose shape is no part of the solution", name);
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace langer {
@@ -109,6 +111,47 @@ ShapePoint Facets::at(const Vec3& x) const {
   else if (near.feature == 1)
     p.curvature = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) / (near.sign * distance);
   return p;
+}
+
+double Facets::half_width() const {
+  std::array<double, 3> width;
+  for (int k = 0; k < 3; ++k) {  // what is nearest from far away is the farthest in that direction
+    const Vec3 far = 1e9 * Vec3::Unit(k);
+    width[k] = 0.5 * (tree->nearest(far).point - tree->nearest(-far).point)[k];
+  }
+  std::sort(width.begin(), width.end());
+  return width[1] + rounding;
+}
+
+// Triangles moved out by the rounding, between them strips along edges and polygons at corners, all with their corners on the surface.
+Outline Facets::outline(const Shown&) const {
+  const Triangles& t = tree->triangles();
+  Outline out;
+  std::map<std::array<int, 2>, std::array<int, 2>> ends_of;  // of a side, as its triangle goes round: the moved ends
+  std::vector<std::vector<int>> at_corner(t.points.size());
+  for (const auto& c : t.corners) {
+    const Vec3 n = (t.points[c[1]] - t.points[c[0]]).cross(t.points[c[2]] - t.points[c[0]]).normalized();
+    const int first = static_cast<int>(out.points.size());
+    for (int k = 0; k < 3; ++k) {
+      out.points.push_back(t.points[c[k]] + rounding * n), at_corner[c[k]].push_back(first + k);
+      ends_of[{c[k], c[(k + 1) % 3]}] = {first + k, first + (k + 1) % 3};
+    }
+    out.faces.push_back({first, first + 1, first + 2});
+  }
+  for (const auto& [side, ends] : ends_of)
+    if (const auto other = ends_of.find({side[1], side[0]}); side[0] < side[1] && other != ends_of.end())
+      out.faces.push_back({ends[1], ends[0], other->second[1], other->second[0]});
+  for (std::size_t p = 0; p < t.points.size(); ++p) {
+    std::vector<int>& moved = at_corner[p];
+    Vec3 out_of = Vec3::Zero();
+    for (int i : moved) out_of += out.points[i] - t.points[p];
+    if (moved.size() < 3 || out_of.norm() < 1e-9 * rounding) continue;
+    const Vec3 a = out_of.unitOrthogonal(), b = out_of.normalized().cross(a);
+    const auto angle = [&](int i) { return std::atan2(b.dot(out.points[i] - t.points[p]), a.dot(out.points[i] - t.points[p])); };
+    std::sort(moved.begin(), moved.end(), [&](int i, int j) { return angle(i) < angle(j); });
+    out.faces.push_back(moved);
+  }
+  return out;
 }
 
 }  // namespace langer

@@ -28,6 +28,7 @@ class TriangleTree {
     Vec3 direction;  // of the edge, or normal of the face
   };
   Nearest nearest(const Vec3& x) const;
+  const Triangles& triangles() const { return t_; }
 
  private:
   struct Box {
@@ -54,6 +55,10 @@ struct Facets {
     v(&Facets::move, "move", unit::mm, "added to the file's positions after scaling");
   }
   ShapePoint at(const Vec3& x) const;
+  bool unchanged_by(const Isometry&) const { return false; }  // its triangles are not compared
+  Outline outline(const Shown& shown) const;
+  double half_width() const;
+  std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }
 };
 
 }  // namespace langer

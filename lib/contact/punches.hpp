@@ -46,6 +46,10 @@ struct Cylinder {
     }
     return {distance - edge, n, curvature};
   }
+  bool unchanged_by(const Isometry& op) const { return stays(vec(face), op) && keeps_direction(vec(axis), op); }
+  Outline outline(const Shown& shown) const;
+  double half_width() const { return radius; }
+  std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * vec(axis).normalized()); }
 
  private:
   // curvature round the axis: n_rho / rho in the direction of the circle
@@ -77,6 +81,17 @@ struct Ellipsoid {
     p.curvature = S * inverse(Mat3::Identity() + p.gap * S);
     return p;
   }
+  bool unchanged_by(const Isometry& op) const {
+    const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal();
+    return stays(vec(centre), op) && (op.turn * H * op.turn.transpose() - H).norm() <= same_place * H.norm();
+  }
+  Outline outline(const Shown& shown) const;
+  double half_width() const {
+    std::array<double, 3> h = half_axes;
+    std::sort(h.begin(), h.end());
+    return h[1];
+  }
+  std::optional<Vec3> inside() const { return vec(centre); }
 
  private:
   // nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t + h_i^2))^2 = 1

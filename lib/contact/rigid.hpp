@@ -1,6 +1,7 @@
 // Rigid indenters as exact shapes. Positions are relative to the indenter: x - u_ind, with u_ind its displacement.
 #pragma once
 
+#include <limits>
 #include <variant>
 
 #include "base/fields.hpp"
@@ -25,6 +26,10 @@ struct Sphere {
     const Vec3 n = q / distance;
     return {distance - radius, n, tangent_projection(n) / distance};
   }
+  bool unchanged_by(const Isometry& op) const { return stays(vec(centre), op); }
+  Outline outline(const Shown& shown) const;
+  double half_width() const { return radius; }
+  std::optional<Vec3> inside() const { return vec(centre); }
 };
 
 struct Plane {
@@ -39,6 +44,13 @@ struct Plane {
     const Vec3 n = vec(outward).normalized();
     return {n.dot(x - vec(point)), n, Mat3::Zero()};
   }
+  bool unchanged_by(const Isometry& op) const {
+    const Vec3 p = vec(point), n = vec(outward).normalized();
+    return keeps_direction(n, op) && std::abs(n.dot(op(p) - p)) <= same_place * (1 + p.norm());
+  }
+  Outline outline(const Shown& shown) const;
+  double half_width() const { return std::numeric_limits<double>::infinity(); }
+  std::optional<Vec3> inside() const { return std::nullopt; }
   std::vector<Complaint> complaints() const {
     if (vec(outward).norm() > 0) return {};
     return {{"normal", "[0, 0, 0]", "a direction", ""}};
@@ -47,8 +59,26 @@ struct Plane {
 
 using Indenter = std::variant<Sphere, Plane, Cylinder, Ellipsoid, Facets>;
 
+template <class... S>
+constexpr bool all_are_shapes(const std::variant<S...>*) {
+  return (Shape<S> && ...);
+}
+static_assert(all_are_shapes(static_cast<const Indenter*>(nullptr)), "contact/shape.hpp says what a shape has to answer");
+
 inline ShapePoint shape_at(const Indenter& shape, const Vec3& x) {
   return std::visit([&](const auto& s) { return s.at(x); }, shape);
+}
+inline bool unchanged_by(const Indenter& shape, const Isometry& op) {
+  return std::visit([&](const auto& s) { return s.unchanged_by(op); }, shape);
+}
+inline Outline outline(const Indenter& shape, const Shown& shown) {
+  return std::visit([&](const auto& s) { return s.outline(shown); }, shape);
+}
+inline double half_width(const Indenter& shape) {
+  return std::visit([](const auto& s) { return s.half_width(); }, shape);
+}
+inline std::optional<Vec3> point_inside(const Indenter& shape) {
+  return std::visit([](const auto& s) { return s.inside(); }, shape);
 }
 
 }  // namespace langer

@@ -1,9 +1,17 @@
-// What contact needs to know of a rigid shape at a point x of space.
-//   gap     signed distance, > 0 outside [mm]
-//   normal  gradient of the gap: from the shape to the body
-//   curvature  dn/dx (3,3), symmetric, curvature n = 0: curvature of the surface of constant gap through x [1/mm]
+// What a rigid shape answers for itself. A new one: a struct with these members in a file of its own, and its word in the list of
+// contact/rigid.hpp.
+//   at(x)             gap: signed distance, > 0 outside [mm]; normal: gradient of the gap, from the shape to the body;
+//                     curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of constant gap through x [1/mm]
+//   unchanged_by(op)  the shape is its own image; false where it cannot tell
+//   outline(shown)    its surface, for pictures
+//   half_width()      half the width of a shape that has an end everywhere, infinite without [mm]
+//   inside()          a point inside of such a shape
 #pragma once
 
+#include <concepts>
+#include <optional>
+
+#include "contact/outline.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -12,6 +20,26 @@ struct ShapePoint {
   double gap = 0;
   Vec3 normal = Vec3::UnitY();
   Mat3 curvature = Mat3::Zero();
+};
+
+// x -> centre + turn (x - centre), turn orthogonal: a turn or a mirror image
+struct Isometry {
+  Mat3 turn = Mat3::Identity();
+  Vec3 centre = Vec3::Zero();
+  Vec3 operator()(const Vec3& x) const { return centre + turn * (x - centre); }
+};
+inline constexpr double same_place = 1e-9;  // relative
+inline bool stays(const Vec3& x, const Isometry& op) { return (op(x) - x).norm() <= same_place * (1 + x.norm()); }
+inline bool keeps_direction(const Vec3& d, const Isometry& op) { return (op.turn * d - d).norm() <= same_place * d.norm(); }
+
+template <class S>
+concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, const Shown& shown) {
+  { S::key } -> std::convertible_to<const char*>;
+  { shape.at(x) } -> std::same_as<ShapePoint>;
+  { shape.unchanged_by(op) } -> std::same_as<bool>;
+  { shape.outline(shown) } -> std::same_as<Outline>;
+  { shape.half_width() } -> std::same_as<double>;
+  { shape.inside() } -> std::same_as<std::optional<Vec3>>;
 };
 
 inline Mat3 tangent_projection(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }

@@ -41,41 +41,12 @@ double radius_of(const ShapePoint& p) {
   return curvature > 0 ? std::max(0.0, 1 / curvature - p.gap) : std::numeric_limits<double>::infinity();
 }
 
-// a point inside of a shape that has an end everywhere
-std::optional<Vec3> point_inside(const Indenter& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return vec(s->centre);
-  if (const auto* s = std::get_if<Ellipsoid>(&shape)) return vec(s->centre);
-  if (const auto* s = std::get_if<Cylinder>(&shape)) return Vec3(vec(s->face) + s->edge * vec(s->axis).normalized());
-  if (const auto* s = std::get_if<Facets>(&shape)) return s->tree->nearest(Vec3::Zero()).point;
-  return std::nullopt;
-}
-
 double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, signed
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace
-
-double half_width(const Indenter& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
-  if (const auto* s = std::get_if<Cylinder>(&shape)) return s->radius;
-  if (const auto* s = std::get_if<Ellipsoid>(&shape)) {
-    std::array<double, 3> h = s->half_axes;
-    std::sort(h.begin(), h.end());
-    return h[1];
-  }
-  if (const auto* s = std::get_if<Facets>(&shape)) {
-    std::array<double, 3> width;
-    for (int k = 0; k < 3; ++k) {  // what is nearest from far away is the farthest in that direction
-      const Vec3 far = 1e9 * Vec3::Unit(k);
-      width[k] = 0.5 * (s->tree->nearest(far).point - s->tree->nearest(-far).point)[k];
-    }
-    std::sort(width.begin(), width.end());
-    return width[1] + s->rounding;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size(), 0) {
   const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();

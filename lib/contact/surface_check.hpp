@@ -32,9 +32,6 @@ struct SurfaceLook {
   double pressed = 0;        // how much further than the rest the boundary is pushed along the indenter's force
 };
 
-// Half the width of a shape that has an end everywhere, infinite without.
-double half_width(const Indenter& shape);
-
 class SurfaceCheck {
  public:
   explicit SurfaceCheck(const Mesh& mesh);  // refers to the mesh

@@ -48,35 +48,6 @@ struct Page {
   PagePoint operator()(const Vec3& seen) const { return {left + scale * seen[0], top - scale * seen[1]}; }
 };
 
-// The sphere in patches between circles about `pole`, up to where a plane cuts it off, and last the disc in that plane.
-std::vector<std::vector<Vec3>> ball_patches(const Ball& ball, const std::vector<Cut>& cuts) {
-  constexpr int rings = 48, sectors = 96;
-  const auto cut = std::find_if(cuts.begin(), cuts.end(),
-                                [&](const Cut& c) { return std::abs(c.at - ball.centre[static_cast<int>(c.axis)]) < ball.radius; });
-  const bool is_cut = cut != cuts.end();
-  const int axis = is_cut ? static_cast<int>(cut->axis) : 1;
-  const double side = is_cut && cut->keep == Side::above ? 1 : -1;
-  Vec3 pole = Vec3::Zero();
-  pole[axis] = side;
-  const Vec3 s = Vec3::Unit((axis + 1) % 3), t = pole.cross(s);
-  // angle from the pole at which the kept part ends
-  const double end = is_cut ? std::acos(side * (cut->at - ball.centre[axis]) / ball.radius) : std::numbers::pi;
-  const auto point = [&](int ring, int sector) {
-    const double theta = end * ring / rings, phi = 2 * std::numbers::pi * sector / sectors;
-    return Vec3(ball.centre + ball.radius * (std::cos(theta) * pole + std::sin(theta) * (std::cos(phi) * s + std::sin(phi) * t)));
-  };
-  std::vector<std::vector<Vec3>> patches;
-  for (int ring = 0; ring < rings; ++ring)
-    for (int sector = 0; sector < sectors; ++sector)
-      patches.push_back({point(ring, sector), point(ring + 1, sector), point(ring + 1, sector + 1), point(ring, sector + 1)});
-  if (is_cut) {
-    std::vector<Vec3> disc;
-    for (int sector = sectors; sector > 0; --sector) disc.push_back(point(rings, sector));
-    patches.push_back(disc);
-  }
-  return patches;
-}
-
 Vec3 normal_of(const std::vector<Vec3>& corners) {  // Newell's sum: also of polygons that are not plane
   Vec3 n = Vec3::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) n += corners[i].cross(corners[(i + 1) % corners.size()]);
@@ -223,69 +194,91 @@ std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vecto
   return surface;
 }
 
-Drawing render(const RenderScene& scene, const RenderChoice& choice) {
-  const Mesh& mesh = scene.mesh;
-  const Mat3 R = eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
+namespace {
+
+std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
   std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
-  for (const Cut& cut : choice.cuts)
+  for (const Cut& cut : cuts)
     for (int e = 0; e < mesh.n_cells(); ++e) {
       const double centre = element_nodes(mesh, e).col(static_cast<int>(cut.axis)).mean();
       if ((centre > cut.at) != (cut.keep == Side::above)) kept[e] = false;
     }
+  return kept;
+}
 
-  std::vector<Vec3> seen;
-  for (const Vec3& x : scene.x) seen.push_back(R * x);
+// by the first plane that meets it
+OpenedOutline opened(const Outline& outline, const std::vector<Cut>& cuts) {
+  for (const Cut& cut : cuts) {
+    const int axis = static_cast<int>(cut.axis);
+    const auto below = [&](const Vec3& x) { return x[axis] < cut.at; };
+    const auto n = std::count_if(outline.points.begin(), outline.points.end(), below);
+    if (n > 0 && n < static_cast<std::ptrdiff_t>(outline.points.size()))
+      return cut_open(outline, axis, cut.at, cut.keep == Side::above ? 1 : -1);
+  }
+  return {outline, {}};
+}
+
+// What is painted, in the eye's axes.
+struct Seen {
   struct Quad {
     std::array<int, 4> nodes;
     std::vector<Vec3> corners;
   };
-  std::vector<Quad> quads;
+  Mat3 R;
+  std::vector<Quad> quads;  // of the body, those that face the eye
+  std::vector<OpenedOutline> indenters;
+  std::vector<std::array<int, 2>> outline;  // of the undeformed body
   Eigen::AlignedBox3d box;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const auto& nodes : outer_surface(mesh, kept)) {
-    const std::vector<Vec3> corners{seen[nodes[0]], seen[nodes[1]], seen[nodes[2]], seen[nodes[3]]};
-    for (const Vec3& c : corners) box.extend(c);
+  double extent = 1;
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();  // of the field
+  bool coloured = false;
+};
+
+void look_at_indenters(const RenderScene& scene, const RenderChoice& choice, Seen& seen) {
+  for (const Outline& indenter : scene.indenters) {
+    OpenedOutline& part = seen.indenters.emplace_back(opened(indenter, choice.cuts));
+    for (Outline* outline : {&part.kept, &part.cap})
+      for (Vec3& x : outline->points) x = seen.R * x, seen.box.extend(x);
+  }
+}
+
+Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
+  const Mesh& mesh = scene.mesh;
+  Seen seen;
+  const Mat3& R = seen.R = eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
+  std::vector<Vec3> x;
+  for (const Vec3& place : scene.x) x.push_back(R * place);
+  for (const auto& nodes : outer_surface(mesh, cells_kept(mesh, choice.cuts))) {
+    const std::vector<Vec3> corners{x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]};
+    for (const Vec3& c : corners) seen.box.extend(c);
     if (normal_of(corners)[2] <= 0) continue;
     if (!scene.values.empty())
-      for (int node : nodes) low = std::min(low, scene.values[node]), high = std::max(high, scene.values[node]);
-    quads.push_back({nodes, corners});
+      for (int node : nodes) seen.low = std::min(seen.low, scene.values[node]), seen.high = std::max(seen.high, scene.values[node]);
+    seen.quads.push_back({nodes, corners});
   }
-  std::vector<std::vector<Vec3>> ball;
-  if (scene.ball) ball = ball_patches(*scene.ball, choice.cuts);
-  for (auto& patch : ball)
-    for (Vec3& corner : patch) corner = R * corner, box.extend(corner);
-  std::vector<std::array<int, 2>> outline;
+  look_at_indenters(scene, choice, seen);
   if (choice.outline) {
-    outline = sharp_edges(outer_surface(mesh, std::vector<bool>(kept.size(), true)), mesh.X);
-    for (const auto& edge : outline)
-      for (int node : edge) box.extend(Vec3(R * mesh.X[node]));
+    seen.outline = sharp_edges(outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true)), mesh.X);
+    for (const auto& edge : seen.outline)
+      for (int node : edge) seen.box.extend(Vec3(R * mesh.X[node]));
   }
-  const double extent = box.isEmpty() ? 1 : box.sizes().norm();
+  seen.extent = seen.box.isEmpty() ? 1 : seen.box.sizes().norm();
   for (const Action& action : scene.actions)
-    for (const Vec3& x : action.at) {
-      const auto [from, to] = arrow_of(action, x, extent);
-      const Vec3 far = R * Vec3(action.moves ? to : from), label(0.11 * extent, 0.04 * extent, 0);
-      box.extend(far), box.extend(far + label), box.extend(far - label);
+    for (const Vec3& at : action.at) {
+      const auto [from, to] = arrow_of(action, at, seen.extent);
+      const Vec3 far = R * Vec3(action.moves ? to : from), label(0.11 * seen.extent, 0.04 * seen.extent, 0);
+      seen.box.extend(far), seen.box.extend(far + label), seen.box.extend(far - label);
     }
-  if (choice.range) low = (*choice.range)[0], high = (*choice.range)[1];
-  const bool coloured = !scene.values.empty() && low <= high;  // nothing to be seen, no colour bar
-  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) low -= 0.5, high += 0.5;  // one value everywhere
+  if (choice.range) seen.low = (*choice.range)[0], seen.high = (*choice.range)[1];
+  seen.coloured = !scene.values.empty() && seen.low <= seen.high;  // nothing to be seen, no colour bar
+  if (!(seen.high - seen.low > 1e-12 * std::max(std::abs(seen.low), std::abs(seen.high))))
+    seen.low -= 0.5, seen.high += 0.5;  // one value everywhere
+  return seen;
+}
 
-  const double title_room = choice.title.empty() ? 0 : 40;
-  const double room = page_width - bar_room - 2 * margin, tallest = 640;
-  const Vec3 size = box.isEmpty() ? Vec3(1, 1, 1) : Vec3(box.sizes());
-  Page page;
-  page.scale = std::min(room / size[0], tallest / size[1]);
-  Drawing drawing;
-  drawing.width = page_width;
-  drawing.height = std::round(std::max(400.0, page.scale * size[1] + 2 * margin + title_room));
-  const Vec3 middle = box.isEmpty() ? Vec3(0, 0, 0) : Vec3(box.center());
-  page.left = margin + room / 2 - page.scale * middle[0];
-  page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
-
-  std::vector<Item> items;
-  const int m = std::clamp(static_cast<int>(std::sqrt(most_patches / std::max<double>(1, quads.size()))), 1, 6);
-  for (const Quad& quad : quads) {
+void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, std::vector<Item>& items) {
+  const int m = std::clamp(static_cast<int>(std::sqrt(most_patches / std::max<double>(1, seen.quads.size()))), 1, 6);
+  for (const Seen::Quad& quad : seen.quads) {
     Item item{mean_depth(quad.corners), {}};
     const double s = shade(normal_of(quad.corners));
     const auto weights = [](double p, double q) { return std::array{(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q}; };
@@ -296,15 +289,15 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
       return page(x);
     };
     const auto colour_at = [&](double p, double q) {
-      if (!coloured) return shaded(paper, s);
+      if (!seen.coloured) return shaded(paper, s);
       const auto N = weights(p, q);
       double value = 0;
       for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
-      return shaded(scale_colour((value - low) / (high - low)), s);
+      return shaded(scale_colour((value - seen.low) / (seen.high - seen.low)), s);
     };
     // below the parts of a quad the quad itself, so that the page does not shine through between them
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
-    for (int i = 0; i < m && m > 1 && coloured; ++i)
+    for (int i = 0; i < m && m > 1 && seen.coloured; ++i)
       for (int j = 0; j < m; ++j) {
         const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m, q1 = double(j + 1) / m;
         item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)}, colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
@@ -312,26 +305,64 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
     item.marks.push_back(Stroke{{at(0, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0)}, ink, 0.7, 0.8});
     items.push_back(std::move(item));
   }
-  for (const auto& patch : ball) {
-    const Vec3 n = normal_of(patch);
-    if (n[2] <= 0) continue;
-    std::vector<PagePoint> corners;
-    for (const Vec3& corner : patch) corners.push_back(page(corner));
-    Item item{mean_depth(patch), {Patch{corners, shaded(steel, 0.35 + 0.65 * light(n)), 0.5}}};
-    if (corners.size() > 4) {  // the disc where the sphere is cut
-      corners.push_back(corners.front());
-      item.marks = {Patch{corners, Colour{0.88, 0.89, 0.91}}, Stroke{corners, ink, 0.8}};
-    }
-    items.push_back(std::move(item));
+}
+
+void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector<Item>& items) {
+  const auto at = [](const Outline& outline, const std::vector<int>& line) {
+    std::vector<Vec3> corners;
+    for (int p : line) corners.push_back(outline.points[p]);
+    return corners;
+  };
+  const auto on_page = [&](const std::vector<Vec3>& corners) {
+    std::vector<PagePoint> points;
+    for (const Vec3& corner : corners) points.push_back(page(corner));
+    return points;
+  };
+  for (const auto& face : indenter.kept.faces) {
+    const std::vector<Vec3> corners = at(indenter.kept, face);
+    const Vec3 n = normal_of(corners);
+    if (n[2] > 0) items.push_back({mean_depth(corners), {Patch{on_page(corners), shaded(steel, 0.35 + 0.65 * light(n)), 0.5}}});
   }
+  for (const auto& face : indenter.cap.faces) {
+    const std::vector<Vec3> corners = at(indenter.cap, face);
+    if (normal_of(corners)[2] <= 0) continue;
+    std::vector<PagePoint> border = on_page(corners);
+    border.push_back(border.front());
+    items.push_back({mean_depth(corners), {Patch{border, Colour{0.88, 0.89, 0.91}}, Stroke{border, ink, 0.8}}});
+  }
+  for (const auto& line : indenter.kept.lines) {
+    const std::vector<Vec3> points = at(indenter.kept, line);
+    items.push_back({mean_depth(points), {Stroke{on_page(points), grey, 1}}});
+  }
+}
+
+}  // namespace
+
+Drawing render(const RenderScene& scene, const RenderChoice& choice) {
+  const Seen seen = look_at(scene, choice);
+  const double title_room = choice.title.empty() ? 0 : 40;
+  const double room = page_width - bar_room - 2 * margin, tallest = 640;
+  const Vec3 size = seen.box.isEmpty() ? Vec3(1, 1, 1) : Vec3(seen.box.sizes());
+  Page page;
+  page.scale = std::min(room / size[0], tallest / size[1]);
+  Drawing drawing;
+  drawing.width = page_width;
+  drawing.height = std::round(std::max(400.0, page.scale * size[1] + 2 * margin + title_room));
+  const Vec3 middle = seen.box.isEmpty() ? Vec3(0, 0, 0) : Vec3(seen.box.center());
+  page.left = margin + room / 2 - page.scale * middle[0];
+  page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
+
+  std::vector<Item> items;
+  paint_body(scene, seen, page, items);
+  for (const OpenedOutline& indenter : seen.indenters) paint_indenter(indenter, page, items);
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
   for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
-  for (const auto& edge : outline)
-    drawing.marks.push_back(Stroke{{page(R * mesh.X[edge[0]]), page(R * mesh.X[edge[1]])}, grey, 1.3});
-  add_actions(drawing, scene, R, page, extent);
-  add_points(drawing, scene, R, page);
-  if (coloured) add_colour_bar(drawing, title_room, low, high, scene.label);
-  add_axes(drawing, R);
+  for (const auto& edge : seen.outline)
+    drawing.marks.push_back(Stroke{{page(seen.R * scene.mesh.X[edge[0]]), page(seen.R * scene.mesh.X[edge[1]])}, grey, 1.3});
+  add_actions(drawing, scene, seen.R, page, seen.extent);
+  add_points(drawing, scene, seen.R, page);
+  if (seen.coloured) add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label);
+  add_axes(drawing, seen.R);
   if (!choice.title.empty()) drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});
   return drawing;
 }

@@ -1,8 +1,8 @@
 // A picture of the deformed body: its outer surface in orthographic projection, coloured by a field, with colour bar,
-// axes and the rigid sphere. Painted from back to front; made without a display.
+// axes and the rigid indenters. Painted from back to front; made without a display.
 //   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
 //   outline  the edges of the undeformed body; points  named places, with their names; actions  what holds and moves the body
-//   cuts  only the cells on one side of each plane are shown; the first plane that meets the sphere cuts it too
+//   cuts  only the cells on one side of each plane are shown; the first plane that meets an indenter cuts it too
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/outline.hpp"
 #include "mesh/mesh.hpp"
 #include "plot/drawing.hpp"
 #include "post/curves.hpp"
@@ -59,11 +60,6 @@ struct RenderChoice {
   std::vector<Complaint> complaints() const;
 };
 
-struct Ball {
-  Vec3 centre = Vec3::Zero();  // where it is now [mm]
-  double radius = 0;
-};
-
 // A displacement that is imposed on a set of nodes: 0 is a support.
 struct Action {
   std::vector<Vec3> at;        // some of its nodes, deformed [mm]
@@ -74,10 +70,10 @@ struct Action {
 
 struct RenderScene {
   const Mesh& mesh;
-  std::vector<Vec3> x;         // deformed positions (n) [mm]
-  std::vector<double> values;  // of the field (n); empty without one
-  std::string label;           // of the colour bar, with unit; enhanced text
-  std::optional<Ball> ball;
+  std::vector<Vec3> x;                                    // deformed positions (n) [mm]
+  std::vector<double> values;                             // of the field (n); empty without one
+  std::string label;                                      // of the colour bar, with unit; enhanced text
+  std::vector<Outline> indenters;                         // where they are now
   std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
   std::vector<Action> actions = {};
 };

@@ -116,6 +116,88 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
   return glyphs;
 }
 
+// Each as triangles where it starts, and how far it has moved in each state; those that the solution does not hold by name.
+Json indenters_view(const SolutionHeader& header, const std::vector<double>& t) {
+  constexpr int parts = 24;
+  std::vector<Json> shown, missing;
+  const std::vector<RigidContact> indenters = indenters_of(header);
+  Shown region = shown_of(header.mesh);
+  region.parts = parts;
+  for (const RigidContact& indenter : indenters) {
+    const Outline outline = langer::outline(indenter.shape, region);
+    std::vector<float> points;
+    for (const Vec3& x : outline.points)
+      for (double c : x) points.push_back(static_cast<float>(c));
+    std::vector<std::int32_t> triangles;
+    for (const auto& face : outline.faces)
+      for (std::size_t k = 2; k < face.size(); ++k) triangles.insert(triangles.end(), {face[0], face[k - 1], face[k]});
+    std::vector<Json> moved;
+    for (double at : t) {
+      const Vec3 u = indenter_displacement(indenter, at);
+      moved.push_back(numbers({u[0], u[1], u[2]}));
+    }
+    shown.push_back(object({{"name", words(indenter.name)},
+                            {"points", packed(points)},
+                            {"triangles", packed(triangles)},
+                            {"u", list(moved, [](const Json& j) { return j; })}}));
+  }
+  for (const std::string& name : indenters_missing(header, indenters)) missing.push_back(words(name));
+  const auto as_is = [](const Json& j) { return j; };
+  return object({{"shown", list(shown, as_is)}, {"missing", list(missing, as_is)}});
+}
+
+// What travels within the budget: all nodes with the cells, or those of the surface, and how many states.
+struct Extent {
+  bool cells;
+  int states;
+};
+Extent extent_of(const Mesh& mesh, const Chosen& whole, const Chosen& outside, std::size_t n_facets, std::size_t n_fields,
+                 int wanted, double budget) {
+  constexpr int few = 4;
+  const std::size_t n_corners = between_nodes(mesh).connectivity.size();
+  // bytes in base64: per node and state, per node, per cell and facet
+  const auto size = [&](const Chosen& nodes, int states, bool cells) {
+    const double n = static_cast<double>(nodes.nodes.size());
+    return 4.0 / 3 *
+           (n * states * (6 + 2.0 * static_cast<double>(n_fields)) + 12 * n + 16.0 * static_cast<double>(n_facets) +
+            (cells ? 4.0 * n_corners : 0) + (cells ? 68.0 * static_cast<double>(std::min(n_facets, 2 * most_glyphs)) : 0));
+  };
+  const auto fitting = [&](const Chosen& nodes, bool cells) {
+    int states = wanted;
+    while (states > 2 && size(nodes, states, cells) > budget) --states;
+    return size(nodes, states, cells) > budget ? 0 : states;
+  };
+  const int states = fitting(whole, true);
+  if (states >= std::min(few, wanted)) return {true, states};
+  return {false, std::max(2, fitting(outside, false))};
+}
+
+// displacements in whole steps of a share of the largest
+Json moves_view(const std::vector<std::vector<double>>& u, double step) {
+  std::vector<Json> moves;
+  for (const auto& state : u) {
+    std::vector<std::int16_t> whole_steps;
+    for (double v : state) whole_steps.push_back(static_cast<std::int16_t>(std::lround(v / step)));
+    moves.push_back(packed(whole_steps));
+  }
+  return list(moves, [](const Json& j) { return j; });
+}
+
+Json fields_view(std::vector<ShownField>& fields) {
+  std::vector<Json> shown;
+  for (ShownField& f : fields) {
+    for (const auto& values : f.values) f.span.add(values);
+    if (f.span.empty()) continue;
+    shown.push_back(object({{"name", words(f.name)},
+                            {"label", words(f.label)},
+                            {"unit", words(f.unit)},
+                            {"low", number(f.span.low)},
+                            {"high", number(f.span.high)},
+                            {"states", list(f.values, [&](const auto& v) { return packed(quantised(v, f.span)); })}}));
+  }
+  return list(shown, [](const Json& j) { return j; });
+}
+
 }  // namespace
 
 Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path, const ReportConfig& config,
@@ -127,33 +209,19 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
 
-  const std::size_t n_corners = between_nodes(mesh).connectivity.size();
-  // bytes in base64: per node and state, per node, per cell and facet
-  const auto size = [&](const Chosen& nodes, int states, bool cells) {
-    const double n = static_cast<double>(nodes.nodes.size());
-    return 4.0 / 3 *
-           (n * states * (6 + 2.0 * static_cast<double>(fields.size())) + 12 * n + 16.0 * static_cast<double>(surface.size()) +
-            (cells ? 4.0 * n_corners : 0) + (cells ? 68.0 * static_cast<double>(std::min(surface.size(), 2 * most_glyphs)) : 0));
-  };
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
-  constexpr int few = 4;
-  const int wanted = std::min(config.states, solution.n_steps() + 1);
-  const auto fitting = [&](const Chosen& nodes, bool cells) {
-    int states = wanted;
-    while (states > 2 && size(nodes, states, cells) > budget) --states;
-    return size(nodes, states, cells) > budget ? 0 : states;
-  };
-  int states = fitting(whole, true);
-  const bool cells = states >= std::min(few, wanted);
-  if (!cells) states = std::max(2, fitting(outside, false));
+  const double left = budget - static_cast<double>(indenters_view(header, {}).text.size());
+  const auto [cells, states] =
+      extent_of(mesh, whole, outside, surface.size(), fields.size(), std::min(config.states, solution.n_steps() + 1), left);
   const Chosen& chosen = cells ? whole : outside;
   const std::vector<int> rows = rows_shown(solution.n_steps(), states);
 
-  const std::vector<RigidContact> indenters = indenters_of(header);
   std::vector<std::vector<double>> u;  // state, 3 node
   std::vector<Json> of_state;
+  std::vector<double> t;
   for (const int row : rows) {
     const StepState state = row == 0 ? unloaded(mesh) : state_of(solution.step(row - 1));
+    t.push_back(state.t);
     auto& here = u.emplace_back();
     for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
     const GaussValues gauss = gauss_values(body, state.u);
@@ -170,24 +238,6 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   for (const auto& state : u)
     for (double v : state) largest = std::max(largest, std::abs(v));
   const double step = largest > 0 ? largest / 32767 : 1;
-  std::vector<Json> moves;
-  for (const auto& state : u) {
-    std::vector<std::int16_t> whole_steps;
-    for (double v : state) whole_steps.push_back(static_cast<std::int16_t>(std::lround(v / step)));
-    moves.push_back(packed(whole_steps));
-  }
-  std::vector<Json> shown;
-  for (ShownField& f : fields) {
-    for (const auto& values : f.values) f.span.add(values);
-    if (f.span.empty()) continue;
-    shown.push_back(object({{"name", words(f.name)},
-                            {"label", words(f.label)},
-                            {"unit", words(f.unit)},
-                            {"low", number(f.span.low)},
-                            {"high", number(f.span.high)},
-                            {"states", list(f.values, [&](const auto& v) { return packed(quantised(v, f.span)); })}}));
-  }
-
   std::vector<float> X;
   for (const int node : chosen.nodes)
     for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));
@@ -201,12 +251,6 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   }
   if (const Glyphs g = cells && body.n_families() > 0 ? glyphs_of(body, surface, chosen) : Glyphs{}; !g.facet.empty())
     glyphs = object({{"facet", packed(g.facet)}, {"nodes", packed(g.cell_nodes)}, {"weights", packed(g.weights)}});
-  std::vector<Json> spheres;
-  for (const RigidContact& indenter : indenters)
-    if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))
-      spheres.push_back(object({{"name", words(indenter.name)},
-                                {"radius", number(sphere->radius)},
-                                {"centre", numbers({sphere->centre.begin(), sphere->centre.end()})}}));
   const auto as_is = [](const Json& j) { return j; };
   return object({{"label", words(label)},
                  {"cells", connectivity},
@@ -217,10 +261,10 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"facets", packed(facets)},
                  {"states", list(of_state, as_is)},
                  {"step", number(step)},
-                 {"u", list(moves, as_is)},
-                 {"fields", list(shown, as_is)},
+                 {"u", moves_view(u, step)},
+                 {"fields", fields_view(fields)},
                  {"glyphs", glyphs},
-                 {"spheres", list(spheres, as_is)}});
+                 {"indenters", indenters_view(header, t)}});
 }
 
 }  // namespace langer::report

@@ -1,5 +1,6 @@
 #include "run/post_files.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -140,8 +141,8 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   try {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const auto& [name, contact] : solve.contacts) {
-      // the triangles of a faceted surface lie in a file that may have gone
-      if (!header.contact_nodes.count(name) || std::holds_alternative<Facets>(contact.rigid)) return {};
+      if (!header.contact_nodes.count(name)) return {};
+      if (std::holds_alternative<Facets>(contact.rigid)) continue;
       RigidContact indenter{name, contact.rigid, contact.friction, header.contact_nodes.at(name), {}};
       for (const WaypointConfig& w : contact.motion) indenter.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
@@ -149,7 +150,7 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   } catch (const Failure&) {
     return {};  // written by another version of solve
   }
-  return indenters.size() == header.contact_nodes.size() ? indenters : std::vector<RigidContact>{};
+  return indenters;
 }
 
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u) {
@@ -190,11 +191,25 @@ std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<V
   return actions;
 }
 
-std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind) {
-  for (const RigidContact& indenter : indenters)
-    if (const Sphere* sphere = std::get_if<Sphere>(&indenter.shape))
-      return Ball{Vec3(sphere->centre[0], sphere->centre[1], sphere->centre[2]) + u_ind, sphere->radius};
-  return {};
+std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : header.contact_nodes)
+    if (std::none_of(indenters.begin(), indenters.end(), [&](const RigidContact& c) { return c.name == name; }))
+      names.push_back(name);
+  return names;
+}
+
+Shown shown_of(const Mesh& mesh) {
+  Vec3 low = mesh.X[0], high = mesh.X[0];
+  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
+  return {0.5 * (low + high), (high - low).norm()};
+}
+
+Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
+  const Vec3 u = indenter_displacement(indenter, t);
+  Outline moved = outline(indenter.shape, {shown.middle - u, shown.size, shown.parts});
+  for (Vec3& x : moved.points) x += u;
+  return moved;
 }
 
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters) {

@@ -1,4 +1,4 @@
-// From a solution file to what post works on, and back to files: states, snapshot fields, the indenter's sphere.
+// From a solution file to what post works on, and back to files: states, snapshot fields, the indenters.
 #pragma once
 
 #include <optional>
@@ -24,12 +24,15 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
 // Field of a picture at each node.
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at);
 
-// The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read.
+// The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read. Those of
+// triangles are missing: their file is no part of the solution.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
+std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters);  // names
 // Supports and imposed displacements as that config tells, on some nodes of each set; u (n) [mm] moves them.
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
-// The first sphere among them, moved by u_ind.
-std::optional<Ball> sphere_of(const std::vector<RigidContact>& indenters, const Vec3& u_ind);
+// What is shown of a body at rest; of the indenter there at t.
+Shown shown_of(const Mesh& mesh);
+Outline outline_at(const RigidContact& indenter, double t, const Shown& shown);
 // The record as a state of an energy path; reactions in the order of the indenters.
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters);
 

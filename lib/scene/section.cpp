@@ -9,23 +9,13 @@ namespace langer {
 
 namespace {
 
-constexpr double same = 1e-9;
+constexpr double same = same_place;
 
-bool on_axis(const std::array<double, 3>& x) { return x[0] == 0 && x[2] == 0; }
-bool along_y(const Vec3& d) { return d.cross(Vec3::UnitY()).norm() <= same * d.norm(); }
-bool in_plane(const Vec3& d) { return std::abs(d[2]) <= same * d.norm(); }
-
-bool round(const Sphere& s) { return on_axis(s.centre); }
-bool round(const Plane& p) { return along_y(vec(p.outward)); }
-bool round(const Cylinder& c) { return on_axis(c.face) && along_y(vec(c.axis)); }
-bool round(const Ellipsoid& e) { return on_axis(e.centre) && e.half_axes[0] == e.half_axes[2]; }
-bool round(const Facets&) { return false; }
-
-bool plane(const Sphere& s) { return s.centre[2] == 0; }
-bool plane(const Plane& p) { return in_plane(vec(p.outward)); }
-bool plane(const Cylinder& c) { return c.face[2] == 0 && in_plane(vec(c.axis)); }
-bool plane(const Ellipsoid& e) { return e.centre[2] == 0; }
-bool plane(const Facets&) { return false; }
+// What stays as it is when turned by one radian does so for every turn: no multiple of it is a whole one.
+bool has_symmetry_of(SectionOf of, const Indenter& shape) {
+  if (of == SectionOf::axisymmetric) return unchanged_by(shape, {Eigen::AngleAxisd(1, Vec3::UnitY()).toRotationMatrix()});
+  return unchanged_by(shape, {Vec3(1, 1, -1).asDiagonal()});
+}
 
 // a direction that the section's own symmetry leaves alone
 bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
@@ -53,7 +43,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     }
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = "contacts." + name;
-    if (std::visit([&](const auto& shape) { return is_round ? !round(shape) : !plane(shape); }, contact.rigid))
+    if (!has_symmetry_of(mesh.section->of, contact.rigid))
       refuse(key + ".rigid", "found a shape or place without its symmetry",
              is_round ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
                       : "a shape that stands in z = 0, or a plane normal to that",

@@ -14,27 +14,14 @@ namespace langer {
 
 namespace {
 
-constexpr double same = 1e-9;
+constexpr double same = same_place;
 
 struct Operation {
   const char* name;
   Vec3 signs;
+  Isometry about(const Vec3& centre) const { return {signs.asDiagonal(), centre}; }
 };
 const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
-
-Vec3 image(const Vec3& x, const Vec3& signs, const Vec3& centre) { return centre + signs.cwiseProduct(x - centre); }
-bool stays(const Vec3& x, const Operation& op, const Vec3& centre) {
-  return (image(x, op.signs, centre) - x).norm() <= same * (1 + x.norm());
-}
-bool keeps_direction(const Vec3& d, const Operation& op) { return (op.signs.cwiseProduct(d) - d).norm() <= same * d.norm(); }
-
-bool stays(const Sphere& s, const Operation& op, const Vec3& c) { return stays(vec(s.centre), op, c); }
-bool stays(const Plane& p, const Operation& op, const Vec3&) { return keeps_direction(vec(p.outward), op); }
-bool stays(const Cylinder& p, const Operation& op, const Vec3& c) {
-  return stays(vec(p.face), op, c) && keeps_direction(vec(p.axis), op);
-}
-bool stays(const Ellipsoid& e, const Operation& op, const Vec3& c) { return stays(vec(e.centre), op, c); }
-bool stays(const Facets&, const Operation&, const Vec3&) { return false; }
 
 // What of the scene is not its own image; empty where nothing.
 std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, const Scene& scene) {
@@ -55,10 +42,10 @@ std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, con
       return fmt::format("what holds or moves node {} along {}", dof / 3, "xyz"[dof % 3]);
   }
   for (const RigidContact& contact : scene.contacts) {
-    if (!std::visit([&](const auto& s) { return stays(s, op, g.centre); }, contact.shape))
+    if (!unchanged_by(contact.shape, op.about(g.centre)))
       return fmt::format("the shape or place of the indenter \"{}\"", contact.name);
     for (const Waypoint& w : contact.motion)
-      if (!keeps_direction(w.u_ind, op)) return fmt::format("the path of the indenter \"{}\"", contact.name);
+      if (!keeps_direction(w.u_ind, op.about(g.centre))) return fmt::format("the path of the indenter \"{}\"", contact.name);
     std::vector<char> candidate(mesh.X.size(), 0);
     for (int node : contact.nodes) candidate[node] = 1;
     for (int node : contact.nodes)

@@ -1,10 +1,13 @@
 // Every indenter: the normal is the gradient of the gap, the curvature is the gradient of the normal, the gap is a distance.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "contact/rigid.hpp"
+#include "mesh/reference.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -41,7 +44,137 @@ std::vector<std::pair<const char*, Indenter>> shapes() {
           {"facets", facets}};
 }
 
+// a closed surface of triangles: a box about 0
+Facets faceted_box(const Vec3& half) {
+  Triangles t;
+  for (const auto& corner : Hex8::corner) t.points.push_back(half.cwiseProduct(Vec3(corner[0], corner[1], corner[2])));
+  for (const auto& f : Hex8::facet) t.corners.push_back({f[0], f[1], f[2]}), t.corners.push_back({f[0], f[2], f[3]});
+  Facets facets;
+  facets.rounding = 0.25;
+  facets.tree = std::make_shared<TriangleTree>(t);
+  return facets;
+}
+
+Vec3 area_vector(const Outline& outline) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& face : outline.faces)
+    for (std::size_t k = 2; k < face.size(); ++k)
+      sum += 0.5 * (outline.points[face[k - 1]] - outline.points[face[0]]).cross(outline.points[face[k]] - outline.points[face[0]]);
+  return sum;
+}
+
+double area(const Outline& outline) {
+  double sum = 0;
+  for (const auto& face : outline.faces) {
+    Outline one{outline.points, {face}, {}};
+    sum += area_vector(one).norm();
+  }
+  return sum;
+}
+
+std::vector<std::pair<const char*, Indenter>> closed_shapes() {
+  std::vector<std::pair<const char*, Indenter>> list;
+  for (const auto& [name, shape] : shapes())
+    if (point_inside(shape) && !std::holds_alternative<Facets>(shape)) list.emplace_back(name, shape);
+  list.emplace_back("faceted box", faceted_box({1, 0.6, 2}));
+  return list;
+}
+
 }  // namespace
+
+TEST_CASE("every kind of indenter is among those that are tested here") {
+  std::set<std::size_t> kinds;
+  for (const auto& [name, shape] : shapes()) {
+    kinds.insert(shape.index());
+    CHECK(std::string(name) == std::visit([](const auto& s) { return std::string(s.key); }, shape));
+  }
+  CHECK(kinds.size() == std::variant_size_v<Indenter>);
+}
+
+TEST_CASE("a shape is unchanged by an operation where its gap is, and says so") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-6, 6);
+  const Vec3 o = Vec3::Zero();
+  std::vector<Indenter> list{Sphere{2, {0, 3, 0}},        Plane{{0, 1, 0}, {0, 1, 0}},     Plane{{0, 1, 0}, {0, 1, 0.2}},
+                             Cylinder{2, 0.5, {0, 4, 0}}, Ellipsoid{{2, 1, 2}, {0, 3, 0}}, Ellipsoid{{2, 1, 1.5}, {0, 3, 0}}};
+  for (const auto& [name, shape] : shapes()) list.push_back(shape);
+  std::vector<Isometry> operations;
+  for (const Vec3& centre : {o, Vec3(0.1, 0, -0.2), Vec3(0, 5, 0.5)}) {
+    for (const Vec3& signs : {Vec3(-1, 1, 1), Vec3(1, 1, -1), Vec3(-1, 1, -1), Vec3(1, -1, 1)})
+      operations.push_back({signs.asDiagonal(), centre});
+    for (double angle : {1.0, M_PI / 2, 0.3})
+      operations.push_back({Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(), centre});
+    operations.push_back({Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), centre});
+  }
+  int unchanged = 0, changed = 0;
+  for (const Indenter& shape : list)
+    for (const Isometry& op : operations) {
+      double largest = 0;
+      for (int k = 0; k < 60; ++k) {
+        const Vec3 x(u(random), u(random), u(random));
+        largest = std::max(largest, std::abs(shape_at(shape, op(x)).gap - shape_at(shape, x).gap));
+      }
+      const bool says = unchanged_by(shape, op);
+      CAPTURE(shape.index());
+      if (says) CHECK(largest < 1e-8);
+      if (!says && !std::holds_alternative<Facets>(shape)) CHECK(largest > 1e-3);
+      ++(says ? unchanged : changed);
+    }
+  CHECK(unchanged > 20);
+  CHECK(changed > 100);
+}
+
+TEST_CASE("the outline of every shape lies on its surface and is seen from outside") {
+  auto list = shapes();
+  list.emplace_back("box", faceted_box({1, 0.6, 2}));
+  for (const auto& [name, shape] : list) {
+    CAPTURE(name);
+    const Outline out = outline(shape, {Vec3(0, 2, 0), 10, 24});
+    CHECK(out.faces.size() > 20);
+    double farthest = 0;
+    for (const Vec3& x : out.points) farthest = std::max(farthest, std::abs(shape_at(shape, x).gap));
+    CHECK(farthest < 1e-9);
+    int inwards = 0, large = 0;
+    for (const auto& face : out.faces) {
+      const Outline one{out.points, {face}, {}};
+      Vec3 middle = Vec3::Zero();
+      for (int p : face) middle += out.points[p] / static_cast<double>(face.size());
+      const Vec3 n = area_vector(one);
+      if (n.norm() < 1e-9) continue;   // a strip between triangles of one plane
+      if (face.size() > 24) continue;  // the end of what goes on
+      ++large, inwards += n.dot(shape_at(shape, middle + 1e-3 * n.normalized()).normal) < 0;
+    }
+    CHECK(large > 5);
+    CHECK(inwards == 0);
+    CHECK(std::isfinite(half_width(shape)) == point_inside(shape).has_value());
+    if (const auto p = point_inside(shape)) CHECK(shape_at(shape, *p).gap < 0);
+  }
+  const Outline ball = outline(Sphere{2, {1, 2, 3}}, {Vec3::Zero(), 1, 96});
+  CHECK(area(ball) == doctest::Approx(4 * M_PI * 4).epsilon(1e-3));
+}
+
+TEST_CASE("outlines are closed, and what is cut off them leaves a face in the plane") {
+  for (const auto& [name, shape] : closed_shapes()) {
+    CAPTURE(name);
+    const Outline whole = outline(shape, {Vec3::Zero(), 10, 24});
+    CHECK(area_vector(whole).norm() < 1e-9 * area(whole));
+    for (int axis = 0; axis < 3; ++axis) {
+      double low = 1e300, high = -1e300;
+      for (const Vec3& x : whole.points) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
+      const double at = low + 0.37 * (high - low);
+      for (double side : {-1., 1.}) {
+        const OpenedOutline cut = cut_open(whole, axis, at, side);
+        for (const Vec3& x : cut.kept.points) CHECK(side * (x[axis] - at) > -1e-12);
+        for (const Vec3& x : cut.cap.points) CHECK(x[axis] == at);
+        REQUIRE(!cut.cap.faces.empty());
+        CHECK((area_vector(cut.kept) + area_vector(cut.cap)).norm() < 1e-9 * area(whole));
+        CHECK(side * area_vector(cut.cap)[axis] < 0);
+      }
+      CHECK(cut_open(whole, axis, high + 1, 1).kept.faces.empty());
+      CHECK(cut_open(whole, axis, high + 1, -1).kept.faces.size() == whole.faces.size());
+    }
+  }
+}
 
 TEST_CASE("normal and curvature are the first and second derivatives of the gap") {
   std::mt19937 random(9);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "contact/rigid.hpp"
 #include "plot/drawing.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/figure.hpp"
@@ -129,12 +130,12 @@ TEST_CASE("along z the picture is the x-y plane to scale, coloured by the nodes'
 TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the eye") {
   const Mesh mesh = test::cube(4);
   RenderScene scene = scene_of(mesh);
-  scene.ball = Ball{Vec3(0.5, 1.4, 0.5), 0.4};
+  scene.indenters = {outline(Sphere{0.4, {0.5, 1.4, 0.5}}, {})};
   RenderChoice choice;
   choice.view = {20, 20};
   const auto discs = [](const Drawing& d) {
     int n = 0;
-    for (const Patch& p : marks_of<Patch>(d)) n += p.corners.size() > 4;
+    for (const Patch& p : marks_of<Patch>(d)) n += p.corners.size() > 12;
     return n;
   };
   CHECK(discs(render(scene, choice)) == 0);
@@ -146,11 +147,34 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   CHECK_NOTHROW(render(scene, choice));
   // ... whose colours mean nothing: no bar of values from infinity to infinity
   choice.range = std::nullopt;
-  scene.values.assign(scene.x.size(), 1), scene.ball = std::nullopt;
+  scene.values.assign(scene.x.size(), 1), scene.indenters.clear();
   const Drawing bare = render(scene, choice);
   for (const Stroke& s : marks_of<Stroke>(bare))
     for (const PagePoint& c : s.points) CHECK((std::isfinite(c[0]) && std::isfinite(c[1])));
   CHECK(marks_of<Patch>(bare).empty());
+}
+
+TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth") {
+  const Mesh mesh = test::cube(2);
+  RenderScene scene = scene_of(mesh);
+  Facets facets;
+  facets.rounding = 0.05;
+  facets.tree = std::make_shared<TriangleTree>(
+      Triangles{{{0, 1.2, 0}, {1, 1.2, 0}, {0, 1.2, 1}, {0.3, 2, 0.3}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}});
+  const std::vector<Indenter> shapes{Sphere{0.4, {0.5, 1.4, 0.5}}, Plane{{0, 1, 0}, {0, -1, 0}}, Cylinder{0.3, 0.1, {0.2, 1, 0.2}},
+                                     Ellipsoid{{0.3, 0.2, 0.4}, {0.8, 1.2, 0.8}}, facets};
+  REQUIRE(shapes.size() == std::variant_size_v<Indenter>);
+  const auto marks = [&](const RenderScene& s) { return render(s, {}).marks.size(); };
+  const std::size_t bare = marks(scene);
+  for (const Indenter& shape : shapes) {
+    RenderScene alone = scene;
+    alone.indenters = {outline(shape, {Vec3(0.5, 0.5, 0.5), 2})};
+    CAPTURE(shape.index());
+    CHECK(marks(alone) > bare + 3);
+    const std::size_t before = marks(scene);
+    scene.indenters.push_back(alone.indenters[0]);
+    CHECK(marks(scene) == before + marks(alone) - bare);
+  }
 }
 
 TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break out of either") {

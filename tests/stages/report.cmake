@@ -66,7 +66,7 @@ file(APPEND ${WORK}/tried.html [=[
   await set('clip', 'x');
   await set('at', 0.4);
   await set('turn', true);
-  await set('sphere', false);
+  await set('indenter', false);
   await set('member', 1);
   const canvas = document.querySelector('.stage canvas');
   let box = canvas.getBoundingClientRect();

@@ -1,5 +1,5 @@
 'use strict';
-// The deformed body: its surface coloured by a field, cut open by a plane, with fibres and the sphere; three.js draws it.
+// The deformed body: its surface coloured by a field, cut open by a plane, with fibres and the indenters; three.js draws it.
 L.decode = (text, Kind) => {
   const raw = atob(text), bytes = new Uint8Array(raw.length);
   for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
@@ -16,6 +16,7 @@ L.Body = class {
     this.facets = L.decode(data.facets, Int32Array);
     this.cells = data.cells && L.decode(data.cells, Int32Array);
     this.moves = data.states.map(() => null);
+    this.punches = data.indenters.shown.map(p => ({ ...p, points: L.decode(p.points, Float32Array), triangles: L.decode(p.triangles, Int32Array) }));
     this.n = this.X.length / 3;
     this.glyphs = data.glyphs && { facet: L.decode(data.glyphs.facet, Int32Array), nodes: L.decode(data.glyphs.nodes, Int32Array),
       weights: L.decode(data.glyphs.weights, Float32Array) };
@@ -90,14 +91,14 @@ L.bodyView = (place, all) => {
   const fit = select('fit', ['all', 'state', 'own'], ['least and largest of all states', 'of the state shown', 'as typed']);
   const colours = select('colours', ['viridis', 'cividis'], ['viridis', 'cividis']);
   const clip = select('clip', ['none', 'x', 'y', 'z'], ['whole', 'cut at x', 'cut at y', 'cut at z']), at = range('at', -1, 1, 0.001, 0), turn = box('turn', 'other side', false);
-  const edges = box('edges', 'cells', true), fibres = box('fibres', 'fibres', false), sphere = box('sphere', 'sphere', true);
-  const stateText = L.el('output'), scaleText = L.el('output'), atText = L.el('output');
+  const edges = box('edges', 'cells', true), fibres = box('fibres', 'fibres', false), indenter = box('indenter', 'indenters', true);
+  const stateText = L.el('output'), missing = L.el('p'), scaleText = L.el('output'), atText = L.el('output');
   const views = ['oblique', 'from above', 'along z', 'along x'].map((name, i) => { const b = L.el('button', { type: 'button' }, name); b.onclick = () => look(i); return b; });
   const save = L.el('button', { type: 'button' }, 'save picture');
   panel.append(...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText),
     labelled('displacement drawn', scale, scaleText), labelled('colours', L.el('div', { class: 'row' }, colours)), labelled('colour range', fit),
     L.el('div', { class: 'row' }, low, '–', high), labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText),
-    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, sphere.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save));
+    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save), missing);
 
   // scene
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
@@ -130,8 +131,8 @@ L.bodyView = (place, all) => {
   const steel = new THREE.MeshPhongMaterial({ color: 0xc2c8ce, shininess: 40, side: THREE.DoubleSide, transparent: true, opacity: 0.72, depthWrite: false });
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), skin), cut = new THREE.Mesh(new THREE.BufferGeometry(), cutSkin);
   const wires = new THREE.LineSegments(new THREE.BufferGeometry(), line);
-  const glyphs = new THREE.LineSegments(new THREE.BufferGeometry(), fibreLine), balls = new THREE.Group();
-  scene.add(mesh, cut, wires, glyphs, balls);
+  const glyphs = new THREE.LineSegments(new THREE.BufferGeometry(), fibreLine), punches = new THREE.Group();
+  scene.add(mesh, cut, wires, glyphs, punches);
   for (const thing of [mesh, cut, wires, glyphs]) thing.frustumCulled = false;
 
   let body, x, values, choice, middle, size;
@@ -159,12 +160,18 @@ L.bodyView = (place, all) => {
     wires.geometry = new THREE.BufferGeometry();
     wires.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * body.n), 3));
     wires.geometry.setIndex(new THREE.BufferAttribute(body.sides, 1));
-    balls.children.slice().forEach(b => balls.remove(b));
-    body.spheres.forEach(s => {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(s.radius, 72, 48), steel);
-      ball.userData = s;
-      balls.add(ball);
+    punches.children.slice().forEach(p => punches.remove(p));
+    body.punches.forEach(p => {
+      const shape = new THREE.BufferGeometry();
+      shape.setAttribute('position', new THREE.BufferAttribute(p.points, 3));
+      shape.setIndex(new THREE.BufferAttribute(new Uint32Array(p.triangles), 1));
+      shape.computeVertexNormals();
+      shape.computeBoundingBox();
+      const punch = new THREE.Mesh(shape, steel);
+      punch.userData = p;
+      punches.add(punch);
     });
+    missing.textContent = body.indenters.missing.length ? `not drawn: ${body.indenters.missing.join(', ')}, of a file that the solution does not hold` : '';
     const lowest = [Infinity, Infinity, Infinity], highest = [-Infinity, -Infinity, -Infinity];
     for (let i = 0; i < body.X.length; ++i) { lowest[i % 3] = Math.min(lowest[i % 3], body.X[i]); highest[i % 3] = Math.max(highest[i % 3], body.X[i]); }
     middle = new THREE.Vector3(...lowest.map((l, k) => (l + highest[k]) / 2));
@@ -187,7 +194,7 @@ L.bodyView = (place, all) => {
       high.value = +b.toPrecision(4);
     }
     stateText.textContent = `${i + 1} of ${body.states.length}, t = ${L.number(body.states[i].t)}` +
-      (body.spheres.length ? `, indenter ${L.number(Math.hypot(...body.states[i].u_ind))} mm` : '');
+      (body.punches.length ? `, indenter ${L.number(Math.hypot(...body.states[i].u_ind))} mm` : '');
     scaleText.textContent = `× ${(+scale.value).toFixed(1).replace(/\.0$/, '')}`;
 
     const { position, normal, uv } = mesh.geometry.attributes, corners = body.corners;
@@ -204,8 +211,8 @@ L.bodyView = (place, all) => {
     skin.map = cutSkin.map = scales[colours.value];
     skin.needsUpdate = cutSkin.needsUpdate = true;
     wires.visible = edges.c.checked;
-    balls.visible = sphere.c.checked;
-    balls.children.forEach(b => b.position.set(...b.userData.centre.map((c, k) => c + s * body.states[i].u_ind[k])));
+    punches.visible = indenter.c.checked;
+    punches.children.forEach(p => p.position.set(...p.userData.u[i].map(u => s * u)));
     drawFibres();
     drawCut();
     mesh.geometry.computeBoundingSphere();
@@ -303,7 +310,10 @@ L.bodyView = (place, all) => {
       const p = new THREE.Vector3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
       if (clip.value === 'none' || plane.distanceToPoint(p) > -1e-3 * size) reach(p, 0);
     }
-    balls.visible && balls.children.forEach(b => reach(b.position.clone(), b.userData.radius));
+    punches.visible && punches.children.forEach(p => {
+      const points = p.geometry.attributes.position;
+      for (let i = 0; i < points.count; ++i) reach(new THREE.Vector3().fromBufferAttribute(points, i).add(p.position), 0);
+    });
     camera.zoom = 0.95 * Math.min((camera.right - camera.left - 170 * perPixel()) / (2 * w), (camera.top - camera.bottom - 80 * perPixel()) / (2 * h));
     camera.updateProjectionMatrix();
     draw();
@@ -419,7 +429,7 @@ L.bodyView = (place, all) => {
   };
 
   member.oninput = () => { const keep = state.value; choose(); state.value = keep; update(); };
-  for (const control of [field, state, scale, fit, colours, clip, at, turn.c, edges.c, fibres.c, sphere.c]) control.oninput = update;
+  for (const control of [field, state, scale, fit, colours, clip, at, turn.c, edges.c, fibres.c, indenter.c]) control.oninput = update;
   for (const end of [low, high]) end.oninput = () => { fit.value = 'own'; update(); };
   addEventListener('resize', () => { resize(); draw(); });
 
@@ -428,10 +438,10 @@ L.bodyView = (place, all) => {
   choose();
   state.value = body.states.length - 1;
   scale.value = 1;
-  if (body.spheres.length && body.cells) {  // what matters lies under the sphere
+  if (body.punches.length && body.cells) {  // what matters lies under the first indenter
     clip.value = 'z';
-    const [a, b] = body.box.map(corner => corner[2]);
-    at.value = Math.max(-1, Math.min(1, (2 * body.spheres[0].centre[2] - a - b) / (b - a)));
+    const [a, b] = body.box.map(corner => corner[2]), box = punches.children[0].geometry.boundingBox;
+    at.value = Math.max(-1, Math.min(1, (box.min.z + box.max.z - a - b) / (b - a)));
   }
   for (const control of panel.querySelectorAll('input, select')) {
     if (!asked.has(control.id) || control === member) continue;
