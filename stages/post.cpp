@@ -251,6 +251,7 @@ int export_scene(int argc, char** argv) {
         throw Failure(
             Exit::config,
             Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
+    for (const std::string& file : files) need_own_text(file, written_by);
     const Deck deck = deck_of(SolutionReader(solution), solution);
     for (const std::string& file : files) {
       const bool calculix = std::filesystem::path(file).extension() == ".inp";

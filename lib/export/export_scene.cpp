@@ -223,7 +223,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
       while (header.mesh.node_sets.count(name)) name += "_";
       deck.mesh.node_sets[name] = plane, deck.held.push_back({name, k, 0});
     }
-  deck.words.push_back(fmt::format("a scene of langer-solve, written by langer {} ({}); mm, N, MPa", version, revision));
+  deck.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by, version, revision));
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const RigidContact& law = scene.contacts[c];
     const Sphere& sphere = std::get<Sphere>(law.shape);

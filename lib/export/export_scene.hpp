@@ -52,6 +52,8 @@ struct Deck {
   std::vector<std::string> words;                      // where the scene comes from, what was found, line by line
 };
 
+inline constexpr const char* written_by = "written by langer ";  // stands at the head of every deck
+
 // Throws Failure(config) for what no deck holds.
 Deck deck_of(const SolutionReader& solution, const std::string& path);
 

@@ -17,6 +17,7 @@
 #include "pipeline/run_files.hpp"
 #include "pipeline/slurm.hpp"
 #include "store/lock.hpp"
+#include "store/replace.hpp"
 #include "store/seal.hpp"
 
 namespace langer {
@@ -183,11 +184,13 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
                 bool slurm) {
   auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder));
   make_folder(report.folder);
-  const OutputLock lock((fs::path(report.folder) / "Makefile").string(), command);
+  const std::string makefile = (fs::path(report.folder) / "Makefile").string();
+  need_own_text(makefile, planned_by);
+  begin_beside(makefile);
+  const OutputLock lock(makefile, command);
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
   const std::string seen_bin = relative_path(bin, report.folder);
-  write_if_changed(fs::path(report.folder) / "Makefile",
-                   makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
+  write_if_changed(makefile, makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
   if (slurm)
     for (const SlurmFile& file : slurm_files(name, steps)) {
       const fs::path path = fs::path(report.folder) / file.name;

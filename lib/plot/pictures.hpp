@@ -2,6 +2,7 @@
 // once. A figure that cannot be drawn stops nothing.
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <string>
 
@@ -17,6 +18,9 @@ class Pictures {
   const std::map<std::string, std::string>& failed() const { return failed_; }  // reason -> names
 
  private:
+  void need_places(const std::string& name, std::initializer_list<const char*> types) const;
+  void run(const std::string& name, const std::string& script);
+  std::string place(const std::string& file) const;
   std::string folder_;
   std::map<std::string, std::string> failed_;
 };

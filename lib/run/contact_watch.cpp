@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace langer {
 
@@ -68,6 +69,23 @@ void ContactWatch::refuse_mid_path(const RigidContact& contact, const SurfaceLoo
         "shorter cells there");
 }
 
+// An indenter that is away from the body before and after an increment may have passed through it.
+void ContactWatch::refuse_jump(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& from, const Vec3& to,
+                               double t) const {
+  const double width = half_width(contact.shape);
+  const int parts = static_cast<int>(std::min(1000.0, std::ceil((to - from).norm() / width)));
+  for (int k = 1; k < parts; ++k) {
+    const SurfaceLook look = check_.look(contact, u, from + (static_cast<double>(k) / parts) * (to - from));
+    const SurfaceLook::Spot& deepest = look.node.depth > look.facet.depth ? look.node : look.facet;
+    if (!look.swallowed && deepest.depth <= tiny) continue;
+    refuse("contacts." + contact.name + ".motion",
+           fmt::format("in the increment to t = {:.4g} the indenter passes through the body near {} and touches no node", t,
+                       text(look.swallowed ? look.nearest : deepest.X)),
+           fmt::format("increments in which it moves by at most half its width, {:.3g} mm", width),
+           "smaller path.first and path.largest");
+  }
+}
+
 void ContactWatch::keep(std::size_t contact, const SurfaceLook& look, double t, double force) {
   Found& f = found_[contact];
   if (look.node.depth > std::max(f.node.depth, tiny)) f.node = look.node;
@@ -85,6 +103,10 @@ void ContactWatch::look(StepRecord& record) {
     const Vec3 c = indenter_displacement(contact, record.t);
     const SurfaceLook look = check_.look(contact, record.u, c, r);
     refuse_mid_path(contact, look, record.t);
+    Found& before = found_[k];
+    const bool away = look.touching == 0;
+    if (away && before.away) refuse_jump(contact, record.u, before.c, c, record.t);
+    before.c = c, before.away = away;
     Vec3 force = record.force_ind;  // on the indenter
     if (scene_.contacts.size() > 1) {
       for (int j = 0; j < 3; ++j) force[j] = record.scalars.at("force_" + contact.name + "_" + "xyz"[j]);
@@ -99,6 +121,7 @@ void ContactWatch::look(StepRecord& record) {
 void ContactWatch::kept(const StepRecord& step) {
   StepRecord again = step;
   adds_ = false;
+  for (Found& f : found_) f.away = false;  // the way to here was looked at by the run that made it
   look(again);
   adds_ = step.scalars.count("penetration_between_nodes") > 0;
 }

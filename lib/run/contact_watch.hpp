@@ -2,7 +2,7 @@
 // increment (contact/surface_check.hpp). Records are those of the whole body; of a section those of its own mesh.
 //   refused  (Failure(config), at the contact's key) an indenter that starts inside; one smaller than the cells, or between their
 //            nodes deeper than they are apart; a node inside that is no candidate, by more than 1 % of what the body is pressed in;
-//            no reaction though a facet is entered, at the end of the path
+//            no reaction though a facet is entered, at the end of the path; one that jumps through the body in an increment
 //   warned   what is less than that; facets entered by more than 10 % of what the body is pressed in at the largest force; no facet
 //            that touches as a whole; an indenter that never touches
 #pragma once
@@ -39,9 +39,12 @@ class ContactWatch {
     double distance, t_nearest = 0;  // smallest of all steps
     Vec3 nearest;
     bool touched = false;
-    double share() const;  // of the deepest entry between nodes in what the body is pressed in, at the largest force
+    Vec3 c = Vec3::Zero();  // displacement of the indenter at the last look
+    bool away = true;       // which found nothing that touches
+    double share() const;   // of the deepest entry between nodes in what the body is pressed in, at the largest force
   };
   void keep(std::size_t contact, const SurfaceLook& look, double t, double force);
+  void refuse_jump(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& from, const Vec3& to, double t) const;
   void refuse_mid_path(const RigidContact& contact, const SurfaceLook& look, double t) const;
   [[noreturn]] void refuse(const std::string& key, std::string found, std::string expected, std::string hint) const;
 

@@ -8,6 +8,7 @@
 
 #include "store/h5.hpp"
 #include "store/seal.hpp"
+#include "store/units.hpp"
 
 namespace langer {
 
@@ -83,6 +84,8 @@ void write_map(const h5::Group& group, const SurfaceMap& map) {
 
 SurfaceMap read_map(const h5::Group& group, const std::string& name) {
   SurfaceMap map{name, group.annotation("values", "label"), group.unit("values"), group.read_scalar("t"), {}, {}, {}, {}, {}};
+  need_known_unit(group, "values");
+  for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
   map.values = group.read_finite("values", {h5::any});
   const std::size_t n = map.values.size();
   map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));
@@ -137,6 +140,7 @@ CurvesFile read_curves(const std::string& path) {
   for (const std::string& name : curves.groups()) {
     const h5::Group one = curves.group(name);
     NamedCurve c{name, one.annotation("x", "label"), one.unit("x"), one.annotation("y", "label"), one.unit("y"), {}, {}};
+    for (const char* axis : {"x", "y"}) need_known_unit(one, axis);
     c.x = one.read<double>("x", {h5::any}).values;
     c.y = one.read<double>("y", {c.x.size()}).values;
     result.curves.curves.push_back(std::move(c));
@@ -144,6 +148,7 @@ CurvesFile read_curves(const std::string& path) {
   std::istringstream order(columns.text_attribute("order"));
   std::size_t rows = h5::any;
   for (std::string name; order >> name;) {
+    need_known_unit(columns, name);
     Column c{name, columns.unit(name), columns.read<double>(name, {rows}).values};
     rows = c.values.size();
     result.curves.columns.push_back(std::move(c));

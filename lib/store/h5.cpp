@@ -1,6 +1,11 @@
 #include "store/h5.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <limits>
 
@@ -11,6 +16,19 @@
 #include "store/seal.hpp"
 
 namespace langer::h5 {
+
+OpenFile::~OpenFile() {
+  const bool closed = id >= 0 && H5Fclose(id) >= 0;
+  if (!writing) return;
+  if (unfinished == Unfinished::discard)
+    std::remove(current.c_str());
+  else if (closed) {
+    try {
+      append_seal(current);     // what a run that stops leaves can be told from damage
+    } catch (const Failure&) {  // no room: then nothing tells it, and it is not read
+    }
+  }
+}
 
 // fixed length: readable everywhere; HDF5 has no string of length zero
 Handle string_type(const std::string& text) {
@@ -74,6 +92,15 @@ void refuse_external(hid_t file, const Group& group, const std::string& name, co
 }
 
 Handle open_object(hid_t file, const std::string& path) { return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose}; }
+
+// a run has its journal, and adds to it
+bool being_written(const std::string& part) {
+  const int fd = ::open((part.substr(0, part.size() - 5) + ".steps").c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool held = ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return held;
+}
 
 Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
@@ -202,7 +229,7 @@ std::string library() {
 
 File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
-  need_replaceable(path);
+  need_own_output(path);
   auto file = std::make_shared<OpenFile>();
   file->path = path, file->current = path + ".part", file->unfinished = unfinished;
   const Handle list = creation(H5P_FILE_CREATE);
@@ -225,7 +252,11 @@ File File::open(const std::string& path) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) refuse("no such file", "");
   if (std::filesystem::is_directory(path, none)) refuse("is a folder, not a file", "");
-  if (seal_broken(path)) refuse("damaged: its content does not fit its checksum", "make it again");
+  const Seal seal = seal_of(path);
+  if (seal == Seal::broken) refuse("damaged: its content does not fit its checksum", "make it again");
+  if (seal == Seal::none && path.ends_with(".part") && !being_written(path))
+    refuse("was left by a run that was killed: nothing tells whether it is whole",
+           "run the same command again: it goes on from the steps that are whole");
   auto file = std::make_shared<OpenFile>();
   file->path = file->current = path;
   file->size = std::filesystem::file_size(path, none);

@@ -33,10 +33,7 @@ struct OpenFile {
   std::uintmax_t size = 0;
   bool writing = false;
   Unfinished unfinished = Unfinished::keep;
-  ~OpenFile() {
-    if (id >= 0) H5Fclose(id);
-    if (writing && unfinished == Unfinished::discard) std::remove(current.c_str());
-  }
+  ~OpenFile();
 };
 
 Handle string_type(const std::string& text);

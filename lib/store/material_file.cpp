@@ -38,7 +38,18 @@ void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
   group.attribute("key", s.key);
 }
 
+void check_units(const h5::Group& group, std::initializer_list<std::pair<const char*, const char*>> units) {
+  for (const auto& [name, unit] : units) need_unit(group, name, unit);
+}
+
 StiffnessAtRest read_at_rest(const h5::Group& group) {
+  check_units(group, {{"fitted", "MPa"},
+                      {"allowed", "MPa"},
+                      {"least", "MPa"},
+                      {"taken", "MPa"},
+                      {"noise", "MPa"},
+                      {"error_before", "percent"},
+                      {"error_after", "percent"}});
   const auto value = [&](const char* name) { return group.read_scalar(name); };
   return {value("fitted"),       value("allowed"),    value("least"), value("taken"), value("noise"), group.text_attribute("key"),
           value("error_before"), value("error_after")};
@@ -143,10 +154,14 @@ std::vector<Tie> read_ties(const std::string& text) {
 
 FitRecord read_fit(const h5::Group& root) {
   const h5::Group group = root.group("fit"), parameters = group.group("parameters"), curve = root.group("curve");
+  check_units(group, {{"cost", "MPa^2"}, {"mean_error", "percent"}, {"max_error", "percent"}, {"strain_range", "-"}});
+  check_units(curve, {{"strain", "-"}, {"stress", "MPa"}, {"model", "MPa"}});
   FitRecord fit;
   std::istringstream order(parameters.text_attribute("order"));
   for (std::string name; order >> name;) {
     const h5::Group one = parameters.group(name);
+    need_known_unit(one, "value");
+    for (const char* other : {"lower", "upper", "standard_error"}) need_unit(one, other, one.unit("value"));
     fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"), one.read_scalar("upper"),
                               one.read_scalar("standard_error")});
   }
@@ -168,6 +183,15 @@ FitRecord read_fit(const h5::Group& root) {
   for (std::string name; names >> name;) {
     const h5::Group one = tests.group(name);
     FittedTest test{name, one.text_attribute("kind"), one.text_attribute("measure"), 0, 1, {}, {}, {}, {}, {}, {}, 0, 0, 0};
+    check_units(one, {{"fibre_angle", "deg"},
+                      {"first", "-"},
+                      {"second", "-"},
+                      {"stress_x", "MPa"},
+                      {"stress_z", "MPa"},
+                      {"model_x", "MPa"},
+                      {"model_z", "MPa"},
+                      {"mean_error", "percent"},
+                      {"max_error", "percent"}});
     test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
     test.first = one.read_finite("first", {h5::any}), test.second = one.read_finite("second", {h5::any});
     test.stress_x = one.read_finite("stress_x", {test.first.size()}), test.stress_z = one.read_finite("stress_z", {h5::any});

@@ -82,13 +82,26 @@ void need_replaceable_by(const std::string& path, const std::string& text) {
     refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
 }
 
+void need_replaceable_from(const std::string& path, const std::string& script) {
+  need_replaceable(path);
+  if (first_time && !begin_of(path, 1).empty() && !fs::exists(script))
+    refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
+}
+
 void need_own_output(const std::string& path) {
   need_replaceable(path);
   if (begin_of(path, 1).empty()) return;
   const std::string begin = begin_of(path, 15);
   const bool hdf5 = begin.starts_with("\x89HDF\r\n\x1a\n");
-  if (!(hdf5 && (holds(path, "config_hash") || holds(path, "\nlanger seal "))) && !begin.starts_with("<!DOCTYPE html>"))
+  if (!(hdf5 && (holds(path, "config_hash") || holds(path, "\nlanger seal"))) &&
+      !(begin.starts_with("<!DOCTYPE html>") && holds(path, "langer")))
     refuse(path, "is there already and was not made by langer", "another name (-o), or remove it");
+}
+
+void need_own_text(const std::string& path, const std::string& mark) {
+  need_replaceable(path);
+  if (!begin_of(path, 1).empty() && !holds(path, mark))
+    refuse(path, "is there already and was not made by langer", "another name, or remove it");
 }
 
 void need_own_log(const std::string& path) {

@@ -16,6 +16,12 @@ void need_replaceable(const std::string& path);
 void begin_beside(const std::string& output);
 void need_replaceable_by(const std::string& path, const std::string& text);
 
+// The same of a file that another program makes from `script`, a picture: it is ours if the script is there.
+void need_replaceable_from(const std::string& path, const std::string& script);
+
+// The same of a text, wherever it stands: one that is there has `mark` in it.
+void need_own_text(const std::string& path, const std::string& mark);
+
 // The same of a main output (-o), and that a file that is there was made by langer: HDF5 with our attributes, a report, or nothing in it.
 void need_own_output(const std::string& path);
 

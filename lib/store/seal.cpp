@@ -15,32 +15,40 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "store/checksum.hpp"
 #include "store/replace.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr const char* seal_begin = "\nlanger seal ";
-constexpr std::size_t seal_length = 13 + 16 + 1;  // begin, 16 hex digits, newline
+constexpr std::string_view seal_begin = "\nlanger seal:", older_begin = "\nlanger seal ";
+constexpr std::size_t seal_length = seal_begin.size() + 16 + 1;  // begin, 16 hex digits, newline
 
 [[noreturn]] void cannot_write(const std::string& path) {
   throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
 }
 
-// FNV-1a over 64-bit words: every step is one to one, so a change within one word always shows
-std::uint64_t checksum(std::ifstream& in, std::uintmax_t bytes) {
+// the blocks of a file one after another; `take` goes on from the checksum of those before
+template <class Take>
+std::uint64_t over_blocks(std::ifstream& in, std::uintmax_t bytes, const Take& take) {
   std::uint64_t h = 0xcbf29ce484222325u;
   std::vector<char> block(std::size_t{1} << 20);
   while (bytes > 0) {
     const std::size_t n = static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, block.size()));
     if (!in.read(block.data(), static_cast<std::streamsize>(n))) return 0;
-    for (std::size_t i = 0; i < n; i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, block.data() + i, std::min<std::size_t>(8, n - i));
-      h = (h ^ word) * 0x100000001b3u;
-    }
+    h = take(std::string_view(block.data(), n), h);
     bytes -= n;
+  }
+  return h;
+}
+
+// FNV-1a over words of eight bytes, in files of versions up to 0.2.0: two sign bits that are turned over cancel
+std::uint64_t older_checksum(std::string_view bytes, std::uint64_t h) {
+  for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), std::min<std::size_t>(8, bytes.size()));
+    h = (h ^ word) * 0x100000001b3u;
   }
   return h;
 }
@@ -56,7 +64,7 @@ void sync_path(const std::string& path, int flags) {
 
 void append_seal(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const std::string seal = fmt::format("{}{:016x}\n", seal_begin, checksum(in, std::filesystem::file_size(path)));
+  const std::string seal = fmt::format("{}{:016x}\n", seal_begin, over_blocks(in, std::filesystem::file_size(path), checksum));
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND);
   if (fd < 0) cannot_write(path);
   const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) && ::fsync(fd) == 0;
@@ -64,16 +72,19 @@ void append_seal(const std::string& path) {
   if (!written) cannot_write(path);
 }
 
-bool seal_broken(const std::string& path) {
+Seal seal_of(const std::string& path) {
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(path, none);
-  if (none || size < seal_length) return false;
+  if (none || size < seal_length) return Seal::none;
   std::ifstream in(path, std::ios::binary);
   std::string seal(seal_length, '\0');
   in.seekg(static_cast<std::streamoff>(size - seal_length));
-  if (!in.read(seal.data(), seal_length) || !seal.starts_with(seal_begin)) return false;
+  if (!in.read(seal.data(), seal_length)) return Seal::none;
+  const bool older = seal.starts_with(older_begin);
+  if (!older && !seal.starts_with(seal_begin)) return Seal::none;
   in.seekg(0);
-  return seal.substr(13, 16) != fmt::format("{:016x}", checksum(in, size - seal_length));
+  const std::uint64_t sum = over_blocks(in, size - seal_length, older ? older_checksum : checksum);
+  return seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum) ? Seal::broken : Seal::whole;
 }
 
 void rename_durably(const std::string& from, const std::string& to) {

@@ -8,7 +8,8 @@
 namespace langer {
 
 void append_seal(const std::string& path);  // and forces the file to the disk
-bool seal_broken(const std::string& path);  // a seal is there and does not fit
+enum class Seal { none, whole, broken };    // broken: it is there and does not fit
+Seal seal_of(const std::string& path);
 void rename_durably(const std::string& from, const std::string& to);
 void sync_folder_of(const std::string& path);                            // that the name of a new file lasts
 void write_text_file(const std::string& path, const std::string& text);  // through <path>.part

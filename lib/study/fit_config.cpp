@@ -27,7 +27,10 @@ std::vector<Complaint> FitData::complaints() const {
   if (!columns && (!split.empty() || !where.empty()))
     all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
   if (columns && biaxial && columns->strain_z.empty())
-    all.push_back({"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes", ""});
+    all.push_back(
+        {"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes",
+         "both axes at the same instants in one file; of an equibiaxial or pure shear test each axis may be an item of its own, "
+         "the second with fibre_angle: 90"});
   const bool own_grids = columns && !biaxial && !columns->strain_z.empty();
   if (own_grids && kind != TestKind::equibiaxial && kind != TestKind::pure_shear)
     all.push_back({"columns.strain_z", "found in a test without stress along z",

@@ -110,16 +110,25 @@ std::string fit_csv(const FitRecord& record) {
               {"error_z", "percent", c[8]}});
 }
 
+namespace {
+// an angle that leaves the covariance though it has no bound there
+bool at_symmetry(const FittedParameter& p) {
+  return p.unit == unit::deg && std::isnan(p.standard_error) && p.upper - p.lower >= 180;
+}
+}  // namespace
+
 std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
+  const bool held = std::any_of(record.parameters.begin(), record.parameters.end(), at_symmetry);
   for (const FittedParameter& p : record.parameters) {
     const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
-    const std::string known = on_bound ? "on its bound"
-                              : std::isnan(p.standard_error) && p.unit == unit::deg
-                                  ? "at an angle of symmetry, or not determined: see its profile"
-                              : std::isnan(p.standard_error) ? "not determined by this curve"
-                                                             : fmt::format("standard error {:.2g}", p.standard_error);
+    const std::string known =
+        on_bound                                              ? "on its bound"
+        : std::isnan(p.standard_error) && p.unit == unit::deg ? "at an angle of symmetry, or not determined: see its profile"
+        : std::isnan(p.standard_error)
+            ? "not determined by this curve"
+            : fmt::format("standard error {:.2g}{}", p.standard_error, held ? " with the angle held: see its profile" : "");
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
   }
   for (const Tie& tie : record.ties) lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
@@ -129,7 +138,10 @@ std::vector<std::string> fit_results(const FitRecord& record) {
                                   t.max_error_percent));
   std::size_t points = 0;
   for (const FittedTest& t : record.tests) points += t.first.size();
-  lines.push_back(fmt::format("R2 {:.6f}, AICc {:.6g}, BIC {:.6g}", record.r2, record.aicc, record.bic));
+  const std::string aicc = std::isnan(record.aicc) ? fmt::format("no AICc (the points count as {:.0f}, too few for {} parameters)",
+                                                                 record.effective_values, record.parameters.size())
+                                                   : fmt::format("AICc {:.6g}", record.aicc);
+  lines.push_back(fmt::format("R2 {:.6f}, {}, BIC {:.6g}", record.r2, aicc, record.bic));
   lines.push_back(
       fmt::format("mean error {:.3g} %, largest {:.3g} % of the largest stress; KKT residual {:.1e}; {} points, {} starts",
                   record.mean_error_percent, record.max_error_percent, record.kkt_residual, points, record.starts.rows()));

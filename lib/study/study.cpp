@@ -244,16 +244,17 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
                                       "{:.0f} in all, the data tell:",
                                       r.noise, r.rho, r.effective)
                         : fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
+    const bool held = std::find(r.symmetric.begin(), r.symmetric.end(), true) != r.symmetric.end();
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       std::string s = r.symmetric[i]           ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
                       : std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
-                                               : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %)", r.names[i], r.error[k],
-                                                             100 * r.error[k] / r.size[i]);
+                                               : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %){}", r.names[i], r.error[k],
+                                                             100 * r.error[k] / r.size[i], held ? " with the angle held" : "");
       if (!r.profiles.empty()) {
         const ProfileRecord& p = r.profiles[i];
-        s += fmt::format(", profile {}{:.4g} to {:.4g}{}", p.low_open ? "[bound] " : "", p.low, p.high,
-                         p.high_open ? " [bound]" : "");
+        s += fmt::format(", {}profile {}{:.4g} to {:.4g}{}", held && !r.symmetric[i] ? "as it turns: " : "",
+                         p.low_open ? "[bound] " : "", p.low, p.high, p.high_open ? " [bound]" : "");
       }
       if (r.bootstrap.rows() > 1) s += fmt::format(", bootstrap {:.4g} to {:.4g}", r.bootstrap_low[k], r.bootstrap_high[k]);
       lines.push_back(s);

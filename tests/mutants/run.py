@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""The changes of list.txt, one at a time, in a copy of the tree: built, and tested until a test fails.
+"""The changes of list.txt, one at a time: what depends on the changed file is compiled, linked with the rest of a build, and tested until a
+test fails.
 
-  tests/mutants/run.py [--check] [--only PATTERN] [--jobs N] [--keep] [--limit S] [--work FOLDER]
+  tests/mutants/run.py [--check] [--only PATTERN,...] [--jobs N] [--keep] [--limit S] [--build FOLDER] [--work FOLDER]
 
---check: only whether every change fits its source. --keep: leave out what FOLDER/results.tsv has. The copy and its build stay in FOLDER
-(build-mutants). Ends with 1 where a change survives without a reason, does not fit or does not compile.
+--only: names, in this order. --check: only whether every change fits its source. --keep: leave out what WORK/results.tsv has. BUILD is
+a whole build of these sources (build), which stays as it is. Ends with 1 where a change survives without a reason or does not compile.
 """
-import argparse, fnmatch, os, re, shutil, subprocess, sys, time
+import argparse, fnmatch, json, os, re, shlex, shutil, subprocess, sys, time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# the highest floor of lib (tests/floors.cmake) that the tests of a folder use; the others take the whole library
-HIGHEST = {"tensor": "material", "material": "element", "mesh": "element", "contact": "solve", "element": "solve", "sensitivity": "material"}
 
 
 def read_list():
@@ -51,63 +51,89 @@ def sh(command, cwd, limit=None):
         return None, p.communicate()[0]
 
 
-class Copy:
-    """A copy of the tree with a build of its own."""
+class Build:
+    """Objects of a whole build, of which some are compiled again with a changed file before the others' include folders."""
 
-    def __init__(self, work, jobs):
-        self.tree, self.build, self.jobs = work / "tree", work / "build", jobs
-        self.targets = None
+    def __init__(self, root, build, work, jobs):
+        self.root, self.build, self.work, self.jobs = root, build, work, jobs
+        self.commands = {}  # object -> (source, command)
+        for entry in json.loads((build / "compile_commands.json").read_text()):
+            words = shlex.split(entry["command"])
+            self.commands[words[words.index("-o") + 1]] = (Path(entry["file"]), words)
+        self.depend = {}  # object -> files
+        for line in sh("ninja -t deps", build)[1].splitlines():
+            if line.startswith("    "):
+                self.depend[here].add(os.path.normpath(build / line.strip()))
+            elif ":" in line:
+                here = line.split(":")[0]
+                self.depend[here] = set()
+        self.library = [o for o in self.commands if "liblanger.dir/" in o]
+        self.symbols, self.program = {}, work / "test_changed"
 
-    def refresh(self):
-        """files as in the project; those that are the same keep their time"""
-        files = set(subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split("\n")) - {""}
-        for name in files:
-            source, to = ROOT / name, self.tree / name
-            if source.is_file() and not (to.exists() and to.read_bytes() == source.read_bytes()):
-                to.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, to)
-        for old in self.tree.rglob("*"):
-            if old.is_file() and str(old.relative_to(self.tree)) not in files:
-                old.unlink()
-        beside = self.tree.parent / "shared"
-        if (ROOT.parent / "shared").exists() and not beside.exists():
-            beside.symlink_to((ROOT.parent / "shared").resolve())
-        code, out = sh(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"], ROOT)
-        if code:
-            sys.exit(out)
-        self.targets = [line.split(":")[0] for line in sh("ninja -t targets all", self.build)[1].splitlines()]
+    def names(self, objects):
+        """defines and needs symbols, of each object"""
+        new = [o for o in objects if o not in self.symbols]
+        for at in range(0, len(new), 50):
+            for o in new[at: at + 50]:
+                self.symbols[o] = (set(), set())
+            for line in sh(["nm", "-A", *new[at: at + 50]], self.build)[1].splitlines():
+                where, _, rest = line.partition(":")
+                words = rest.split()
+                if where in self.symbols and len(words) > 1:
+                    self.symbols[where][words[-2] == "U"].add(words[-1])
 
-    def objects(self, folder):
-        """of the library, as far as the folder's tests need it; None: all of it"""
-        if folder not in HIGHEST:
-            return None
-        floors = re.search(r"set\(floors ([^)]*)\)", (self.tree / "tests/floors.cmake").read_text()).group(1).split()
-        parts = "|".join(floors[: floors.index(HIGHEST[folder]) + 1])
-        return [t for t in self.targets if re.search(rf"liblanger\.dir/lib/({parts})/.*\.o$", t)]
+    def needed(self, own):
+        """objects of the library that these need"""
+        self.names(own + self.library)
+        by_symbol = {s: o for o in self.library for s in self.symbols[o][0]}
+        found, rest = set(), list(own)
+        while rest:
+            for o in {by_symbol[s] for s in self.symbols[rest.pop()][1] if s in by_symbol} - found:
+                found.add(o), rest.append(o)
+        return sorted(found)
 
-    def make(self, folder):
-        """builds test_<folder>; what the compiler said where it cannot"""
-        program, objects = f"bin/test_{folder}", self.objects(folder)
-        if objects is None:
-            code, out = sh(["ninja", f"-j{self.jobs}", program], self.build)
-            return "" if code == 0 else out
-        own = [t for t in self.targets if re.search(rf"(test_{folder}|doctest_main)\.dir/.*\.o$", t)]
-        code, out = sh(["ninja", f"-j{self.jobs}", *objects, *own], self.build)
-        if code:
-            return out
-        archive = f"mutants_{folder}.a"
-        (self.build / archive).unlink(missing_ok=True)
-        commands = sh(f"ninja -t commands {program}", self.build)[1].splitlines()[-1].split("&&")
-        link = next(c for c in commands if f"-o {program} " in c).replace("liblanger.a", archive)
-        code, out = sh(["ar", "rcs", archive, *objects], self.build)
-        code, out = (code, out) if code else sh(link, self.build)
+    def changed(self, file, text):
+        """begins a change"""
+        self.overlay = self.work / "changed"
+        shutil.rmtree(self.overlay, ignore_errors=True)
+        self.file, self.again = self.root / file if file else None, {}
+        if file:
+            (self.overlay / file).parent.mkdir(parents=True)
+            (self.overlay / file).write_text(text)
+
+    def compile(self, o):
+        source, words = self.commands[o]
+        to = self.again[o] = self.overlay / (o.replace("/", "_"))
+        words = list(words)
+        words[words.index("-o") + 1] = str(to)
+        if source == self.file:
+            words[words.index(str(source))] = str(self.overlay / source.relative_to(self.root))
+        at = next(i for i, w in enumerate(words) if w.startswith("-I"))
+        words[at:at] = [f"-I{self.overlay / 'lib'}"]
+        code, out = sh(words, self.build)
+        return "" if code == 0 else out
+
+    def make(self, entry):
+        """a program with the tests of this entry; what the compiler said where it cannot"""
+        folder, _, file = entry.partition("/")
+        own = [o for o in self.commands if re.search(rf"/doctest_main\.dir/|/test_{folder}\.dir/.*{file and '/' + file + '.cpp'}\.o$", o)]
+        objects = self.needed(own) + own
+        todo = [o for o in objects if o not in self.again and str(self.file) in self.depend[o]] if self.file else []
+        with ThreadPoolExecutor(self.jobs) as pool:
+            if wrong := "".join(pool.map(self.compile, todo)):
+                return wrong
+        line = sh(f"ninja -t commands bin/test_{folder}", self.build)[1].splitlines()[-1]
+        link = shlex.split(next(c for c in line.split("&&") if f"-o bin/test_{folder} " in c))
+        link = [w for w in link if not w.endswith(".o") and w != "liblanger.a"]
+        at = link.index("-o")
+        link[at + 1: at + 2] = [str(self.program), *(str(self.again.get(o, o)) for o in objects)]
+        code, out = sh(link, self.build)
         return "" if code == 0 else out
 
     def test(self, entry, limit):
         """what fails there; empty: nothing"""
-        folder, _, file = entry.partition("/")
-        command = [self.build / f"bin/test_{folder}", "--abort-after=1", "--no-intro"] + ([f"--source-file=*/{file}.cpp"] if file else [])
-        code, out = sh(command, self.build / "tests", limit)
+        code, out = sh([self.program, "--abort-after=1", "--no-intro"], self.build / "tests", limit)
+        folder = entry.split("/")[0]
         if code is None:
             return f"{entry}: longer than {limit:.0f} s"
         if code == 0 and not re.search(r"test cases: +[1-9]", out):
@@ -116,37 +142,28 @@ class Copy:
         return "" if code == 0 else f"{folder}: {case.group(1).strip() if case else 'ends with ' + str(code)}"
 
 
-def campaign(mutants, copy, limit, results):
-    sound = {}
+def campaign(mutants, build, limit, results):
+    sound = set()
 
     def need_sound(entry):  # a test that fails without any change would kill everything
         if entry not in sound:
-            start = time.time()
-            if wrong := copy.make(entry.split("/")[0]) or copy.test(entry, limit):
+            build.changed(None, "")
+            if wrong := build.make(entry) or build.test(entry, limit):
                 sys.exit(f"without any change:\n{wrong[-3000:]}")
-            sound[entry] = time.time() - start
+            sound.add(entry)
 
     for m in mutants:
+        start, killed = time.time(), ""
+        text = (ROOT / m["file"]).read_text()
+        build.changed(m["file"], text.replace(m["old"], m["new"]))
         for entry in m["tests"].split():
-            if sum(e in sound for e in m["tests"].split()) == 0:
+            if wrong := build.make(entry):
+                killed = "DOES NOT COMPILE"
+                print(wrong[-2000:])
+                break
+            if killed := build.test(entry, limit):
                 need_sound(entry)
-        source = copy.tree / m["file"]
-        kept = source.read_text()
-        start, killed, tried = time.time(), "", []
-        try:
-            source.write_text(kept.replace(m["old"], m["new"]))
-            for entry in m["tests"].split():
-                if wrong := copy.make(entry.split("/")[0]):
-                    killed = "DOES NOT COMPILE"
-                    print(wrong[-2000:])
-                    break
-                tried.append(entry)
-                if killed := copy.test(entry, limit):
-                    break
-        finally:
-            source.write_text(kept)
-        if killed and tried and tried[-1] not in sound and "COMPILE" not in killed:
-            need_sound(tried[-1])
+                break
         row = [m["name"], m["means"], killed or ("spared: " + m["spared"] if "spared" in m else "SURVIVES"), f"{time.time() - start:.0f}"]
         print("\t".join(row), flush=True)
         with results.open("a") as out:
@@ -157,9 +174,13 @@ def main():
     p = argparse.ArgumentParser()
     p.add_argument("--check", action="store_true"), p.add_argument("--keep", action="store_true")
     p.add_argument("--only", default="*"), p.add_argument("--jobs", type=int, default=os.cpu_count())
-    p.add_argument("--limit", type=float, default=900), p.add_argument("--work", type=Path, default=ROOT / "build-mutants")
+    p.add_argument("--limit", type=float, default=900), p.add_argument("--build", type=Path, default=ROOT / "build")
+    p.add_argument("--work", type=Path, default=ROOT / "build-mutants")
     args = p.parse_args()
-    mutants = [m for m in read_list() if fnmatch.fnmatch(m["name"], args.only)]
+    everything = read_list()
+    mutants = []
+    for pattern in args.only.split(","):
+        mutants += [m for m in everything if m not in mutants and fnmatch.fnmatch(m["name"], pattern)]
     misfits = [f"{m['name']}: {why}" for m in mutants if (why := misfit(m, ROOT))]
     if misfits or not mutants:
         sys.exit("\n".join(misfits) or f"no change is named {args.only}")
@@ -171,9 +192,7 @@ def main():
     if not args.keep:
         results.unlink(missing_ok=True)
     done = {line.split("\t")[0] for line in results.read_text().splitlines()} if results.exists() else set()
-    copy = Copy(work, args.jobs)
-    copy.refresh()
-    campaign([m for m in mutants if m["name"] not in done], copy, args.limit, results)
+    campaign([m for m in mutants if m["name"] not in done], Build(ROOT, args.build.resolve(), work, args.jobs), args.limit, results)
     rows = [line.split("\t") for line in results.read_text().splitlines()]
     with (work / "mutants.md").open("w") as out:
         out.write("| change | means | noticed by | s |\n| --- | --- | --- | --- |\n")

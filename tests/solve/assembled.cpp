@@ -1,6 +1,7 @@
 // The assembled tangent: every entry goes to its place, however nodes are held.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <map>
 
 #include "assembly/equilibrium.hpp"
@@ -62,5 +63,48 @@ TEST_CASE("the tangent of a body with held nodes is the part of the free body's 
         CHECK(largest > 1);
       }
     }
+  }
+}
+
+TEST_CASE("the forces of displacements still to be imposed are the derivative of the body's forces along them") {
+  Mesh block = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 3, 3));
+  for (CellType type : {CellType::hex8, CellType::hex27}) {
+    const Mesh mesh = type == CellType::hex8 ? block : test::raised_block(block, type);
+    const VecX u = some_state(mesh);
+    VecX du = VecX::Zero(u.size());
+    std::vector<Prescribed> prescribed;
+    for (int i = 0; i < mesh.n_nodes(); i += 4) {
+      const int dof = 3 * i + i % 3;
+      prescribed.push_back({dof, u[dof] + 0.01 * (1 + i % 5)}), du[dof] = 0.01 * (1 + i % 5);
+    }
+    Equilibrium body(mesh, {test::stable(60, 1e-2)}, Formulation::displacement, number_dofs(mesh.n_nodes(), prescribed).dofs);
+    REQUIRE(body.assemble(u, true, &du));
+    const VecX K_du = body.K_du();
+    const double h = 1e-4;
+    REQUIRE(body.assemble(u + h * du, false));
+    const VecX ahead = body.f_int();
+    REQUIRE(body.assemble(u - h * du, false));
+    const VecX difference = (ahead - body.f_int()) / (2 * h);
+    CHECK((K_du - difference).norm() < 1e-5 * difference.norm());
+    CHECK(difference.norm() > 0);
+  }
+}
+
+TEST_CASE("the floor of the residual is what rounding of the displacements does to the forces, within a factor of 30") {
+  const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 3, 3));
+  for (double d : {1e-6, 1e-9}) {
+    Equilibrium body(mesh, {test::stable(60, d)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
+    const auto forces = [&](const VecX& u) {
+      body.pressures_from(u);
+      REQUIRE(body.assemble(u, false));
+      return VecX(body.f_int());
+    };
+    const VecX u = some_state(mesh);
+    VecX rounded = u;
+    for (Eigen::Index i = 0; i < u.size(); ++i) rounded[i] = std::nextafter(u[i], i % 3 == 1 ? -1.0 : 1.0);
+    const double moved = (forces(rounded) - forces(u)).norm(), floor = body.rounding_floor();
+    CAPTURE(moved / floor);
+    CHECK(floor < 30 * moved);
+    CHECK(moved < 30 * floor);
   }
 }

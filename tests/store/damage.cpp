@@ -1,8 +1,12 @@
 // Damaged, foreign and missing files: refused with exit code 3 and the path, never a crash.
 #include <doctest/doctest.h>
 
+#include <cstring>
 #include <functional>
 
+#include <fmt/format.h>
+
+#include "refusal.hpp"
 #include "solution_example.hpp"
 #include "store/curves_file.hpp"
 #include "store/h5.hpp"
@@ -12,20 +16,11 @@
 
 using namespace langer;
 using example::bytes;
+using example::holds;
+using example::refusal;
 using example::write_bytes;
 
 namespace {
-
-// the message with which reading ends; "" where it succeeds
-std::string refusal(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == Exit::input);
-    return failure.what();
-  }
-  return "";
-}
 
 void read_all(const std::string& path) {
   const SolutionReader reader(path);
@@ -39,8 +34,6 @@ std::string solution(const std::string& folder) {
   writer.finish();
   return path;
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -104,6 +97,69 @@ TEST_CASE("a file with one wrong bit is refused, whichever bit it is") {
     write_bytes(path, damaged);
     refusal([&] { read_all(path); });  // refused or, as its content is whole, read
   }
+}
+
+TEST_CASE("two sign bits turned over show, in whatever words they are") {
+  const std::string folder = example::folder("signs"), path = folder + "/signs.h5", whole = bytes(solution(folder));
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::size_t> word(0, (whole.size() - 30) / 8 - 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::size_t a = word(random), b = trial % 2 ? word(random) : (a + 1) % word.b();
+    if (a == b) continue;
+    std::string damaged = whole;
+    for (const std::size_t at : {a, b}) damaged[8 * at + 7] = static_cast<char>(damaged[8 * at + 7] ^ 0x80);
+    write_bytes(path, damaged);
+    CHECK(holds(refusal([&] { read_all(path); }), "signs.h5: damaged"));
+  }
+}
+
+namespace {
+// the seal of versions up to 0.2.0
+std::string with_older_seal(const std::string& content) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  for (std::size_t i = 0; i < content.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, content.data() + i, std::min<std::size_t>(8, content.size() - i));
+    h = (h ^ word) * 0x100000001b3u;
+  }
+  return content + fmt::format("\nlanger seal {:016x}\n", h);
+}
+}  // namespace
+
+TEST_CASE("a file sealed by an older version is read, and refused where it is damaged") {
+  const std::string folder = example::folder("older"), path = folder + "/older.h5", whole = bytes(solution(folder));
+  const std::string older = with_older_seal(whole.substr(0, whole.size() - 30));
+  write_bytes(path, older);
+  CHECK(refusal([&] { read_all(path); }) == "");
+  std::string damaged = older;
+  damaged[older.size() / 2] ^= 4;
+  write_bytes(path, damaged);
+  CHECK(holds(refusal([&] { read_all(path); }), "older.h5: damaged"));
+}
+
+TEST_CASE("what a stopped run leaves is read where it is whole; what a killed one leaves, without a seal, is not") {
+  const std::string path = example::folder("stopped") + "/solution.h5", part = path + ".part";
+  {
+    SolutionWriter writer(path, example::header(true));
+    for (int i = 0; i < 3; ++i) writer.append(example::step(i, true));
+    CHECK(refusal([&] { read_all(part); }) == "");  // while it is written
+    write_bytes(path + ".copy.part", bytes(part));
+  }
+  CHECK(SolutionReader(part).n_steps() == 3);
+  CHECK(refusal([&] { read_all(part); }) == "");
+  const std::string whole = bytes(part);
+  write_bytes(part, whole.substr(0, whole.size() - 30));
+  CHECK(holds(refusal([&] { read_all(part); }), "solution.h5.part: was left by a run that was killed"));
+  CHECK(holds(refusal([&] { read_all(path + ".copy.part"); }), "was left by a run that was killed"));
+  for (std::size_t at = 0; at < whole.size(); at += 4096) {
+    std::string damaged = whole;
+    for (std::size_t i = at; i < std::min(at + 4096, whole.size()); ++i) damaged[i] = static_cast<char>(~damaged[i]);
+    write_bytes(part, damaged);
+    CAPTURE(at);
+    CHECK(refusal([&] { read_all(part); }) != "");
+  }
+  SolutionWriter writer(path, example::header(true));
+  CHECK(writer.n_steps() == 3);
 }
 
 TEST_CASE("a damaged mesh without seal, as other tools leave it, is refused or read, never a crash") {

@@ -3,28 +3,20 @@
 #include <hdf5.h>
 
 #include <cstring>
-#include <functional>
 
+#include "refusal.hpp"
 #include "solution_example.hpp"
+#include "store/curves_file.hpp"
 #include "store/h5.hpp"
+#include "store/material_file.hpp"
 #include "store/mesh_file.hpp"
 #include "store/units.hpp"
 
 using namespace langer;
+using example::holds;
+using example::refusal;
 
 namespace {
-
-std::string refusal(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == Exit::input);
-    return failure.what();
-  }
-  return "";
-}
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string solution(const std::string& folder) {
   const std::string path = folder + "/solution.h5";
@@ -120,4 +112,44 @@ TEST_CASE("values in other units are refused, with the unit found and the one ex
   const std::string path = solution(folder);
   edited(path, [&](hid_t file) { set_unit(file, "/", "units", "m N Pa s rad"); });
   CHECK(holds(refusal([&] { read_all(path); }), "units m N Pa s rad; expected mm N MPa s deg"));
+}
+
+TEST_CASE("fits and curves in other units are refused too") {
+  const std::string folder = example::folder("fit_units");
+  FitRecord fit;
+  fit.parameters = {{"a1", "MPa", 0.269, 0, 10, 0.01}};
+  fit.covariance = MatX::Identity(1, 1), fit.starts = MatX::Ones(2, 1);
+  fit.strain = {0, 0.3}, fit.stress = {0, 0.07}, fit.model = {0, 0.07}, fit.strain_max = 0.3;
+  fit.tests = {{"t", "equibiaxial", "nominal", 30, 1, {1, 1.3}, {}, {0, 0.07}, {0, 0.06}, {0, 0.07}, {0, 0.06}, 1, 0, 0}};
+  Curves curves;
+  curves.columns = {{"force", "N", {0, 1}}};
+  curves.curves = {{"force", "u_ind", "mm", "force", "N", {0, 1}, {0, 1}}};
+  curves.summary = {{"force", 1, "N"}};
+  struct Case {
+    const char *dataset, *unit, *said;
+  };
+  const auto each = [&](const std::string& path, const auto& write, const auto& read, std::initializer_list<Case> cases) {
+    for (const Case& c : cases) {
+      CAPTURE(c.dataset);
+      write(path);
+      CHECK(refusal([&] { read(path); }) == "");
+      edited(path, [&](hid_t file) { set_unit(file, c.dataset, "unit", c.unit); });
+      CHECK(holds(refusal([&] { read(path); }), c.said));
+    }
+  };
+  Material law;
+  law.matrix = {NeoHooke{0.1}};
+  each(folder + "/material.h5", [&](const std::string& path) { write_material(path, law, fit, example::identity()); },
+       read_material,
+       {{"/tests/t/stress_z", "kPa", "values in kPa; expected values in MPa"},
+        {"/tests/t/first", "percent", "values in percent; expected a pure number"},
+        {"/tests/t/fibre_angle", "rad", "values in rad; expected values in deg"},
+        {"/curve/stress", "Pa", "values in Pa; expected values in MPa"},
+        {"/fit/parameters/a1/value", "kPa", "values in kPa"},
+        {"/fit/parameters/a1/standard_error", "percent", "values in percent; expected values in MPa"},
+        {"/fit/strain_range", "percent", "values in percent"}});
+  each(folder + "/curves.h5", [&](const std::string& path) { write_curves(path, curves, example::identity()); }, read_curves,
+       {{"/columns/force", "kN", "/columns/force: values in kN"},
+        {"/curves/force/x", "um", "/curves/force/x: values in um"},
+        {"/summary/force", "mN", "/summary/force: values in mN"}});
 }

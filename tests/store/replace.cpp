@@ -5,32 +5,18 @@
 #include <sys/stat.h>
 
 #include <array>
-#include <functional>
 
 #include "example.hpp"
+#include "refusal.hpp"
 #include "store/curves_file.hpp"
 #include "store/h5.hpp"
 #include "store/mesh_file.hpp"
 #include "store/seal.hpp"
 
 using namespace langer;
+using example::holds;
+using example::refusal;
 using example::write_bytes;
-
-namespace {
-
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == Exit::input);
-    return failure.what();
-  }
-  return "";
-}
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-}  // namespace
 
 TEST_CASE("what a run reads is not replaced, whatever name leads to it") {
   const std::string folder = example::folder("spared"), data = folder + "/fit.csv";
@@ -76,11 +62,12 @@ TEST_CASE("an output or a log that is there has to be ours") {
   write_bytes(folder + "/empty.h5", "");
   write_bytes(folder + "/notes.txt", "what I found\n");
   write_bytes(folder + "/cut.h5", example::bytes(folder + "/mesh.h5").substr(0, 9000));
-  write_bytes(folder + "/report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n");
+  write_bytes(folder + "/report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<p>made by langer-report");
+  write_bytes(folder + "/page.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<p>my own page");
   write_bytes(folder + "/solve.log", "# langer-solve solve.yaml\n");
   for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"})
     CHECK(refusal([&] { need_own_output(folder + name); }) == "");
-  for (const char* name : {"/notes.txt", "/solve.log"})
+  for (const char* name : {"/notes.txt", "/solve.log", "/page.html"})
     CHECK(holds(refusal([&] { need_own_output(folder + name); }), "is there already and was not made by langer"));
   for (const char* name : {"/solve.log", "/none.log"}) CHECK(refusal([&] { need_own_log(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/mesh.h5"})
@@ -100,6 +87,22 @@ TEST_CASE("beside an output that is made for the first time, a text with another
   begin_beside(folder + "/material.h5");  // other columns in another run of the same step
   write_bytes(folder + "/fit.csv", theirs);
   CHECK(refusal([&] { write_text_file(folder + "/fit.csv", ours); }) == "");
+}
+
+TEST_CASE("a picture or a table of HDF5 beside the output is ours where its script, or a mark, says so") {
+  const std::string folder = example::folder("pictures");
+  begin_beside(folder + "/curves.h5");
+  write_bytes(folder + "/render.png", "a photograph");
+  CHECK(holds(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }), "was not made by this step"));
+  write_bytes(folder + "/render.gp", "# made by langer\n");  // of a run that was killed
+  CHECK(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) == "");
+  CHECK(refusal([&] { need_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) == "");
+  write_bytes(folder + "/snapshot_0001.hdf", "\x89HDF\r\n\x1a\n of another program");
+  CHECK(holds(refusal([&] { h5::File::create(folder + "/snapshot_0001.hdf"); }), "was not made by langer"));
+  write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<febio_spec/>\n");
+  CHECK(holds(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }), "was not made by langer"));
+  write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<!-- written by langer 0.2.0 -->\n");
+  CHECK(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }) == "");
 }
 
 TEST_CASE("a cell of a CSV table stands between quotes where it has to") {
