@@ -319,19 +319,18 @@ VecX Equilibrium::turned_dilatations() const {
 
 void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
   const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
-  std::vector<double> predicted(n_p_), p(n_p_);
+  std::vector<double> change(n_p_), p(n_p_);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
     const ElementNodes q = element_displacements(du, e);
     const std::size_t first = static_cast<std::size_t>(e) * n_p_;
     for (int k = 0; k < n_p_; ++k) {
-      const std::size_t i = first + k;
-      double change = 0;
-      for (int a = 0; a < n_nodes_; ++a) change += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[i * n_dofs_ + 3 * a]));
-      predicted[k] = J_minus_1_[i] + change;
+      change[k] = 0;
+      for (int a = 0; a < n_nodes_; ++a)
+        change[k] += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[(first + k) * n_dofs_ + 3 * a]));
     }
-    pressures_of(e, predicted.data(), p.data());
-    for (int k = 0; k < n_p_; ++k)  // a step too long may leave a law without pressure: the old one then stays
-      if (std::isfinite(p[k])) p_[first + k] += step * (p[k] - p_[first + k]);
+    predicted_pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, &J_minus_1_[first],
+                        change.data(), p.data());
+    for (int k = 0; k < n_p_; ++k) p_[first + k] += step * (p[k] - p_[first + k]);
   }
   follow_pressures();
 }

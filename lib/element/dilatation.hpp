@@ -59,4 +59,8 @@ inline ModalVolume<double> modal_volume(const Volume& law, int n, const double* 
 // the pressures of all dilatations x (t_k of the modes, or J - 1 of the Gauss points) [MPa]
 void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, double* p);
 
+// linearised about x, as the tangent of x has them after a change dx
+void predicted_pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, const double* dx,
+                         double* p);
+
 }  // namespace langer
