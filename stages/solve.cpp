@@ -11,21 +11,6 @@
 namespace langer {
 namespace {
 
-std::vector<ErrorEstimate> errors_of(const Job<SolveConfig>& job, const SolveConfig& config,
-                                     const std::optional<Material>& material, const Run& run, const StepRecord& last,
-                                     const Recording& recording) {
-  if (config.estimate.value_or(EstimateBy::none) == EstimateBy::none) return {};
-  try {
-    return estimated(config, material, job.where, run, last,
-                     [&](const Run& other, int n, int of) { return estimate_progress(job.voice(), other, n, of); });
-  } catch (const Failure& failure) {
-    if (interrupted()) recording.stopped_in_estimate();
-    if (failure.code() != Exit::not_converged) throw;
-    job.warn("errors are not estimated: {}", failure.what());  // the result itself stands
-  }
-  return {};
-}
-
 // Nothing where a body that was solved at a point ceases to deform alike everywhere: its steps before are kept, to continue from.
 std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool at_a_point) {
   const double began = wall_seconds();
@@ -56,8 +41,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
     for (const std::string& line : watch.contact_warnings()) job.warn("{}", line);
   recording.need_the_end(end, loose);
 
-  const std::vector<ErrorEstimate> errors = errors_of(job, config, material, run, end.last, recording);
-  for (const ErrorEstimate& e : errors) job.say("{}", in_words(e));
+  const std::vector<ErrorEstimate> errors = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
   std::vector<Summary> said = summary_of(errors);  // of the result as a whole
   for (const Summary& s : watch.contact_summary()) said.push_back(s);
   // the processor's time before this function is that of loading the program
@@ -65,7 +49,11 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
       recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}), said);
   progress.finished(end.path, run.statics, recording.seconds());
   std::vector<Summary> summary = summary_of(run, end, recording.n_steps());
-  if (rung) summary.push_back({"accuracy", rung->rung.error, "percent"});
+  if (rung) {
+    const ReachedAccuracy found = reached(*rung, errors);
+    if (!found.met) job.warn("accuracy: {}", found.words);
+    summary.push_back({"accuracy", found.percent, "percent"});
+  }
   summary.insert(summary.end(), said.begin(), said.end());
   summary.push_back({"fibre_jump", jump, "deg"});
   for (const Summary& s : watch.stability_summary()) summary.push_back(s);

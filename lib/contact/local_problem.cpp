@@ -31,10 +31,10 @@ ConeProjection trial(const Vec3& r, const Vec3& x, double rho, double mu) {
 }
 
 // an indefinite W lets the sweeps run away
-bool ran_away(const Eigen::Ref<const VecX>& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
+bool diverged(const Eigen::Ref<const VecX>& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
 
 double residual_of(const LocalProblem& problem, const VecX& rho, const VecX& r, std::vector<ContactStatus>* status) {
-  if (ran_away(r)) return std::numeric_limits<double>::infinity();
+  if (diverged(r)) return std::numeric_limits<double>::infinity();
   const VecX x = problem.W * r + problem.q;
   double defect = 0, largest = 0, scale = 0;
   if (status) status->resize(problem.n_contacts());
@@ -54,7 +54,7 @@ void sweep(const LocalProblem& problem, const VecX& rho, VecX& r) {
   for (int i = 0; i < problem.n_contacts(); ++i) {
     const Vec3 x = problem.W.middleRows<3>(3 * i) * r + problem.q.segment<3>(3 * i);
     r.segment<3>(3 * i) = trial(r.segment<3>(3 * i), x, rho[i], problem.mu[i]).r;
-    if (ran_away(r.segment<3>(3 * i))) return;  // contact after contact would take it beyond what a double holds
+    if (diverged(r.segment<3>(3 * i))) return;  // contact after contact would take it beyond what a double holds
   }
 }
 
@@ -132,7 +132,7 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   VecX best = r;
   double least = residual_of(problem, rho, r, nullptr);
   const auto judge = [&] {
-    if (ran_away(r)) r = best;
+    if (diverged(r)) r = best;
     const double residual = residual_of(problem, rho, r, nullptr);
     if (residual < least) least = residual, best = r;
     return residual;
@@ -144,7 +144,7 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
     bool fled = false;
     for (const int until = std::min(sweeps + round, options.sweeps); sweeps < until && !fled; ++sweeps) {
       sweep(problem, rho, r);
-      fled = ran_away(r);
+      fled = diverged(r);
     }
     if (judge() <= options.tolerance) break;
     double last = least;
@@ -185,14 +185,10 @@ void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const Local
 
 }  // namespace
 
-double natural_map(const LocalProblem& problem, const VecX& r, std::vector<ContactStatus>* status) {
-  return residual_of(problem, step_lengths(problem), r, status);
-}
-
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options) {
   LocalReport report;
   const VecX rho = step_lengths(problem);
-  if (r.size() != problem.q.size() || ran_away(r)) r = VecX::Zero(problem.q.size());
+  if (r.size() != problem.q.size() || diverged(r)) r = VecX::Zero(problem.q.size());
   constexpr double enough = 1e-11;
   alternate(problem, rho, r, options, report);
   if (residual_of(problem, rho, r, nullptr) > std::max(options.tolerance, enough)) approach(problem, rho, r, options, report);

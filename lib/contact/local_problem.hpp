@@ -36,7 +36,4 @@ struct LocalOptions {
 
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options = {});
 
-// relative natural-map residual of r, and the state of each contact if wanted
-double natural_map(const LocalProblem& problem, const VecX& r, std::vector<ContactStatus>* status = nullptr);
-
 }  // namespace langer

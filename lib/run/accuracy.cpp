@@ -66,4 +66,22 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   return chosen;
 }
 
+ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
+  ReachedAccuracy found{chosen.rung.error, chosen.met, ""};
+  bool estimated = false;
+  for (const ErrorEstimate& e : estimates) {
+    if (e.of.unit != unit::N) continue;
+    const double percent = 100 * e.total() / std::max(std::abs(e.of.value), 1e-300);
+    found.percent = estimated ? std::max(found.percent, percent) : percent;
+    estimated = true;
+  }
+  if (estimated) found.met = found.percent <= chosen.wanted;
+  if (!found.met)
+    found.words = fmt::format(
+        "asked for {:g} %, and the error of the force is {} {:.2g} %: what was asked for is not reached; the limit beside the force is "
+        "nearer, and in place of accuracy shorter cells (mesh.geometry.indented_block.edge below {:g}) with estimate: second_rung are",
+        chosen.wanted, estimated ? "estimated at" : "in scenes of this kind up to", found.percent, chosen.rung.edge);
+  return found;
+}
+
 }  // namespace langer

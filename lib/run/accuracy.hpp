@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "run/error_estimate.hpp"
 #include "scene/solve_config.hpp"
 
 namespace langer {
@@ -29,5 +30,13 @@ struct ChosenRung {
 // Puts the rung's cells, increments and symmetry into the config; nothing where no accuracy is wanted.
 // material: of the bodies that the config names none for
 std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
+
+// What was reached of it: the largest estimated error of a force; what the rung promises where nothing was estimated.
+struct ReachedAccuracy {
+  double percent = 0;
+  bool met = false;
+  std::string words;  // where it is not: what was asked for, what was found, what to do
+};
+ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
 
 }  // namespace langer

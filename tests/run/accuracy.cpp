@@ -71,6 +71,29 @@ TEST_CASE("more than the study can promise gives its finest level and says so; n
   CHECK(plain.symmetry == SymmetryChoice::half_turn);  // what is asked for by name stays
 }
 
+TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the study promised") {
+  SolveConfig config = indentation();
+  config.accuracy = "1%";
+  const ChosenRung chosen = *choose_accuracy(config, std::nullopt);
+  REQUIRE(chosen.met);
+  const auto of = [](const char* name, const char* unit, double value, double cells) {
+    ErrorEstimate e;
+    e.of = {name, unit, value}, e.cells = cells;
+    return e;
+  };
+  CHECK(reached(chosen, {}).met);  // nothing was estimated: the promise stands
+  CHECK(reached(chosen, {}).percent == chosen.rung.error);
+  const ReachedAccuracy good = reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
+  CHECK(good.met);
+  CHECK(good.percent == doctest::Approx(0.5));
+  CHECK(good.words.empty());
+  // of several indenters the worst, and never a success by the average
+  const ReachedAccuracy bad = reached(chosen, {of("force_a", "N", 10, 0.01), of("force_b", "N", -2, 0.19)});
+  CHECK(!bad.met);
+  CHECK(bad.percent == doctest::Approx(9.5));
+  CHECK(bad.words.find("9.5 %") != std::string::npos);
+}
+
 TEST_CASE("fibres take the levels of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
   Material fibrous;
   fibrous.fibres.emplace_back();
