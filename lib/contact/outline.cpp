@@ -83,7 +83,9 @@ OpenedOutline cut_open(const Outline& outline, int axis, double at, double side)
     for (int p : face) corners.push_back(outline.points[p]);
     const std::vector<Vec3> kept = clipped(corners, axis, at, side, from, to);
     if (kept.size() > 2) add_face(out.kept, kept);
-    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k) next[key(to[k])] = from[k];
+    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
+      if (to[k] != from[k])
+        next[key(to[k])] = from[k];  // else the plane goes through a corner, or the face is a strip without width
   }
   while (!next.empty()) {  // closed lines, one after the other; an open one is closed by its chord
     std::vector<Vec3> loop;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "material/uniaxial.hpp"
+#include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
@@ -55,7 +56,7 @@ void distort(Mesh& mesh, double amount) {
   }
   for (int i = n; i < mesh.n_nodes(); ++i)
     if (mesh.section->of == SectionOf::axisymmetric)
-      mesh.X[i][2] = mesh.section->depth * mesh.X[i][0] * (i / n) / (n_layers(mesh.type) - 1);
+      mesh.X[i][2] = mesh.section->depth * mesh.X[i][0] * (i / n) / (mesh.cell().layers - 1);
   REQUIRE(section_fault(mesh) == "");
 }
 
@@ -219,7 +220,8 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
       const Scene whole = make_scene(config, mesh, config.material, nowhere);
       const auto part = ReducedScene::find(config.symmetry, mesh, whole, nowhere);
       REQUIRE(part.has_value());
-      Equilibrium body = Reduction(mesh, whole, part).equilibrium();
+      const Reduction reduction(mesh, whole, part);  // body refers to it
+      Equilibrium body = reduction.equilibrium();
       const Dofs& dofs = body.dofs();
       std::mt19937 random(5);
       std::uniform_real_distribution<double> small(-0.02, 0.02);

@@ -78,6 +78,7 @@ TEST_CASE("the forces of displacements still to be imposed are the derivative of
       prescribed.push_back({dof, u[dof] + 0.01 * (1 + i % 5)}), du[dof] = 0.01 * (1 + i % 5);
     }
     Equilibrium body(mesh, {test::stable(60, 1e-2)}, Formulation::displacement, number_dofs(mesh.n_nodes(), prescribed).dofs);
+    body.pressures_from(u);
     REQUIRE(body.assemble(u, true, &du));
     const VecX K_du = body.K_du();
     const double h = 1e-4;

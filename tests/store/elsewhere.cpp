@@ -139,6 +139,7 @@ TEST_CASE("fits and curves in other units are refused too") {
   };
   Material law;
   law.matrix = {NeoHooke{0.1}};
+  law.volume = QuadraticVolume{1e-3};
   each(folder + "/material.h5", [&](const std::string& path) { write_material(path, law, fit, example::identity()); },
        read_material,
        {{"/tests/t/stress_z", "kPa", "values in kPa; expected values in MPa"},
