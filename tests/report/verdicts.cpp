@@ -11,7 +11,7 @@ namespace {
 
 // the verdicts on a solution whose force ends at `force`, with what its estimate says
 std::vector<Verdict> verdicts(double force, const std::vector<Summary>& estimate, const std::string& accuracy) {
-  const std::string path = example::folder("verdicts") + "/solution.h5";
+  const std::string path = example::folder(force > 1e-6 ? "verdicts_of_errors" : "verdicts_of_touch") + "/solution.h5";
   SolutionWriter writer(path, example::header(true));
   for (int i = 0; i < 3; ++i) {
     StepRecord step = example::step(i, true);
