@@ -78,8 +78,8 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (!found.met)
     found.words = fmt::format(
-        "asked for {:g} %, and the error of the force is {} {:.2g} %: what was asked for is not reached; the limit beside the force is "
-        "nearer, and in place of accuracy shorter cells (mesh.geometry.indented_block.edge below {:g}) with estimate: second_rung are",
+        "asked for {:g} %, and the error of the force is {} {:.2g} %: not reached; take the limit beside the force, or shorter cells: "
+        "mesh.geometry.indented_block.edge below {:g} with estimate: second_rung, in place of accuracy",
         chosen.wanted, estimated ? "estimated at" : "in scenes of this kind up to", found.percent, chosen.rung.edge);
   return found;
 }
