@@ -144,7 +144,8 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
     pressure += (slope(a) + 4 * slope(0.5 * (a + b)) + slope(b)) * (b - a) / 6;
   }
   const double force = pressure * 2 * pi * (inner + u) * 0.5;  // over a height of 0.5
-  for (const auto& [cells, order] : {std::pair{"hex8", 2.0}, {"hex27", 4.0}}) {
+  for (const auto& [type, order] : {std::pair{"hex8", 2.0}, {"hex27", 4.0}}) {
+    const std::string cells = type;
     CAPTURE(cells);
     std::vector<double> errors;
     for (int divisions : {3, 6}) {  // beyond, what rounding leaves at this d is seen
@@ -268,7 +269,7 @@ TEST_CASE("a disc under a sphere gives the reference force, and that of the bloc
     for (const auto& [depth, force] : reference)
       if (std::abs(step.t - depth) < 1e-12) {
         ++met;
-        CAPTURE(depth);
+        CAPTURE(step.t);
         CHECK(-step.force_ind[1] == doctest::Approx(-force).epsilon(depth < 0.15 ? 0.01 : 0.005));
         CHECK(step.force_ind[0] == 0);
       }
