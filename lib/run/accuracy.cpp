@@ -71,7 +71,7 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   bool estimated = false;
   for (const ErrorEstimate& e : estimates) {
     if (e.of.unit != unit::N) continue;
-    const double percent = 100 * e.total() / std::max(std::abs(e.of.value), 1e-300);
+    const double percent = e.in_percent(e.total());
     found.percent = estimated ? std::max(found.percent, percent) : percent;
     estimated = true;
   }

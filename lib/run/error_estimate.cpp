@@ -217,11 +217,11 @@ std::vector<ErrorEstimate> estimated(const SolveConfig& config, const std::optio
 }
 
 std::string in_words(const ErrorEstimate& e) {
-  const double whole = 100 / std::max(std::abs(e.of.value), 1e-300);
-  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, whole * e.total());
-  if (!e.has_limit) return fmt::format("{} (cells {:.2g} by recovery, solver {:.1g} %)", begins, whole * e.cells, whole * e.solver);
-  return fmt::format("{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}", begins,
-                     whole * e.cells, whole * e.increments, whole * e.scatter, whole * e.solver, e.limit());
+  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, e.in_percent(e.total()));
+  const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
+  if (!e.has_limit) return fmt::format("{} (cells {:.2g} by recovery, solver {:.1g} %)", begins, cells, solver);
+  return fmt::format("{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %); limit {:.4g}", begins, cells,
+                     e.in_percent(e.increments), e.in_percent(e.scatter), solver, e.limit());
 }
 
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {

@@ -16,6 +16,7 @@
 // For meshes of the kind indented_block, whose cells one number scales.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -47,6 +48,7 @@ struct ErrorEstimate {
   bool has_limit = true;  // false: by recovery, which knows no sign
   double total() const { return std::abs(cells + increments) + scatter + solver; }
   double limit() const { return of.value - cells - increments; }
+  double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };
 
 // Of any mesh, by what its stress lacks to be smooth (post/recovery.hpp): force and greatest von Mises stress, no limit. The error of

@@ -56,7 +56,7 @@ void Progress::resumed(int steps, double t) {
 
 // what the rest takes if it goes on as so far
 std::string Progress::left(double t) const {
-  if (t >= 1 - 1e-10 || t <= from_) return "";
+  if (at_end_of_path(t) || t <= from_) return "";
   const double seconds = (wall_seconds() - start_) * (1 - t) / (t - from_);
   if (seconds < 100) return fmt::format("  {:.0f} s remaining", seconds);
   return seconds < 6000 ? fmt::format("  {:.0f} min remaining", seconds / 60) : fmt::format("  {:.1f} h remaining", seconds / 3600);

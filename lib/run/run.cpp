@@ -55,7 +55,7 @@ RunEnd Run::follow(const RunListener& listener) {
   };
   const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
     statics.accept();
-    const bool at_end = t >= 1 - 1e-10;
+    const bool at_end = at_end_of_path(t);
     if (!at_end && !listener.of_part && !listener.of_whole) return !interrupted();
     StepRecord record = step_record(statics, body, taken, next, report);
     if (listener.of_part && !listener.of_part(record)) {

@@ -11,6 +11,8 @@
 
 namespace langer {
 
+constexpr bool at_end_of_path(double t) { return t >= 1 - 1e-10; }  // t is a sum of increments
+
 // Somebody who goes along; each may be empty.
 struct RunListener {
   std::function<Problem(Problem problem, double t)> watched;                   // what the solver is given instead

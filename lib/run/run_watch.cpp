@@ -18,7 +18,7 @@ void RunWatch::kept(const StepRecord& step) {
 }
 
 bool RunWatch::of_part(StepRecord& record) {
-  const bool at_end = record.t >= 1 - 1e-10;
+  const bool at_end = at_end_of_path(record.t);
   if (when_ != StabilityCheck::each_step && !(when_ == StabilityCheck::last && at_end)) return true;
   const StabilityReport report = stability_.look(run_.body, run_.statics);
   stability_.keep(report);
