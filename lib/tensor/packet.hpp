@@ -23,48 +23,41 @@ struct Packet {
   friend Packet operator*(const Packet& a, const Packet& b) { return Packet(a.v * b.v); }
   friend Packet operator/(const Packet& a, const Packet& b) { return Packet(a.v / b.v); }
   friend Packet operator-(const Packet& a) { return Packet(-a.v); }
-  friend Packet exp(const Packet& a) {
+  // f of each lane
+  friend Packet lanewise(const Packet& a, auto&& f) {
     Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::exp(a.v[i]);
+    for (int i = 0; i < lanes; ++i) r.v[i] = f(a.v[i]);
     return r;
+  }
+  friend Packet exp(const Packet& a) {
+    return lanewise(a, [](double x) { return std::exp(x); });
   }
   friend Packet log1p(const Packet& a) {
-    Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::log1p(a.v[i]);
-    return r;
+    return lanewise(a, [](double x) { return std::log1p(x); });
   }
   friend Packet expm1(const Packet& a) {
-    Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::expm1(a.v[i]);
-    return r;
+    return lanewise(a, [](double x) { return std::expm1(x); });
   }
   friend Packet pow(const Packet& a, double exponent) {
-    Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::pow(a.v[i], exponent);
-    return r;
+    return lanewise(a, [exponent](double x) { return std::pow(x, exponent); });
   }
   friend Packet sqrt(const Packet& a) {
-    Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::sqrt(a.v[i]);
-    return r;
+    return lanewise(a, [](double x) { return std::sqrt(x); });
   }
   friend Packet abs(const Packet& a) {
-    Packet r;
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::abs(a.v[i]);
-    return r;
+    return lanewise(a, [](double x) { return std::abs(x); });
   }
   // near 1, where dilatations are: (1 + e)^(1/3) to e^3, and one step of Halley, which cubes what is left of it
   friend Packet cbrt(const Packet& a) {
     const Packet e = a - 1.0;
-    Packet r = 1.0 + e * (1.0 / 3 - e * (1.0 / 9));
+    const Packet r = 1.0 + e * (1.0 / 3 - e * (1.0 / 9));
     bool near = true;
     for (int i = 0; i < lanes; ++i) near = near && std::abs(e.v[i]) < 1e-2;
     if (near) {
       const Packet cube = r * r * r;
       return r + r * ((a - cube) / (2.0 * cube + a));
     }
-    for (int i = 0; i < lanes; ++i) r.v[i] = std::cbrt(a.v[i]);
-    return r;
+    return lanewise(a, [](double x) { return std::cbrt(x); });
   }
 };
 
