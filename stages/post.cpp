@@ -21,9 +21,7 @@ namespace {
 struct Solution {
   explicit Solution(const std::string& path)
       : reader(path),
-        body(reader.header().mesh,
-             reader.header().materials.empty() ? std::vector{reader.header().material} : reader.header().materials,
-             formulation_of(reader.header(), path), reader.header().fibres) {}
+        body(reader.header().mesh, reader.header().laws(), reader.header().directions, formulation_of(reader.header(), path)) {}
   SolutionReader reader;
   Body body;
   StepRecord record(int row) const {

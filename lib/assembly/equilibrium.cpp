@@ -10,10 +10,11 @@
 
 namespace langer {
 
-Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads,
-                         Kernel kernel, std::vector<std::vector<Vec3>> fibres, std::vector<double> cell_share)
+Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation,
+                         Dofs dofs, int threads, Kernel kernel, std::vector<double> cell_share)
     : mesh_(mesh),
       materials_(std::move(materials)),
+      directions_(std::move(directions)),
       formulation_(formulation),
       n_nodes_(nodes_per_cell(mesh.type)),
       n_dofs_(3 * n_nodes_),
@@ -21,18 +22,15 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Form
       dofs_(std::move(dofs)),
       pattern_(make_pattern(mesh, dofs_)),
       threads_(threads),
-      kernel_(kernel),
-      fibres_(std::move(fibres)) {
+      kernel_(kernel) {
   const int n = mesh.n_cells();
   geometry_.reserve(n);
-  const bool from_frames = fibres_.empty();
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
     if (!cell_share.empty()) {
       for (double& w : geometry_[e].w) w *= cell_share[e];
       geometry_[e].V *= cell_share[e];
     }
-    if (from_frames) fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3::Identity() : mesh.frames[e]));
   }
   for (const Material& m : materials_)
     if (!packet_form(m)) kernel_ = Kernel::one_by_one;
@@ -60,16 +58,16 @@ void Equilibrium::make_blocks() {
       Block block;
       block.n = static_cast<int>(std::min<std::size_t>(Packet::lanes, cells.size() - first));
       const ElementGeometry* geometry[Packet::lanes];
-      std::vector<PacketFibre> fibres(fibres_[cells[first]].size());
+      std::vector<PacketFibre> families(fibres(cells[first]).size());
       for (int l = 0; l < Packet::lanes; ++l) {
         const int e = block.cells[l] = cells[first + std::min(l, block.n - 1)];
         geometry[l] = &geometry_[e];
-        for (std::size_t k = 0; k < fibres.size(); ++k)
-          for (int i = 0; i < 3; ++i) fibres[k].a[i].set(l, fibres_[e][k][i]);
+        for (std::size_t k = 0; k < families.size(); ++k)
+          for (int i = 0; i < 3; ++i) families[k].a[i].set(l, fibres(e)[k][i]);
       }
       blocks_.push_back(block);
       packet_geometry_.push_back(packed(geometry));
-      packet_fibres_.push_back(std::move(fibres));
+      packet_fibres_.push_back(std::move(families));
     }
 }
 
@@ -138,7 +136,7 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
     const int e = block.cells[l];
     for (int k = 0; k < n_p_; ++k) p[k] = modal_pressure(e, k);
     const bool whole =
-        solid(formulation_, law, local_[e], geometry_[e], fibres_[e], element_displacements(u, e), p.data(), with_tangent, one);
+        solid(formulation_, law, local_[e], geometry_[e], fibres(e), element_displacements(u, e), p.data(), with_tangent, one);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
     if (!whole) continue;
     for (int k = 0; k < n_p_; ++k) {

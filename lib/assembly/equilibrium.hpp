@@ -1,7 +1,7 @@
 // Balance of a meshed body: internal force, tangent and the pressures that the tangent uses.   [A23] eqs 31-33
 //   F_int(u) - F_ext - R = 0
 // Vectors have one entry per dof (3 n); the tangent has the free rows only, lower triangle in the pattern's order.
-// A cell's material is materials[body[e]]; its fibres follow from that and its frame, unless `fibres` has its directions.
+// A cell's material is materials[body[e]].
 // A cell counts cell_share[e] times: for a body that symmetry reduces, the number of cells of the whole that it stands for.
 // The parallel loop over elements lives here; sums are made in order,
 // so the number of threads does not change a bit of the result.
@@ -12,6 +12,7 @@
 #include "assembly/dofs.hpp"
 #include "assembly/pattern.hpp"
 #include "element/packet_solid.hpp"
+#include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
@@ -20,8 +21,8 @@ enum class Kernel { packets, one_by_one };  // one_by_one: the scalar element, t
 
 class Equilibrium {
  public:
-  Equilibrium(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, Dofs dofs, int threads = 1,
-              Kernel kernel = Kernel::packets, std::vector<std::vector<Vec3>> fibres = {}, std::vector<double> cell_share = {});
+  Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation, Dofs dofs,
+              int threads = 1, Kernel kernel = Kernel::packets, std::vector<double> cell_share = {});
 
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
@@ -53,7 +54,7 @@ class Equilibrium {
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }
   const Material& material(int e) const { return materials_[mesh_.body.empty() ? 0 : mesh_.body[e]]; }
-  std::span<const Vec3> fibres(int e) const { return fibres_[e]; }
+  std::span<const Vec3> fibres(int e) const { return directions_.of(e); }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
   ElementNodes element_displacements(const VecX& u, int e) const;
 
@@ -79,6 +80,7 @@ class Equilibrium {
 
   const Mesh& mesh_;
   std::vector<Material> materials_;
+  Directions directions_;
   Formulation formulation_;
   int n_nodes_, n_dofs_, n_p_;  // of a cell; dilatations
   Dofs dofs_;
@@ -92,7 +94,6 @@ class Equilibrium {
   std::vector<PacketGeometry> packet_geometry_;  // per block
   std::vector<std::vector<PacketFibre>> packet_fibres_;
   std::vector<ElementGeometry> geometry_;
-  std::vector<std::vector<Vec3>> fibres_;
   std::vector<char> tied_;         // by cell: one of its nodes moves as another does; empty without symmetry
   std::vector<double> p_;          // n_p_ for each element: kappa times the dilatations of its modes or Gauss points
   std::vector<double> J_minus_1_;  // same shape

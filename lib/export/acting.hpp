@@ -1,6 +1,7 @@
 // Families that do nothing are left out of what other programs get: some divide by their modulus, some refuse it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "material/material.hpp"
@@ -13,7 +14,7 @@ inline Material acting(Material material) {
 }
 
 // one for each family, in the order of the material -> those of the families that act
-inline std::vector<Vec3> acting(const Material& material, const std::vector<Vec3>& fibres) {
+inline std::vector<Vec3> acting(const Material& material, std::span<const Vec3> fibres) {
   std::vector<Vec3> kept;
   for (std::size_t k = 0; k < material.fibres.size(); ++k)
     if (acts(material.fibres[k])) kept.push_back(fibres[k]);

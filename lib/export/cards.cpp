@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "export/acting.hpp"
 #include "export/calculix_material.hpp"
@@ -24,14 +22,6 @@ const Term* only(const Material& m) {
 }
 
 std::string number(double x) { return fmt::format("{:.10g}", x); }
-
-struct Direction {
-  double x, z;
-};
-Direction direction(const Fibre& f) {
-  const double alpha = f.alpha_deg * std::numbers::pi / 180;
-  return {std::cos(alpha), std::sin(alpha)};
-}
 
 int ogden_parts(const Ogden& law) {
   int n = 0;
@@ -86,7 +76,7 @@ std::string holzapfel(const Material& m) {
       "{}** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
       "**  *ORIENTATION, NAME=FIBRES, LOCAL DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n**  3, 0.\n",
       of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", m.fibres.size());
-  for (const Fibre& one : m.fibres) s += fmt::format("**  {}, 0., {}\n", number(direction(one).x), number(direction(one).z));
+  for (const Vec3& a : fibre_directions(m)) s += fmt::format("**  {}, 0., {}\n", number(a.x()), number(a.z()));
   return s + fmt::format("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n", m.fibres.size(),
                          number(polynomial(m)->I1[0]), number(compressibility(m.volume)), number(law.c1), number(law.c2),
                          number(m.fibres[0].kappa));
@@ -179,9 +169,9 @@ std::string ansys_fibres(const Material& m, const Polynomial& p) {
     s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(as_hgo(m.fibres[k])->c1) : "0",
                      here ? number(as_hgo(m.fibres[k])->c2) : "1");
   }
-  for (std::size_t k = 0; k < m.fibres.size(); ++k)
-    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC", number(direction(m.fibres[k]).x),
-                     number(direction(m.fibres[k]).z));
+  const std::vector<Vec3> a = fibre_directions(m);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC", number(a[k].x()), number(a[k].z()));
   return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(compressibility(m.volume)));
 }
 

@@ -62,23 +62,13 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
   return &*part;
 }
 
-// no other program needs families whose modulus is 0, and FEBio refuses them
-void leave_out_slack_families(Scene& scene, const Mesh& mesh) {
-  const auto is_slack = [](const Fibre& f) { return !acts(f); };
-  for (int e = 0; e < mesh.n_cells() && !scene.fibres.empty(); ++e) {
-    const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
-    for (std::size_t k = families.size(); k-- > 0;)
-      if (is_slack(families[k])) scene.fibres[e].erase(scene.fibres[e].begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  for (Material& m : scene.materials) std::erase_if(m.fibres, is_slack);
-}
-
+// cells whose acting fibres are alike: no other program needs families whose modulus is 0, and FEBio refuses them
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const int body = mesh.body.empty() ? 0 : mesh.body[e];
     const Material& law = scene.materials[body];
-    const std::vector<Vec3> fibres = law.fibres.empty() ? std::vector<Vec3>{} : acting(law, scene.fibres_of(mesh, e));
+    const std::vector<Vec3> fibres = acting(law, scene.directions.of(e));
     std::pair<int, std::vector<long long>> key{body, {}};
     for (const Vec3& a : fibres)
       for (int k = 0; k < 3; ++k) key.second.push_back(std::llround(1e9 * a[k]));
@@ -179,8 +169,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
     refuse(path, "", fmt::format("cells {}", names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
            "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
   Scene whole = make_scene(config, header.mesh, {}, nowhere);
-  whole.fibres = header.fibres;
-  leave_out_slack_families(whole, header.mesh);
+  whole.directions = header.directions;
   const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);
   const ReducedScene* part = exportable(found);
   const Scene& scene = part ? part->scene() : whole;

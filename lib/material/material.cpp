@@ -1,20 +1,29 @@
 #include "material/material.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <numbers>
 
 #include "material/terms.hpp"
+#include "mesh/directions.hpp"
 #include "tensor/invariants.hpp"
 #include "tensor/kinematics.hpp"
 
 namespace langer {
 
+std::vector<double> fibre_angles(const Material& material) {
+  std::vector<double> alpha;
+  for (const Fibre& fibre : material.fibres) alpha.push_back(fibre.alpha_deg);
+  return alpha;
+}
+
+std::vector<std::vector<double>> fibre_angles(const std::vector<Material>& materials) {
+  std::vector<std::vector<double>> alpha;
+  for (const Material& material : materials) alpha.push_back(fibre_angles(material));
+  return alpha;
+}
+
 std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame) {
   std::vector<Vec3> a;
-  for (const Fibre& fibre : material.fibres) {
-    const double alpha = fibre.alpha_deg * std::numbers::pi / 180;
-    a.push_back(std::cos(alpha) * frame.col(0) + std::sin(alpha) * frame.col(2));
-  }
+  for (double alpha : fibre_angles(material)) a.push_back(fibre_direction(alpha, frame));
   return a;
 }
 

@@ -55,7 +55,10 @@ inline Vec6 fibre_tensor(const Fibre& fibre, const Vec3& a) {
   return fibre.kappa * identity6() + (1 - 3 * fibre.kappa) * structural_tensor(a);
 }
 
-// reference direction of each family in a frame: a = cos(alpha) e_x + sin(alpha) e_z        [A23] eq. 1
+// of each family [deg], from which mesh/directions.hpp makes the directions in the cells
+std::vector<double> fibre_angles(const Material& material);
+std::vector<std::vector<double>> fibre_angles(const std::vector<Material>& materials);
+// of a specimen of this material alone: unit direction of each family in a frame
 std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame = Mat3::Identity());
 
 // isochoric part: matrix and fibres, no volume term; without tangent D stays zero

@@ -8,16 +8,16 @@
 
 namespace langer {
 
-Body::Body(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, std::vector<std::vector<Vec3>> fibres)
-    : mesh_(mesh), materials_(std::move(materials)), formulation_(formulation), fibres_(std::move(fibres)) {
-  const bool from_frames = fibres_.empty();
+Body::Body(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation)
+    : mesh_(mesh),
+      materials_(std::move(materials)),
+      directions_(std::move(directions)),
+      formulation_(formulation),
+      n_families_(directions_.n_families()) {
   const int n = mesh.n_cells();
   std::vector<int> shown(mesh.X.size(), std::numeric_limits<int>::max());  // region of each node
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
-    if (from_frames)
-      fibres_.push_back(fibre_directions(material(e), mesh.frames.empty() ? Mat3(Mat3::Identity()) : mesh.frames[e]));
-    n_families_ = std::max(n_families_, static_cast<int>(fibres_[e].size()));
     for (int node : mesh.cell(e)) shown[node] = std::min(shown[node], region(e));
   }
   first_.assign(mesh.X.size() + 1, 0);

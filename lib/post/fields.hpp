@@ -15,6 +15,7 @@
 
 #include "base/fields.hpp"
 #include "element/solid.hpp"
+#include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
 #include "tensor/voigt.hpp"
 
@@ -27,17 +28,16 @@ constexpr auto names(StressAt) { return std::array{"nodal_average", "nearest_gau
 class Body {
  public:
   // materials: one for all cells, or one per body of the mesh; the mesh must outlive this
-  // fibres: directions by cell; none: those that follow from the frames
-  Body(const Mesh& mesh, std::vector<Material> materials, Formulation formulation, std::vector<std::vector<Vec3>> fibres = {});
+  Body(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation);
 
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }
   const Material& material(int e) const { return materials_[region(e)]; }
   int region(int e) const { return materials_.size() > 1 ? mesh_.body[e] : 0; }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
-  std::span<const Vec3> fibres(int e) const { return fibres_[e]; }  // unit, reference state
-  int n_families() const { return n_families_; }                    // the most that any cell has
-  int n_values() const { return 7 + n_families_; }                  // length of a row
+  std::span<const Vec3> fibres(int e) const { return directions_.of(e); }  // unit, reference state
+  int n_families() const { return n_families_; }                           // the most that any cell has
+  int n_values() const { return 7 + n_families_; }                         // length of a row
   // (cell, its local node) at a node, of the region that the node shows
   struct Corner {
     int cell, local;
@@ -47,10 +47,10 @@ class Body {
  private:
   const Mesh& mesh_;
   std::vector<Material> materials_;
+  Directions directions_;
   Formulation formulation_;
-  int n_families_ = 0;
+  int n_families_;
   std::vector<ElementGeometry> geometry_;
-  std::vector<std::vector<Vec3>> fibres_;
   std::vector<std::size_t> first_;
   std::vector<Corner> corners_;
 };

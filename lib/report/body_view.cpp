@@ -204,8 +204,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                double budget) {
   const SolutionHeader& header = solution.header();
   const Mesh& mesh = header.mesh;
-  const Body body(mesh, header.materials.empty() ? std::vector{header.material} : header.materials, formulation_of(header, path),
-                  header.fibres);
+  const Body body(mesh, header.laws(), header.directions, formulation_of(header, path));
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
 

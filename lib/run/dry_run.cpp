@@ -61,7 +61,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     const int families = scene.families();
     line("fibres", families == 0 ? "off, not in the material"
                                  : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
-                                               scene.fibres.empty() ? "" : ", directions from a field"));
+                                               scene.directions.from_field() ? ", directions from a field" : ""));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),

@@ -128,12 +128,6 @@ SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
   return rungs;
 }
 
-Body body_of(const Scene& scene, const Mesh& mesh) {
-  std::vector<std::vector<Vec3>> fibres(static_cast<std::size_t>(mesh.n_cells()));
-  for (int e = 0; e < mesh.n_cells(); ++e) fibres[static_cast<std::size_t>(e)] = scene.fibres_of(mesh, e);
-  return {mesh, scene.materials, scene.formulation, fibres};
-}
-
 }  // namespace
 
 std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
@@ -155,7 +149,7 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
   if (!scene.contacts.empty()) found.push_back({"force", "N", state.force_ind.norm()});
-  const Body body = body_of(scene, mesh);
+  const Body body(mesh, scene.materials, scene.directions, scene.formulation);
   const GaussValues gauss = gauss_values(body, state.u);
   double most = 0;
   for (int n = 0; n < mesh.n_nodes(); ++n)
@@ -168,7 +162,7 @@ std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecor
 
 std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
                                             const std::vector<Valued>& found) {
-  const RecoveredError error = recovered_error(body_of(scene, mesh), state.u);
+  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), state.u);
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
     const double cells = q.name == "force"           ? error.energy_share() * q.value

@@ -1,6 +1,7 @@
 #include "run/homogeneous.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -25,9 +26,9 @@ struct Hull {
 bool same_fibres(const Mesh& mesh, const Scene& scene) {
   const std::vector<Fibre>& families = scene.materials.front().fibres;
   if (scene.families() == 0) return true;
-  const std::vector<Vec3> first = scene.fibres_of(mesh, 0);
+  const auto first = scene.directions.of(0);
   for (int e = 1; e < mesh.n_cells(); ++e) {
-    const std::vector<Vec3> here = scene.fibres_of(mesh, e);
+    const auto here = scene.directions.of(e);
     for (std::size_t k = 0; k < first.size(); ++k)
       if (acts(families[k]) && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
   }
@@ -66,8 +67,7 @@ HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const S
   if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
-  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.formulation, scene.dofs, config.threads, Kernel::packets,
-                                         scene.fibres);
+  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation, scene.dofs, config.threads);
 }
 
 std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
@@ -105,13 +105,13 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   }
   scene_.formulation = usual_formulation(CellType::hex8);
   scene_.materials = scene.materials, scene_.stops = scene.stops;
-  if (!scene.materials.front().fibres.empty()) scene_.fibres = {scene.fibres_of(mesh, 0)};
+  scene_.directions = scene.directions.of_cells(std::array{0});
   scene_.dofs = number_dofs(8, *corners).dofs;
   return scene_.dofs.n_free() > 0;  // nothing to solve where every corner is told where to go
 }
 
 Equilibrium HomogeneousScene::equilibrium() const {
-  return Equilibrium(mesh_, scene_.materials, scene_.formulation, scene_.dofs, 1, Kernel::packets, scene_.fibres);
+  return Equilibrium(mesh_, scene_.materials, scene_.directions, scene_.formulation, scene_.dofs);
 }
 
 bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {

@@ -30,8 +30,8 @@ const Mesh& Reduction::mesh() const { return point_ ? point_->mesh() : part_ ? p
 const Scene& Reduction::scene() const { return point_ ? point_->scene() : part_ ? part_->scene() : scene_; }
 
 Equilibrium Reduction::equilibrium() const {
-  return Equilibrium(mesh(), scene().materials, scene().formulation, scene().dofs, point_ ? 1 : threads_, Kernel::packets,
-                     scene().fibres, part_ ? part_->cell_share() : std::vector<double>{});
+  return Equilibrium(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs, point_ ? 1 : threads_,
+                     Kernel::packets, part_ ? part_->cell_share() : std::vector<double>{});
 }
 
 Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }

@@ -11,8 +11,7 @@ namespace langer {
 double say_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
-  const FibreJump jump =
-      run.scene.families() > 0 ? largest_jump(run.mesh, [&](int e) { return run.scene.fibres_of(run.mesh, e); }) : FibreJump{};
+  const FibreJump jump = run.scene.families() > 0 ? largest_jump(run.mesh, run.scene.directions) : FibreJump{};
   if (jump.degrees > 1e-3)
     voice.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
               jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);

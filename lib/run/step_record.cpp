@@ -32,7 +32,7 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
   header.mesh = mesh;
   header.material = scene.materials.front();
   if (scene.materials.size() > 1) header.materials = scene.materials;
-  header.fibres = scene.fibres;
+  header.directions = scene.directions;
   header.formulation = names(formulation)[static_cast<int>(formulation)];
   for (const RigidContact& contact : scene.contacts) header.contact_nodes[contact.name] = contact.nodes;
   header.identity = identity;

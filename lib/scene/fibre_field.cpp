@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -33,14 +32,14 @@ namespace {
 
 using Six = std::array<double, 6>;  // place and direction
 
-void add_point(Directions& points, const Six& v, const Place& where, const std::string& key) {
+void add_point(MeasuredDirections& points, const Six& v, const Place& where, const std::string& key) {
   const Vec3 a(v[3], v[4], v[5]);
   if (!(a.stableNorm() > 1e-12)) throw Failure(Exit::input, Error{where, key, "a direction of no length", "a vector", ""});
   points.x.emplace_back(v[0], v[1], v[2]);
   points.a.push_back(a.stableNormalized());
 }
 
-Directions from_csv(const PointField& field) {
+MeasuredDirections from_csv(const PointField& field) {
   const CsvTable table = read_table(field.file.path);
   const auto refuse = [&](int line, int column, const std::string& key, const std::string& found, const std::string& expected) {
     throw Failure(Exit::input, Error{{table.name, line, column}, key, found, expected, ""});
@@ -52,7 +51,7 @@ Directions from_csv(const PointField& field) {
     if (found == names.end()) refuse(table.header.line, 1, field.columns[i], "no such column", "columns as `columns` names them");
     at[i] = found - names.begin();
   }
-  Directions points;
+  MeasuredDirections points;
   for (const CsvRow& row : table.rows) {
     Six value{};
     for (int i = 0; i < 6; ++i) {
@@ -68,7 +67,7 @@ Directions from_csv(const PointField& field) {
 }
 
 // one dataset of n numbers for each column
-Directions from_hdf5(const PointField& field) {
+MeasuredDirections from_hdf5(const PointField& field) {
   const h5::File file = h5::File::open(field.file.path);
   std::array<std::vector<double>, 6> column;
   for (int i = 0; i < 6; ++i) {
@@ -81,7 +80,7 @@ Directions from_hdf5(const PointField& field) {
                                        fmt::format("{}, as {} has", column[0].size(), field.columns[0]),
                                        ""});
   }
-  Directions points;
+  MeasuredDirections points;
   for (std::size_t k = 0; k < column[0].size(); ++k) {
     Six value{};
     for (int i = 0; i < 6; ++i) value[i] = column[i][k];
@@ -92,14 +91,14 @@ Directions from_hdf5(const PointField& field) {
 
 }  // namespace
 
-Directions read_directions(const PointField& field) {
+MeasuredDirections read_directions(const PointField& field) {
   const std::string type = std::filesystem::path(field.file.path).extension().string();
-  Directions points = type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
+  MeasuredDirections points = type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
   if (points.x.empty()) throw Failure(Exit::input, Error{{field.file.path, 0, 0}, "", "found no points", "at least one row", ""});
   return points;
 }
 
-Vec3 direction_at(const Directions& points, const Vec3& x, Between method, double power) {
+Vec3 direction_at(const MeasuredDirections& points, const Vec3& x, Between method, double power) {
   std::size_t near = 0;
   for (std::size_t i = 1; i < points.x.size(); ++i)
     if ((points.x[i] - x).squaredNorm() < (points.x[near] - x).squaredNorm()) near = i;
@@ -113,9 +112,8 @@ Vec3 direction_at(const Directions& points, const Vec3& x, Between method, doubl
   return axes.eigenvectors().col(2);
 }
 
-void lay_fibres(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const Material& material,
-                std::vector<std::vector<Vec3>>& fibres, const std::string& key,
-                const std::function<Place(const std::string&)>& where) {
+FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const std::string& key,
+                         const std::function<Place(const std::string&)>& where) {
   if (const auto* formula = std::get_if<FormulaField>(&field)) {
     std::vector<FormulaPoint> centres;
     for (int e : cells) {
@@ -123,32 +121,23 @@ void lay_fibres(const FibreField& field, const Mesh& mesh, std::span<const int> 
       centres.push_back({x[0], x[1], x[2]});
     }
     const std::string at = key + ".formula.alpha";
-    const std::vector<double> alpha = evaluate(formula->alpha, centres, where(at), at);
-    Material turned = material;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      for (std::size_t k = 0; k < material.fibres.size(); ++k)
-        turned.fibres[k].alpha_deg = alpha[i] + material.fibres[k].alpha_deg - material.fibres[0].alpha_deg;
-      fibres[cells[i]] = fibre_directions(turned, mesh.frames[cells[i]]);
-    }
-    return;
+    return evaluate(formula->alpha, centres, where(at), at);
   }
   const auto& given = std::get<PointField>(field);
-  const Directions points = read_directions(given);
+  const MeasuredDirections points = read_directions(given);
+  std::vector<Vec3> directions;
   for (int e : cells) {
     const Vec3 x = cell_centre(mesh, e), a = direction_at(points, x, given.method, given.power);
     if (a.isZero(0))
       throw Failure(Exit::config, Error{where(key + ".points"), key + ".points",
                                         fmt::format("the points agree on no direction at ({:g}, {:g}, {:g})", x[0], x[1], x[2]),
                                         "directions with one main axis", "method: nearest always has one"});
-    fibres[e].clear();
-    for (const Fibre& fibre : material.fibres) {
-      const double further = (fibre.alpha_deg - material.fibres[0].alpha_deg) * degree;
-      fibres[e].push_back(Eigen::AngleAxisd(-further, mesh.frames[e].col(1)) * a);  // from x towards z is about -y
-    }
+    directions.push_back(a);
   }
+  return directions;
 }
 
-FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(int)>& fibres) {
+FibreJump largest_jump(const Mesh& mesh, const Directions& directions) {
   FibreJump jump;
   std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -156,7 +145,7 @@ FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(i
       const std::array<int, 4> nodes = facet_key(mesh, {e, f});
       const auto [entry, is_new] = open.try_emplace(nodes, e);
       if (is_new) continue;
-      const auto here = fibres(e), there = fibres(entry->second);
+      const auto here = directions.of(e), there = directions.of(entry->second);
       for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
         const double angle = std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
         if (angle <= jump.degrees) continue;

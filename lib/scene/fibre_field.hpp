@@ -16,7 +16,7 @@
 #include "base/error.hpp"
 #include "base/fields.hpp"
 #include "base/input_path.hpp"
-#include "material/material.hpp"
+#include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
@@ -49,18 +49,18 @@ struct PointField {
 
 using FibreField = std::variant<FormulaField, PointField>;
 
-struct Directions {
+struct MeasuredDirections {
   std::vector<Vec3> x, a;  // places [mm], unit directions
 };
-Directions read_directions(const PointField& field);  // throws Failure(input) with file, line and column, or dataset
+MeasuredDirections read_directions(const PointField& field);  // throws Failure(input) with file, line and column, or dataset
 
 // unit direction there, or zero where the points agree on none (two main axes of the same weight)
-Vec3 direction_at(const Directions& points, const Vec3& x, Between method, double power);
+Vec3 direction_at(const MeasuredDirections& points, const Vec3& x, Between method, double power);
 
-// Directions of every fibre family in the cells named; throws Failure(config) with the place of the key.
-void lay_fibres(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const Material& material,
-                std::vector<std::vector<Vec3>>& fibres, const std::string& key,
-                const std::function<Place(const std::string&)>& where);
+// What the field says of the first family in the cells named, angles [deg] or directions, from which mesh/directions.hpp lays all
+// families; throws Failure(config) with the place of the key.
+FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const std::string& key,
+                         const std::function<Place(const std::string&)>& where);
 
 // The largest angle between fibre lines of one family in cells that share a facet.
 struct FibreJump {
@@ -68,7 +68,7 @@ struct FibreJump {
   int cell = -1, neighbour = -1, family = 0;
   Vec3 place = Vec3::Zero();  // centre of the facet [mm]
 };
-FibreJump largest_jump(const Mesh& mesh, const std::function<std::vector<Vec3>(int)>& fibres);
+FibreJump largest_jump(const Mesh& mesh, const Directions& directions);
 
 Vec3 cell_centre(const Mesh& mesh, int e);
 

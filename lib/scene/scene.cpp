@@ -70,6 +70,7 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
                         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
     }
   if (!errors.empty()) return;
+  std::vector<FirstFamily> fields(mesh.bodies.size());
   bool angles_follow = false, field_follows = false;  // do any bodies take the keys at the top?
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const auto named = config.materials.find(mesh.bodies[b]);
@@ -95,20 +96,17 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
     angles_follow = angles_follow || !own.material, field_follows = field_follows || (follows && !own.fibre_field);
     scene.materials.push_back(material);
     if (!field || material.fibres.empty() || !errors.empty()) continue;
-    if (scene.fibres.empty()) scene.fibres.resize(mesh.n_cells());
     std::vector<int> cells;
     for (int e = 0; e < mesh.n_cells(); ++e)
       if (mesh.body[e] == static_cast<int>(b)) cells.push_back(e);
-    lay_fibres(*field, mesh, cells, material, scene.fibres, field_key, where);
+    fields[b] = first_family(*field, mesh, cells, field_key, where);
   }
   for (const auto& [given, taken, key] : {std::tuple{!config.fibre_angles.empty(), angles_follow, "fibre_angles"},
                                           std::tuple{config.fibre_field.has_value(), field_follows, "fibre_field"}})
     if (given && !taken)
       errors.push_back({where(key), key, "no body takes it: all of them have a material, angles or a field of their own",
                         fmt::format("{} of a body, as materials.{}.{}", key, mesh.bodies[0], key), ""});
-  if (scene.fibres.empty() || !errors.empty()) return;
-  for (int e = 0; e < mesh.n_cells(); ++e)
-    if (scene.fibres[e].empty()) scene.fibres[e] = fibre_directions(scene.materials[mesh.body[e]], mesh.frames[e]);
+  if (scene.materials.size() == mesh.bodies.size()) scene.directions = make_directions(mesh, fibre_angles(scene.materials), fields);
 }
 
 // Candidates of an indenter without a set: what it can reach of the boundary, less what supports hold against it.
@@ -130,12 +128,6 @@ int Scene::families() const {
   std::ptrdiff_t most = 0;
   for (const Material& m : materials) most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), acts));
   return static_cast<int>(most);
-}
-
-std::vector<Vec3> Scene::fibres_of(const Mesh& mesh, int cell) const {
-  if (!fibres.empty()) return fibres[cell];
-  return fibre_directions(materials[mesh.body.empty() ? 0 : mesh.body[cell]],
-                          mesh.frames.empty() ? Mat3::Identity() : mesh.frames[cell]);
 }
 
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {

@@ -1,4 +1,4 @@
-// Config and files -> the value types that mechanics works on; names are resolved here, degrees and radians meet here.
+// Config and files -> the value types that mechanics works on; names are resolved here.
 // Throws Failure(config) with the place of the key: a set that the mesh does not have, two different values for one dof,
 // fibre angles that do not match the material, a formulation that does not suit the cells.
 #pragma once
@@ -10,6 +10,7 @@
 #include "assembly/dofs.hpp"
 #include "base/error.hpp"
 #include "contact/contact.hpp"
+#include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
 #include "scene/solve_config.hpp"
 
@@ -17,14 +18,13 @@ namespace langer {
 
 struct Scene {
   Formulation formulation = Formulation::mean_dilatation;
-  std::vector<Material> materials;        // one for each body of the mesh; families with c1 = 0 keep their place
-  std::vector<std::vector<Vec3>> fibres;  // directions by cell where a field gives them, else empty
+  std::vector<Material> materials;  // one for each body of the mesh; families with c1 = 0 keep their place
+  Directions directions{};          // of the fibres, in every cell
   Dofs dofs;
   std::vector<RigidContact> contacts;  // empty: no contact code runs
   std::vector<double> stops;           // values of t where an indenter turns
 
   int families() const;  // with c1 other than 0, in the body that has most of them: others cost nothing
-  std::vector<Vec3> fibres_of(const Mesh& mesh, int cell) const;  // from its field, or its material's angles and its frame
 };
 
 // material: of the bodies that `materials` gives none

@@ -61,7 +61,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     const auto body = static_cast<std::size_t>(mesh.body.empty() ? 0 : mesh.body[e]);
     const std::vector<Fibre>& families = scene.materials[body].fibres;
     if (families.empty() || said[body]) continue;
-    const std::vector<Vec3> a = scene.fibres_of(mesh, e);
+    const auto a = scene.directions.of(e);
     for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
       if (!acts(families[k]) || kept(families[k], a[k], mesh.section->of)) continue;
       said[body] = 1;

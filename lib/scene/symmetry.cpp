@@ -27,7 +27,7 @@ const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1
 std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, const Scene& scene) {
   const bool fibrous = scene.families() > 0;
   for (int e = 0; e < mesh.n_cells() && fibrous; ++e) {
-    const auto a = scene.fibres_of(mesh, e), b = scene.fibres_of(mesh, g.cell[e]);
+    const auto a = scene.directions.of(e), b = scene.directions.of(g.cell[e]);
     const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
     for (std::size_t k = 0; k < a.size(); ++k)
       if (const Vec3 turned = op.signs.cwiseProduct(a[k]);
@@ -104,8 +104,7 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
     r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], q.cell.size(), mesh.n_cells());
 
     r.scene_.formulation = scene.formulation, r.scene_.materials = scene.materials, r.scene_.stops = scene.stops;
-    for (int e : q.cell)
-      if (!scene.fibres.empty()) r.scene_.fibres.push_back(scene.fibres[e]);
+    r.scene_.directions = scene.directions.of_cells(q.cell);
     std::vector<Prescribed> prescribed;
     for (const Prescribed& p : scene.dofs.prescribed) {
       const Image& image = q.node_image[p.dof / 3];

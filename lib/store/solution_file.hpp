@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "material/material.hpp"
+#include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
@@ -42,10 +43,13 @@ struct SolutionHeader {
   Mesh mesh;
   Material material;                                      // of the first body
   std::vector<Material> materials;                        // one for each body where they differ, else empty
-  std::vector<std::vector<Vec3>> fibres;                  // directions by cell where a field gave them, else empty
+  Directions directions{};                                // of the fibres in all cells; the file has those of a field
   std::string formulation;                                // element/solid.hpp
   std::map<std::string, std::vector<int>> contact_nodes;  // candidates by contact name; empty without contact
   Identity identity;
+
+  // one for all cells, or one for each body
+  std::vector<Material> laws() const { return materials.empty() ? std::vector{material} : materials; }
 };
 
 // a run that added steps to what a later one goes on with

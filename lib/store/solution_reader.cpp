@@ -32,26 +32,31 @@ std::vector<double> finite_rows(const h5::Group& group, const std::string& name,
   return values;
 }
 
-void read_fibres(const h5::Group& cells, SolutionHeader& header) {
+// those of a field; others follow from the laws' angles and the cells' frames
+Directions read_directions(const h5::Group& cells, const SolutionHeader& header) {
   const std::size_t n = static_cast<std::size_t>(header.mesh.n_cells());
+  const std::vector<std::vector<double>> angles = fibre_angles(header.laws());
+  if (!cells.has("fibre_1")) return make_directions(header.mesh, angles);
+  std::vector<std::vector<Vec3>> fibres(n);
   for (int k = 1; cells.has(fmt::format("fibre_{}", k)); ++k) {
     const std::string name = fmt::format("fibre_{}", k);
-    header.fibres.resize(n);
-    const std::vector<Vec3> directions = vectors(cells.read_finite(name, {n, 3}));
+    const std::vector<Vec3> a = vectors(cells.read_finite(name, {n, 3}));
     for (std::size_t e = 0; e < n; ++e) {
-      if (directions[e].isZero(0)) continue;
-      if (!(std::abs(directions[e].norm() - 1) < 1e-9))
-        cells.refuse(name, fmt::format("length {} in cell {}", directions[e].norm(), e), "unit vectors");
-      header.fibres[e].push_back(directions[e]);
+      if (a[e].isZero(0)) continue;
+      if (!(std::abs(a[e].norm() - 1) < 1e-9))
+        cells.refuse(name, fmt::format("length {} in cell {}", a[e].norm(), e), "unit vectors");
+      fibres[e].push_back(a[e]);
     }
   }
-  if (header.fibres.empty()) return;
+  Directions directions(true);
   for (std::size_t e = 0; e < n; ++e) {
-    const Material& m = header.materials.empty() ? header.material : header.materials[header.mesh.body[e]];
-    if (header.fibres[e].size() != m.fibres.size())
-      cells.refuse("fibre_1", fmt::format("{} directions in cell {}", header.fibres[e].size(), e),
-                   fmt::format("{}, one for each fibre family of its material", m.fibres.size()));
+    const std::size_t families = angles[angles.size() > 1 ? static_cast<std::size_t>(header.mesh.body[e]) : 0].size();
+    if (fibres[e].size() != families)
+      cells.refuse("fibre_1", fmt::format("{} directions in cell {}", fibres[e].size(), e),
+                   fmt::format("{}, one for each fibre family of its material", families));
+    directions.append(std::move(fibres[e]));
   }
+  return directions;
 }
 
 void check_units(const h5::Group& root) {
@@ -81,7 +86,7 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   if (root.has("materials"))
     for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b)
       read_listing(root.group("materials").group(std::to_string(b)), header.materials.emplace_back());
-  read_fibres(root.group("VTKHDF").group("CellData"), header);
+  header.directions = read_directions(root.group("VTKHDF").group("CellData"), header);
   if (root.has("contact")) {
     const h5::Group contacts = root.group("contact");
     for (const std::string& name : contacts.groups()) {

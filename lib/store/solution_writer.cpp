@@ -110,11 +110,13 @@ void SolutionWriter::State::begin() {
     for (std::size_t b = 0; b < header.materials.size(); ++b)
       write_listing(materials.make_group(std::to_string(b)), header.materials[b]);
   }
-  std::size_t families = 0;
-  for (const auto& a : header.fibres) families = std::max(families, a.size());
-  for (std::size_t k = 0; k < families; ++k) {
+  const int families = header.directions.from_field() ? header.directions.n_families() : 0;
+  for (int k = 0; k < families; ++k) {
     std::vector<Vec3> directions;  // zero in cells without this family
-    for (const auto& a : header.fibres) directions.push_back(k < a.size() ? a[k] : Vec3::Zero());
+    for (int e = 0; e < header.mesh.n_cells(); ++e) {
+      const auto a = header.directions.of(e);
+      directions.push_back(static_cast<std::size_t>(k) < a.size() ? a[static_cast<std::size_t>(k)] : Vec3(Vec3::Zero()));
+    }
     grid.group("CellData").write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions), "-");
   }
   grid.make_group("PointData");

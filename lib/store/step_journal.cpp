@@ -125,13 +125,21 @@ struct Task {
   std::string code, config, arrays;
 };
 
+// directions that a field gave, by cell; empty where angles and frames, which stand beside them, tell them
+std::vector<std::vector<Vec3>> field_of(const SolutionHeader& header) {
+  std::vector<std::vector<Vec3>> fibres;
+  for (int e = 0; header.directions.from_field() && e < header.mesh.n_cells(); ++e)
+    fibres.emplace_back(header.directions.of(e).begin(), header.directions.of(e).end());
+  return fibres;
+}
+
 // ids know configs, not code: another version of the mesher may have made another mesh of the same config
 Task task_of(const SolutionHeader& header) {
   Packer arrays;
   const Mesh& mesh = header.mesh;
   arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity), arrays.put(mesh.body),
       arrays.put(mesh.frames);
-  arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(header.fibres), arrays.put(header.contact_nodes);
+  arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(field_of(header)), arrays.put(header.contact_nodes);
   if (mesh.section) arrays.put(static_cast<int>(mesh.section->of)), arrays.put(mesh.section->depth);
   const Identity& identity = header.identity;
   const std::string& steps = identity.steps_hash.empty() ? identity.config_hash : identity.steps_hash;

@@ -15,6 +15,7 @@
 #include "material/path.hpp"
 #include "sensitivity/sobol.hpp"
 #include "solve/forecast.hpp"
+#include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -120,7 +121,8 @@ void measure_assembly(const Material& skin) {
                                       {&quadratic, Kernel::packets},
                                       {&quadratic, Kernel::one_by_one}}) {
     const Mesh& mesh = *cells;
-    Equilibrium body(mesh, {skin}, usual_formulation(mesh.type), number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
+    Equilibrium body =
+        test::equilibrium(mesh, {skin}, usual_formulation(mesh.type), number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = 0.01 * mesh.X[i].cwiseProduct(Vec3(1, -1, 0.5));
     body.assemble(u, true);

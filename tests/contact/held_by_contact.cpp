@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/supported_problem.hpp"
+#include "support/directions.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
@@ -14,7 +15,8 @@ using test::Run;
 
 TEST_CASE("a cube between two rough plates, held by nothing else") {
   const Mesh mesh = test::cube(4);
-  Equilibrium body(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
+  Equilibrium body =
+      test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
   const RigidContact below{"below", Plane{{0, 0, 0}, {0, 1, 0}}, 0.5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}};
   const RigidContact above{"above", Plane{{0, 1, 0}, {0, -1, 0}}, 0.5, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.2, 0)}}};
   Statics statics(body, {below, above}, {});
@@ -40,7 +42,8 @@ TEST_CASE("the same cube on a held base gives the same force: the springs leave 
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
     else  // mu = 5 sticks everywhere: as good as glued
       contacts.push_back({"below", Plane{{0, 0, 0}, {0, 1, 0}}, 5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}});
-    Equilibrium body(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+    Equilibrium body =
+        test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, contacts, {});
     REQUIRE(run(statics, 0.25).path.complete);
     return -statics.defects()[0].force[1];

@@ -6,6 +6,7 @@
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -49,7 +50,8 @@ TEST_CASE("Hertz: a sphere on an incompressible half-space, F = 16/9 E sqrt(R) d
   RigidContact sphere{"sphere", Sphere{R, {0, R, 0}}, 0, {}, {{1, Vec3(0, -depth, 0)}}};
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 1.2) sphere.nodes.push_back(i);
-  Equilibrium body(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body =
+      test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {sphere}, {});
   REQUIRE(run(statics, 0.5).complete);
   const double force = -4 * statics.defects()[0].force[1], hertz = 16. / 9 * E * std::sqrt(R) * std::pow(depth, 1.5);
@@ -71,7 +73,8 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
                              mu,
                              mesh.node_sets.at("y_min"),
                              {{0.1, Vec3(0, 0.01, 0)}, {1, Vec3(-0.3, 0.01, 0)}}};
-    Equilibrium body(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+    Equilibrium body =
+        test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {wedge}, {});
     REQUIRE(run(statics, 0.05, {0.1}).complete);
     const ContactDefect defect = statics.defects()[0];

@@ -7,6 +7,7 @@
 
 #include "solve/statics.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "tensor/voigt.hpp"
 
@@ -56,7 +57,7 @@ Errors errors_of(CellType cells, Formulation formulation, const Material& materi
     for (int i : nodes)
       if (!seen[i]++)
         for (int k = 0; k < 3; ++k) outer.push_back({3 * i + k, chosen(mesh.X[i])[k]});
-  Equilibrium body(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), outer).dofs);
+  Equilibrium body = test::equilibrium(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), outer).dofs);
   VecX F = VecX::Zero(3 * mesh.n_nodes());
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int g = 0; g < cell.n_gauss; ++g) {

@@ -15,6 +15,7 @@
 #include "store/curves_file.hpp"
 #include "store/solution_layout.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
 
@@ -33,7 +34,7 @@ struct Sample {
     m.node_sets["B"] = {m.n_nodes() - 1};
     return m;
   }();
-  Body body{mesh, {test::table1(30, 1e-2)}, Formulation::mean_dilatation};
+  Body body = test::body(mesh, {test::table1(30, 1e-2)}, Formulation::mean_dilatation);
   StepState state = [this] {
     StepState s = unloaded(mesh);
     // bending, so that every point differs
@@ -125,7 +126,8 @@ TEST_CASE("a column has the dimension that its unit says") {
   for (Fibre& f : stiffer.fibres) std::get<HgoFibre>(f.law).c1 *= stress;
   for (MatrixTerm& term : stiffer.matrix)
     for (double* a : {&std::get<Yeoh>(term).a1, &std::get<Yeoh>(term).a2, &std::get<Yeoh>(term).a3}) *a *= stress;
-  const Body body(s.mesh, {law}, Formulation::mean_dilatation), other(scaled.mesh, {stiffer}, Formulation::mean_dilatation);
+  const Body body = test::body(s.mesh, {law}, Formulation::mean_dilatation),
+             other = test::body(scaled.mesh, {stiffer}, Formulation::mean_dilatation);
   const std::map<std::string, double> factor{{"-", 1}, {"mm", length}, {"N", force}, {"MPa", stress}, {"N mm", length * force}};
   for (const QuantityLine& line : quantity_lines()) {
     CAPTURE(line.word);
@@ -253,7 +255,7 @@ TEST_CASE("names that the mesh or the solution lacks are complaints with their k
   CHECK(bad("{quantity: fibre_stretch, at: A, family: 2}").at(0).key == "columns[0].family");
   s.available.contact = false;
   CHECK(bad("{quantity: u_ind}").at(0).key == "columns[0].quantity");
-  const Body isotropic(s.mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  const Body isotropic = test::body(s.mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   CHECK(look_up(choices("{quantity: fibre_stretch_max}"), "further", isotropic, {}).complaints.at(0).key == "further[0].quantity");
 }
 

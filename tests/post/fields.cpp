@@ -8,6 +8,7 @@
 
 #include "material/uniaxial.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
 
@@ -48,7 +49,7 @@ constexpr double rounding = 1e-12;  // of numbers of order one, after a few hund
 TEST_CASE("a homogeneous deformation has the same values at every Gauss point, in every element, at every node") {
   const Mesh mesh = distorted();
   for (Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation}) {
-    const Body body(mesh, {test::table1(30, 0.5)}, formulation);
+    const Body body = test::body(mesh, {test::table1(30, 0.5)}, formulation);
     const GaussValues gauss = gauss_values(body, homogeneous(mesh, some_F));
     const VecX expected = gauss[0].row(0).transpose();
     CHECK(expected.head<6>().norm() > 0.1);
@@ -64,7 +65,7 @@ TEST_CASE("a homogeneous deformation has the same values at every Gauss point, i
 TEST_CASE("values of a homogeneous deformation are those of the law: stress, J, fibre stretch sqrt(I4_bar)") {
   const Mesh mesh = distorted();
   const Material material = test::table1(30, 0.5);
-  const Body body(mesh, {material}, Formulation::displacement);
+  const Body body = test::body(mesh, {material}, Formulation::displacement);
   const VecX row = gauss_values(body, homogeneous(mesh, some_F))[5].row(2).transpose();
   const auto a = fibre_directions(material);
   const Mat3 sigma = cauchy(some_F, response(material, some_F.transpose() * some_F, a).S);
@@ -77,7 +78,7 @@ TEST_CASE("values of a homogeneous deformation are those of the law: stress, J, 
 TEST_CASE("a linear field is reproduced exactly by nodal averages, on distorted elements too") {
   // the position is trilinear in an element's own coordinates, so a linear function of it is extrapolated without error
   for (const Mesh& mesh : {distorted(), test::raised_block(distorted())}) {
-    const Body body(mesh, {test::table1(30, 1e-3)}, usual_formulation(mesh.type));
+    const Body body = test::body(mesh, {test::table1(30, 1e-3)}, usual_formulation(mesh.type));
     const auto linear = [](const Vec3& X, int c) { return (c + 1) * X[0] - 2 * X[1] + 0.5 * c * X[2] - c; };
     const GaussValues gauss = filled(body, linear);
     for (int node = 0; node < mesh.n_nodes(); ++node) {
@@ -92,7 +93,7 @@ TEST_CASE("J of a node lies within the values of the points of its cells, howeve
   std::mt19937 random(5);
   std::uniform_real_distribution<double> swing(-1, 1);
   for (const Mesh& mesh : {distorted(), test::raised_block(distorted())}) {
-    const Body body(mesh, {test::table1(30, 1e-6)}, usual_formulation(mesh.type));
+    const Body body = test::body(mesh, {test::table1(30, 1e-6)}, usual_formulation(mesh.type));
     const GaussValues gauss = filled(body, [&](const Vec3&, int c) { return c == 6 ? 1 + 1e-2 * swing(random) : swing(random); });
     int beyond = 0;
     for (int node = 0; node < mesh.n_nodes(); ++node) {
@@ -114,7 +115,7 @@ TEST_CASE("J of a node lies within the values of the points of its cells, howeve
 
 TEST_CASE("an element's mean of a linear field is its value at the centre of a brick") {
   const Mesh mesh = test::block({0, 1, 3}, {0, 0.5}, {-1, 2});
-  const Body body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  const Body body = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   const auto linear = [](const Vec3& X, int c) { return X[0] + 2 * X[1] - c * X[2]; };
   const GaussValues gauss = filled(body, linear);
   for (int e = 0; e < 2; ++e) {
@@ -125,7 +126,7 @@ TEST_CASE("an element's mean of a linear field is its value at the centre of a b
 
 TEST_CASE("averages over the elements at a node are weighted with their reference volumes") {
   const Mesh mesh = test::block({0, 1, 4}, {0, 1}, {0, 1});  // volumes 1 and 3
-  const Body body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  const Body body = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   const GaussValues gauss = filled(body, [](const Vec3& X, int) { return X[0] < 1 ? 10.0 : 2.0; });
   for (int node = 0; node < mesh.n_nodes(); ++node)
     for (StressAt at : {StressAt::nodal_average, StressAt::nearest_gauss}) {
@@ -136,7 +137,7 @@ TEST_CASE("averages over the elements at a node are weighted with their referenc
 
 TEST_CASE("the nearest Gauss point is the nearest of all, in each element at the node") {
   const Mesh mesh = distorted();
-  const Body body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  const Body body = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   // the value is the Gauss point's own number
   GaussValues gauss(mesh.n_cells(), ElementValues::Zero(8, 7));
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -161,8 +162,8 @@ TEST_CASE("bodies of different materials are never averaged, of one material the
   mesh.bodies = {"skin", "fat"};
   mesh.body = {0, 1};
   const auto by_cell = [](const Vec3& X, int) { return X[0] < 1 ? 10.0 : 2.0; };
-  const Body two(mesh, {test::neo_hooke(1, 1), test::table1(0, 1)}, Formulation::displacement);
-  const Body one(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
+  const Body two = test::body(mesh, {test::neo_hooke(1, 1), test::table1(0, 1)}, Formulation::displacement);
+  const Body one = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   CHECK(two.n_families() == 1);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     const double x = mesh.X[node][0];
@@ -195,7 +196,7 @@ TEST_CASE("uniaxial tension along the fibre: the law's own stress at every node,
     REQUIRE(state.converged);
     const Mat3 F = state.stretch.asDiagonal();
     const Mesh mesh = distorted();
-    const Body body(mesh, {material}, Formulation::mean_dilatation);
+    const Body body = test::body(mesh, {material}, Formulation::mean_dilatation);
     const GaussValues gauss = gauss_values(body, homogeneous(mesh, F));
     // kappa = 2e4 MPa times the rounding of J - 1 is 1e-11 MPa
     for (int node : {0, 5, 21, 63}) {

@@ -130,7 +130,8 @@ TEST_CASE("what a stress lacks to be smooth tells the error of the stored energy
     const Mesh mesh = test::mesh_in(config);
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
     const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();
-    return Bar{recovered_error(Body(mesh, scene.materials, scene.formulation), last.u), last.scalars.at("energy")};
+    return Bar{recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), last.u),
+               last.scalars.at("energy")};
   };
   const double right = bar(6, "hex27").energy;
   double before = 1;
@@ -154,7 +155,7 @@ TEST_CASE("a homogeneous state has no error to recover") {
   const Mesh mesh = test::mesh_in(config);
   const Scene scene = make_scene(config, mesh, config.material, nowhere);
   const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();
-  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.formulation), last.u);
+  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), last.u);
   CHECK(error.eta < 1e-6);
   CHECK(error.von_mises_spread < 1e-6 * error.von_mises_max);
 }

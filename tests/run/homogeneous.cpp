@@ -6,6 +6,7 @@
 #include "run/equilibrium_by.hpp"
 #include "run/step_record.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"
 
@@ -35,6 +36,7 @@ Scene scene_of(const Case& c, const Mesh& mesh) {
   material.fibres.clear();
   for (double angle : c.angles) material.fibres.push_back(fibre), material.fibres.back().alpha_deg = angle;
   scene.materials = {material};
+  scene.directions = test::directions(mesh, scene.materials);
   std::vector<Prescribed> held;
   for (const auto& [face, k, value] : {std::tuple{"x_min", 0, 0.}, {"y_min", 1, 0.}, {"z_min", 2, 0.}, {"x_max", 0, 0.8}})
     for (int i : mesh.node_sets.at(face)) held.push_back({3 * i + k, value});
@@ -162,7 +164,8 @@ TEST_CASE("what does not deform alike everywhere is solved as it is") {
   }
   SUBCASE("fibres that turn from cell to cell") {
     Scene turning = scene;
-    for (int e = 0; e < mesh.n_cells(); ++e) turning.fibres.push_back({Vec3(std::cos(0.01 * e), 0, std::sin(0.01 * e))});
+    turning.directions = Directions(true);
+    for (int e = 0; e < mesh.n_cells(); ++e) turning.directions.append({Vec3(std::cos(0.01 * e), 0, std::sin(0.01 * e))});
     CHECK_FALSE(is_homogeneous(mesh, turning));
   }
   SUBCASE("contact") {

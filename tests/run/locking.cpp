@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -53,7 +54,8 @@ Found block(const Scene& scene, CellType cells, std::optional<Formulation> formu
     const Vec3 from = mesh.X[i] - Vec3(2, 2, 2), u = scene.move + scene.turn * Vec3(from[2], from[0], -from[0]);
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, u[k]});
   }
-  Equilibrium body(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)), number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body = test::equilibrium(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)),
+                                       number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   LoadPathOptions path;
   path.first = path.largest = 0.5;

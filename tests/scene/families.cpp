@@ -89,8 +89,9 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
     CHECK(none.force == doctest::Approx(little.force).epsilon(1e-6));
     REQUIRE(none.scene.materials[0].fibres.size() == static_cast<std::size_t>(families));
     for (int e = 0; e < mesh.n_cells(); ++e) {
-      REQUIRE(none.scene.fibres[e].size() == static_cast<std::size_t>(families));
-      for (int k = 0; k < families; ++k) CHECK((none.scene.fibres[e][k] - little.scene.fibres[e][k]).norm() == 0);
+      const auto a = none.scene.directions.of(e), of_little = little.scene.directions.of(e);
+      REQUIRE(a.size() == static_cast<std::size_t>(families));
+      for (int k = 0; k < families; ++k) CHECK((a[k] - of_little[k]).norm() == 0);
     }
     for (const auto& [name, values] : little.last.cell_fields) {
       CAPTURE(name);
@@ -124,7 +125,7 @@ TEST_CASE("A body's own angles, or those of its own material, hold under a field
   const auto in_a_and_b = [&](const std::string& text) {
     const Scene scene = make_scene(config_of(text + pulled), mesh, config_of(text + pulled).material, nowhere);
     std::array<double, 2> along{-1, -1};  // share of the direction along x
-    for (int e = 0; e < mesh.n_cells(); ++e) along[mesh.body[e]] = std::abs(scene.fibres_of(mesh, e)[0][0]);
+    for (int e = 0; e < mesh.n_cells(); ++e) along[mesh.body[e]] = std::abs(scene.directions.of(e)[0][0]);
     return along;
   };
   const auto is = [](const std::array<double, 2>& found, double a, double b) {

@@ -11,7 +11,6 @@
 
 #include "store/h5.hpp"
 #include "support/block.hpp"
-#include "support/laws.hpp"
 
 using namespace langer;
 
@@ -19,23 +18,21 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 Place nowhere(const std::string&) { return {"solve.yaml", 7, 3}; }
 
-std::vector<std::vector<Vec3>> laid(const FibreField& field, const Mesh& mesh) {
-  std::vector<std::vector<Vec3>> fibres(mesh.n_cells());
+Directions laid(const FibreField& field, const Mesh& mesh) {
   std::vector<int> cells;
   for (int e = 0; e < mesh.n_cells(); ++e) cells.push_back(e);
-  lay_fibres(field, mesh, cells, test::table1(0, 1e-3), fibres, "fibre_field", nowhere);
-  return fibres;
+  return make_directions(mesh, {{0}}, {first_family(field, mesh, cells, "fibre_field", nowhere)});
 }
 }  // namespace
 
 TEST_CASE("a formula gives each cell the angle at its centre, and the jump is its slope times the cell's length") {
   const Mesh mesh = test::block(test::even(0, 8, 4), test::even(0, 1, 1), test::even(0, 3, 3));
-  const auto fibres = laid(FormulaField{"30 + 2*x"}, mesh);
+  const Directions directions = laid(FormulaField{"30 + 2*x"}, mesh);
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const double alpha = (30 + 2 * cell_centre(mesh, e)[0]) * degree;
-    CHECK((fibres[e][0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
+    CHECK((directions.of(e)[0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
   }
-  const FibreJump jump = largest_jump(mesh, [&](int e) { return fibres[e]; });
+  const FibreJump jump = largest_jump(mesh, directions);
   CHECK(jump.degrees == doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
   CHECK(std::fmod(jump.place[0], 2) == doctest::Approx(0));
 }
@@ -58,7 +55,7 @@ TEST_CASE("a formula that cannot be read is refused with the place of its key an
 }
 
 TEST_CASE("directions between points do not depend on the points' signs, and opposite answers are said to be none") {
-  Directions points{{{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, Vec3(1, 0, 1).normalized()}};
+  MeasuredDirections points{{{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, Vec3(1, 0, 1).normalized()}};
   const Vec3 middle(1, 0, 0), a = direction_at(points, middle, Between::inverse_distance, 2);
   CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) == doctest::Approx(1));
   points.a[1] = -points.a[1];
@@ -86,9 +83,9 @@ TEST_CASE("the same points from a CSV file and from an HDF5 file, datasets of un
   write(2);
   PointField field;
   field.file.path = csv;
-  const Directions a = read_directions(field);
+  const MeasuredDirections a = read_directions(field);
   field.file.path = h5_file;
-  const Directions b = read_directions(field);
+  const MeasuredDirections b = read_directions(field);
   CHECK(a.x == b.x);
   CHECK(a.a == b.a);
   CHECK((b.a[1] - Vec3(0.6, 0, 0.8)).norm() < 1e-15);

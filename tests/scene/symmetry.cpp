@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"
 
@@ -34,6 +35,7 @@ Scene scene_of(const Case& c, const Mesh& mesh) {
   Scene scene;
   scene.formulation = usual_formulation(mesh.type);
   scene.materials = {test::table1(c.alpha, 1e-4)};
+  scene.directions = test::directions(mesh, scene.materials);
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
@@ -136,8 +138,8 @@ TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked fo
   scene.dofs = number_dofs(mesh.n_nodes(), {{3 * mesh.node_sets.at("y_min")[0], 0.0}}).dofs;  // one corner held
   CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
   scene = scene_of(c, mesh);
-  scene.fibres.assign(mesh.n_cells(), {Vec3(1, 0, 0)});
-  scene.fibres[5] = {Vec3(0.6, 0, 0.8)};
+  scene.directions = Directions(true);
+  for (int e = 0; e < mesh.n_cells(); ++e) scene.directions.append({e == 5 ? Vec3(0.6, 0, 0.8) : Vec3(1, 0, 0)});
   CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
 }
 

@@ -6,6 +6,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -40,7 +41,7 @@ TEST_CASE("the tangent of a body with held nodes is the part of the free body's 
     const Mesh mesh = type == CellType::hex8 ? block : test::raised_block(block, type);
     const std::vector<Material> materials = {test::table1(60, 1e-3), test::table1(20, 1e-3)};
     const VecX u = some_state(mesh);
-    Equilibrium whole(mesh, materials, usual_formulation(type), number_dofs(mesh.n_nodes(), {}).dofs);
+    Equilibrium whole = test::equilibrium(mesh, materials, usual_formulation(type), number_dofs(mesh.n_nodes(), {}).dofs);
     REQUIRE(whole.assemble(u, true));
     const Entries all = entries(whole);
     for (int held : {0, 1, 2, 3}) {  // nothing, whole nodes, single directions, both
@@ -51,7 +52,7 @@ TEST_CASE("the tangent of a body with held nodes is the part of the free body's 
           for (int k = 0; k < 3; ++k) prescribed.push_back({3 * i + k, 0});
         if (held >= 2 && i % 7 == 3) prescribed.push_back({3 * i + i % 3, 0});
       }
-      Equilibrium body(mesh, materials, usual_formulation(type), number_dofs(mesh.n_nodes(), prescribed).dofs);
+      Equilibrium body = test::equilibrium(mesh, materials, usual_formulation(type), number_dofs(mesh.n_nodes(), prescribed).dofs);
       for (int again = 0; again < 2; ++again) {  // K is written over, not added to
         REQUIRE(body.assemble(u, true));
         double worst = 0, largest = 0;
@@ -77,7 +78,8 @@ TEST_CASE("the forces of displacements still to be imposed are the derivative of
       const int dof = 3 * i + i % 3;
       prescribed.push_back({dof, u[dof] + 0.01 * (1 + i % 5)}), du[dof] = 0.01 * (1 + i % 5);
     }
-    Equilibrium body(mesh, {test::stable(60, 1e-2)}, Formulation::displacement, number_dofs(mesh.n_nodes(), prescribed).dofs);
+    Equilibrium body =
+        test::equilibrium(mesh, {test::stable(60, 1e-2)}, Formulation::displacement, number_dofs(mesh.n_nodes(), prescribed).dofs);
     body.pressures_from(u);
     REQUIRE(body.assemble(u, true, &du));
     const VecX K_du = body.K_du();
@@ -94,7 +96,8 @@ TEST_CASE("the forces of displacements still to be imposed are the derivative of
 TEST_CASE("the floor of the residual is what rounding of the displacements does to the forces, within a factor of 30") {
   const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 3, 3));
   for (double d : {1e-6, 1e-9}) {
-    Equilibrium body(mesh, {test::stable(60, d)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
+    Equilibrium body =
+        test::equilibrium(mesh, {test::stable(60, d)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
     const auto forces = [&](const VecX& u) {
       body.pressures_from(u);
       REQUIRE(body.assemble(u, false));

@@ -8,6 +8,7 @@
 
 #include "material/uniaxial.hpp"
 #include "mesh/quality.hpp"
+#include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
@@ -54,7 +55,7 @@ struct Pull {
       for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
     for (int i : mesh.node_sets["x_max"]) length = mesh.X[i][0];
     for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, (stretch - 1) * length});
-    Equilibrium body(mesh, materials, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+    Equilibrium body = test::equilibrium(mesh, materials, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.steps = steps_of, options.smallest = smallest;
@@ -141,7 +142,8 @@ TEST_CASE("extremes: I4 = 1 crossed from both sides, in small and in large strid
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
         for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
       for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, 3});
-      Equilibrium body(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      Equilibrium body = test::equilibrium(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation,
+                                           number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {}, {});
       std::vector<double> way;  // up, down through rest, up again
       for (double turn : {1.0, -1.0, 1.0})
@@ -299,7 +301,8 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
         const Vec3 to = R * Vec3(stretch * X[0], X[1], X[2]) - X;
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, to[k]});
       }
-    Equilibrium body(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+    Equilibrium body =
+        test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.first = options.largest = 0.1;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -23,7 +24,7 @@ TEST_CASE("NaN in the residual of a real scene, whenever and with whichever solv
     for (int from : {0, 1, 2, 3, 5}) {
       CAPTURE(solver.index());
       CAPTURE(from);
-      Equilibrium body(mesh, {skin}, Formulation::mean_dilatation, dofs);
+      Equilibrium body = test::equilibrium(mesh, {skin}, Formulation::mean_dilatation, dofs);
       Statics statics(body, {contact}, {});
       int calls = 0;
       const Problem clean = statics.problem();

@@ -6,6 +6,7 @@
 #include "assembly/equilibrium.hpp"
 #include "solve/linear.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -15,7 +16,8 @@ TEST_CASE("springs: an indefinite matrix solved by Cholesky and a few springs ta
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-  Equilibrium body(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body =
+      test::equilibrium(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
   REQUIRE(body.assemble(VecX::Zero(body.dofs().n), true));
   const Pattern& p = body.pattern();
   const auto dense = [&](const std::vector<double>& values) {

@@ -8,6 +8,7 @@
 
 #include "solve/load_path.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -26,7 +27,7 @@ std::vector<Seen> pull(const Material& material, int n, double to, int steps, do
   for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
     for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
   for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, to - 1});
-  Equilibrium body(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   StabilityWatch watch({});
   LoadPathOptions options;
@@ -132,7 +133,7 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
           if (k > 0 || !loose) held.push_back({3 * i + k, 0});
       const RigidContact contact{"sphere", Sphere{3, {0.1, 5, 0.05}}, mu, mesh.node_sets["y_max"], {{1, Vec3(0, -0.5, 0)}}};
       const Material material = test::stable(40, 1e-3);
-      Equilibrium body(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {contact}, {});
       for (double t : {0.1, 0.2, 0.3, 0.4}) {
         statics.begin(t);

@@ -6,6 +6,7 @@
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "tensor/stress.hpp"
 
@@ -27,7 +28,7 @@ Tensile pull(const Material& material, Formulation formulation, double travel = 
   for (int i : scene.mesh.node_sets["y_min"]) held.push_back({3 * i + 1, 0});
   for (int i : scene.mesh.node_sets["z_min"]) held.push_back({3 * i + 2, 0});
   for (int i : scene.mesh.node_sets["x_max"]) held.push_back({3 * i, travel});
-  Equilibrium body(scene.mesh, {material}, formulation, number_dofs(scene.mesh.n_nodes(), held).dofs);
+  Equilibrium body = test::equilibrium(scene.mesh, {material}, formulation, number_dofs(scene.mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   LoadPathOptions options;
   options.steps = 100;

@@ -5,6 +5,7 @@
 
 #include "assembly/dofs.hpp"
 #include "solve/zero_energy_modes.hpp"
+#include "support/directions.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
@@ -45,7 +46,8 @@ TEST_CASE("extremes: a block free to glide and spin on its base is pressed by a 
           if (X.norm() < 1e-9) held.push_back({3 * i, 0});
         }
         const RigidContact sphere{"sphere", Sphere{2, {0, 4, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.4, 0)}}};
-        Equilibrium body(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+        Equilibrium body = test::equilibrium(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation,
+                                             number_dofs(mesh.n_nodes(), held).dofs);
         Statics statics(body, {sphere}, {});
         const auto [path, iterations] = test::run(statics, 0.1);
         REQUIRE_MESSAGE(path.complete, path.why);

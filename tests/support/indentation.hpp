@@ -8,6 +8,7 @@
 #include "solve/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 
 namespace langer::test {
 
@@ -70,8 +71,8 @@ struct Indentation {
     if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
-    Equilibrium body(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
-                     number_dofs(result.mesh.n_nodes(), held).dofs, threads);
+    Equilibrium body = equilibrium(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
+                                   number_dofs(result.mesh.n_nodes(), held).dofs, threads);
     StaticsOptions options;
     options.threads = threads, options.extrapolate = extrapolate;
     Statics statics(body, {contact}, options);

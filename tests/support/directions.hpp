@@ -1,0 +1,23 @@
+// Bodies whose fibres lie as the angles of their laws and the frames of their cells say.
+#pragma once
+
+#include "assembly/equilibrium.hpp"
+#include "mesh/directions.hpp"
+#include "post/fields.hpp"
+
+namespace langer::test {
+
+inline Directions directions(const Mesh& mesh, const std::vector<Material>& materials) {
+  return make_directions(mesh, fibre_angles(materials));
+}
+
+inline Equilibrium equilibrium(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation, Dofs dofs,
+                               int threads = 1, Kernel kernel = Kernel::packets) {
+  return Equilibrium(mesh, materials, directions(mesh, materials), formulation, std::move(dofs), threads, kernel);
+}
+
+inline Body body(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation) {
+  return Body(mesh, materials, directions(mesh, materials), formulation);
+}
+
+}  // namespace langer::test
