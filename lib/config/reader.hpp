@@ -106,17 +106,70 @@ bool read_alternative(const Tree::Entry& entry, const std::string& path, const M
 }
 
 template <class T>
+void read_number(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
+  constexpr auto low = static_cast<long long>(std::numeric_limits<T>::min());
+  constexpr auto high =
+      sizeof(T) < 8 ? static_cast<long long>(std::numeric_limits<T>::max()) : std::numeric_limits<long long>::max();
+  const std::size_t before = f.errors.size();
+  const long long value = read_whole(tree, path, m, low, high, f);
+  if (f.errors.size() == before) out = static_cast<T>(value);
+}
+
+template <class Choice>
+void read_choice(const Tree& tree, const std::string& path, const Member& m, Choice& out, Findings& f) {
+  const std::size_t before = f.errors.size();
+  const std::vector<const Tree::Entry*> entries = chosen(tree, path, false, f);
+  if (f.errors.size() > before) return;
+  if (entries.size() == 1) {
+    read_alternative(*entries.front(), path, m, out, f);
+    return;
+  }
+  const std::vector<std::string> known = alternatives<Choice>();
+  for (const Tree::Entry* entry : entries)  // a misspelt key says more than their number
+    if (std::find(known.begin(), known.end(), entry->key) == known.end()) say_unknown(*entry, path, known, f);
+  if (f.errors.size() == before)
+    f.say(tree.place, path, "found " + std::to_string(entries.size()) + " keys", type_words<Choice>(m), m.hint);
+}
+
+template <class Item>
+void read_items(const Tree& tree, const std::string& path, const Member& m, std::vector<Item>& out, Findings& f) {
+  for (std::size_t i = 0; i < tree.list.size(); ++i) {
+    Item value{};
+    read_value(tree.list[i], item(path, i), m, value, f);
+    out.push_back(std::move(value));
+  }
+}
+
+template <class Thing>
+void read_named_things(const Tree& tree, const std::string& path, const Member& m, std::map<std::string, Thing>& out, Findings& f) {
+  out.clear();
+  for (const Tree::Entry& entry : tree.map) {
+    if (!is_name(entry.key)) {
+      f.say(entry.value.place, path, "found the name \"" + entry.key + "\"", "letters, digits, _, + and - only");
+      continue;
+    }
+    read_value(entry.value, join(path, entry.key), m, out[entry.key], f);
+  }
+}
+
+// a list, or a map of which several keys are terms
+template <class Term>
+void read_sum(const Tree& tree, const std::string& path, const Member& m, std::vector<Term>& out, Findings& f) {
+  out.clear();
+  for (const Tree::Entry* entry : chosen(tree, path, true, f)) {
+    Term term;
+    if (read_alternative(*entry, path, m, term, f)) out.push_back(std::move(term));
+  }
+  read_items(tree, path, m, out, f);
+}
+
+template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
   using Kind = Tree::Kind;
   const auto wrong = [&](const std::string& found) { f.say(tree.place, path, found, type_words<T>(m), m.hint); };
   const auto wrong_kind = [&] { wrong("found " + description(tree)); };
   if constexpr (is_whole_number<T>) {
-    constexpr auto low = static_cast<long long>(std::numeric_limits<T>::min());
-    constexpr auto high =
-        sizeof(T) < 8 ? static_cast<long long>(std::numeric_limits<T>::max()) : std::numeric_limits<long long>::max();
-    const std::size_t before = f.errors.size();
-    const long long value = read_whole(tree, path, m, low, high, f);
-    if (f.errors.size() == before) out = static_cast<T>(value);
+    read_number(tree, path, m, out, f);
   } else if constexpr (Named<T>) {
     if (const int i = read_word(tree, path, m, words_of<T>(), f); i >= 0) out = static_cast<T>(i);
   } else if constexpr (is_leaf<T>) {
@@ -128,51 +181,21 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     out = std::move(value);
   } else if constexpr (is_choice<T>) {
     if (tree.kind != Kind::map) return wrong_kind();
-    const std::size_t before = f.errors.size();
-    const std::vector<const Tree::Entry*> entries = chosen(tree, path, false, f);
-    if (f.errors.size() > before) return;
-    if (entries.size() != 1) {  // a misspelt key says more than their number
-      const std::vector<std::string> known = alternatives<T>();
-      for (const Tree::Entry* entry : entries)
-        if (std::find(known.begin(), known.end(), entry->key) == known.end()) say_unknown(*entry, path, known, f);
-      if (f.errors.size() == before) wrong("found " + std::to_string(entries.size()) + " keys");
-      return;
-    }
-    read_alternative(*entries.front(), path, m, out, f);
+    read_choice(tree, path, m, out, f);
   } else if constexpr (is_sum<T>) {
     if (tree.kind != Kind::map && tree.kind != Kind::list) return wrong_kind();
-    out.clear();
-    for (const Tree::Entry* entry : chosen(tree, path, true, f)) {
-      typename T::value_type term;
-      if (read_alternative(*entry, path, m, term, f)) out.push_back(std::move(term));
-    }
-    for (std::size_t i = 0; i < tree.list.size(); ++i) {
-      typename T::value_type term;
-      read_value(tree.list[i], item(path, i), m, term, f);
-      out.push_back(std::move(term));
-    }
+    read_sum(tree, path, m, out, f);
   } else if constexpr (is_vector<T>) {
     if (tree.kind != Kind::list) return wrong_kind();
     out.clear();
-    for (std::size_t i = 0; i < tree.list.size(); ++i) {
-      typename T::value_type value{};
-      read_value(tree.list[i], item(path, i), m, value, f);
-      out.push_back(std::move(value));
-    }
+    read_items(tree, path, m, out, f);
   } else if constexpr (is_array<T>) {
     if (tree.kind != Kind::list) return wrong_kind();
     if (tree.list.size() != out.size()) return wrong("found " + std::to_string(tree.list.size()) + " items");
     for (std::size_t i = 0; i < out.size(); ++i) read_value(tree.list[i], item(path, i), m, out[i], f);
   } else if constexpr (is_named_things<T>) {
     if (tree.kind != Kind::map) return wrong_kind();
-    out.clear();
-    for (const Tree::Entry& entry : tree.map) {
-      if (!is_name(entry.key)) {
-        f.say(entry.value.place, path, "found the name \"" + entry.key + "\"", "letters, digits, _, + and - only");
-        continue;
-      }
-      read_value(entry.value, join(path, entry.key), m, out[entry.key], f);
-    }
+    read_named_things(tree, path, m, out, f);
   } else {
     // an empty value stands for a map without keys
     if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();

@@ -170,12 +170,27 @@ class Writer {
 
   void contact(const DeckContact& c) {
     const std::string name = escaped(c.law.name);
-    const int n = static_cast<int>(c.cap.outer.size()), first = next_node_, id = next_material_++;
-    const auto& sphere = std::get<Sphere>(c.law.shape);
+    const int id = next_material_++;
     material_ += fmt::format(
         "    <material id=\"{}\" name=\"{}\" type=\"rigid "
         "body\"><density>1</density><center_of_mass>{}</center_of_mass></material>\n",
-        id, name, triple(vec(sphere.centre)));
+        id, name, triple(vec(std::get<Sphere>(c.law.shape).centre)));
+    const std::string face = rigid_cells(c, name);
+    surface_pair(c, name, face);
+    contact_ += fmt::format(
+        "    <contact name=\"contact_of_{0}\" type=\"sliding-elastic\" surface_pair=\"pair_of_{0}\">\n      "
+        "<laugon>PENALTY</laugon><penalty>100</penalty><auto_penalty>1</auto_penalty><two_pass>0</two_pass>"
+        "<symmetric_stiffness>0</symmetric_stiffness><search_radius>1</search_radius><fric_coeff>{1}</fric_coeff>\n    "
+        "</contact>\n",
+        name, c.law.mu);
+    motion(c, name);
+    logged_ += fmt::format("      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" file=\"{}_force.csv\">{}</rigid_body_data>\n",
+                           file_name(c.law.name), id);
+  }
+
+  // Cells between the two layers of the indenter's cap; returns the facets of the outer one.
+  std::string rigid_cells(const DeckContact& c, const std::string& name) {
+    const int n = static_cast<int>(c.cap.outer.size()), first = next_node_;
     nodes_ += fmt::format("    <Nodes name=\"{}\">\n", name);
     for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + i, triple(c.cap.inner[i]));
     for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + n + i, triple(c.cap.outer[i]));
@@ -195,6 +210,11 @@ class Writer {
     cells_ += "    </Elements>\n";
     next_node_ += 2 * n;
     domains_ += fmt::format("    <SolidDomain name=\"{0}\" mat=\"{0}\"/>\n", name);
+    return facets;
+  }
+
+  // what may touch: facets of the body, and `face` of the indenter
+  void surface_pair(const DeckContact& c, const std::string& name, const std::string& face) {
     const char* quad = mesh_.cell().names.febio_facet;
     sets_ += fmt::format("    <Surface name=\"body_of_{}\">\n", name);
     for (std::size_t f = 0; f < c.facets.size(); ++f) {
@@ -207,13 +227,11 @@ class Writer {
         "    </Surface>\n    <Surface name=\"face_of_{0}\">\n{1}    </Surface>\n    <SurfacePair "
         "name=\"pair_of_{0}\"><primary>body_of_{0}</primary>"
         "<secondary>face_of_{0}</secondary></SurfacePair>\n",
-        name, facets);
-    contact_ += fmt::format(
-        "    <contact name=\"contact_of_{0}\" type=\"sliding-elastic\" surface_pair=\"pair_of_{0}\">\n      "
-        "<laugon>PENALTY</laugon><penalty>100</penalty><auto_penalty>1</auto_penalty><two_pass>0</two_pass>"
-        "<symmetric_stiffness>0</symmetric_stiffness><search_radius>1</search_radius><fric_coeff>{1}</fric_coeff>\n    "
-        "</contact>\n",
-        name, c.law.mu);
+        name, face);
+  }
+
+  // the indenter does not turn and moves from waypoint to waypoint
+  void motion(const DeckContact& c, const std::string& name) {
     rigid_ += fmt::format(
         "    <rigid_bc name=\"turn_of_{0}\" "
         "type=\"rigid_fixed\"><rb>{0}</rb><Rx_dof>0</Rx_dof><Ry_dof>0</Ry_dof><Rz_dof>0</Rz_dof>"
@@ -228,8 +246,6 @@ class Writer {
           "<relative>0</relative></rigid_bc>\n",
           name, "xyz"[k], curve(points));
     }
-    logged_ += fmt::format("      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" file=\"{}_force.csv\">{}</rigid_body_data>\n",
-                           file_name(c.law.name), id);
   }
 
   std::string output() const {

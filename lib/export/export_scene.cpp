@@ -159,6 +159,138 @@ std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
   return worst;
 }
 
+namespace {
+
+// A deck on its way: the scene as it was solved, of which the part that decides the rest is written.
+class DeckComposer {
+ public:
+  DeckComposer(const SolutionReader& solution, const SolveConfig& config, const std::string& path)
+      : solution_(solution),
+        header_(solution.header()),
+        path_(path),
+        config_(config),
+        whole_(scene_of(config_, header_)),
+        found_(ReducedScene::find(config_.symmetry, header_.mesh, whole_, nowhere)),
+        part_(exportable(found_)) {}
+
+  Deck deck() {
+    deck_.mesh = part_ ? part_->mesh() : header_.mesh;
+    deck_.mesh.node_sets.clear(), deck_.mesh.facet_sets.clear();
+    for (int n = 0; n < deck_.mesh.n_nodes(); ++n) number_[spot(deck_.mesh.X[n])] = n;
+    for (const Material& m : scene().materials) deck_.materials.push_back(acting(m));
+    deck_.groups = groups_of(deck_.mesh, scene());
+    deck_.share = static_cast<double>(header_.mesh.n_cells()) / deck_.mesh.n_cells();
+    deck_.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by, version, revision));
+    hold_and_move();
+    hold_mirror_planes();
+    for (std::size_t c = 0; c < scene().contacts.size(); ++c) add_contact(c);
+    take_increments();
+    say_the_rest();
+    return std::move(deck_);
+  }
+
+ private:
+  static Scene scene_of(const SolveConfig& config, const SolutionHeader& header) {
+    Scene scene = make_scene(config, header.mesh, {}, nowhere);
+    scene.directions = header.directions;
+    return scene;
+  }
+  const Scene& scene() const { return part_ ? part_->scene() : whole_; }
+
+  // Nodes of a set of the whole body in what is written; false where none of them is.
+  bool name_set(const std::string& set) {
+    std::vector<int>& nodes = deck_.mesh.node_sets[set];
+    if (!nodes.empty()) return true;
+    for (int n : header_.mesh.node_sets.at(set))
+      if (const auto at = number_.find(spot(header_.mesh.X[n])); at != number_.end()) nodes.push_back(at->second);
+    std::sort(nodes.begin(), nodes.end());
+    if (nodes.empty()) deck_.mesh.node_sets.erase(set);
+    return deck_.mesh.node_sets.count(set) > 0;
+  }
+
+  // a name that no set of the whole body has
+  std::string free_name(std::string name) const {
+    while (header_.mesh.node_sets.count(name)) name += "_";
+    return name;
+  }
+
+  void hold_and_move() {
+    for (const SupportConfig& support : config_.supports)
+      for (Axis axis : support.hold)
+        if (name_set(support.on)) deck_.held.push_back({support.on, static_cast<int>(axis), 0});
+    for (const LoadConfig& load : config_.loads)
+      for (int k = 0; k < 3; ++k)
+        if (const auto& to = k == 0   ? load.displacement.x
+                             : k == 1 ? load.displacement.y
+                                      : load.displacement.z;
+            to && name_set(load.on))
+          deck_.held.push_back({load.on, k, *to});
+  }
+
+  void hold_mirror_planes() {
+    for (int k = 0; part_ && k < 3; ++k) {
+      std::vector<int> plane;
+      for (int n = 0; n < deck_.mesh.n_nodes(); ++n)
+        if (scene().dofs.tie[n].T(k, k) == 0) plane.push_back(n);
+      if (plane.empty()) continue;
+      const std::string name = free_name(fmt::format("mirror_{}", "xyz"[k]));
+      deck_.mesh.node_sets[name] = plane, deck_.held.push_back({name, k, 0});
+    }
+  }
+
+  void add_contact(std::size_t c) {
+    const RigidContact& law = scene().contacts[c];
+    const Sphere& sphere = std::get<Sphere>(law.shape);
+    const Vec3 to = plain(indenter_displacement(law, 1));
+    deck_.words.push_back(
+        fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
+                    law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
+    Vec3 middle = Vec3::Zero();  // of the whole body's candidates
+    for (int n : whole_.contacts[c].nodes) middle += header_.mesh.X[n] / static_cast<double>(whole_.contacts[c].nodes.size());
+    std::string set = config_.contacts.at(law.name).on;
+    if (set.empty()) {  // what the indenter can reach
+      set = free_name("contact_" + law.name);
+      deck_.mesh.node_sets[set] = law.nodes;
+    } else {
+      name_set(set);
+    }
+    deck_.contacts.push_back(contact_of(deck_.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path_));
+  }
+
+  void take_increments() {
+    const LoadPathOptions& increments = config_.path;
+    deck_.first = increments.steps ? 1.0 / *increments.steps : increments.first;
+    deck_.largest = increments.steps ? deck_.first : increments.largest, deck_.smallest = increments.smallest;
+    std::set<double> stops(scene().stops.begin(), scene().stops.end());
+    stops.insert(1.0);
+    deck_.stops.assign(stops.begin(), stops.end());
+  }
+
+  void say_the_rest() {
+    deck_.words.push_back(fmt::format("{} cells {}, {} nodes", deck_.mesh.n_cells(),
+                                      names(deck_.mesh.type)[static_cast<int>(deck_.mesh.type)], deck_.mesh.n_nodes()));
+    if (header_.formulation == "displacement")
+      deck_.words.push_back("solved with formulation: displacement, which locks near incompressibility: cells here do not");
+    if (part_) deck_.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part_->words(), deck_.share));
+    if (found_ && !part_)
+      deck_.words.push_back("solved by symmetry (" + found_->words() +
+                            "), which mirror planes between cells cannot express: the whole body");
+    for (const std::string& line : answers(solution_, config_)) deck_.words.push_back(line);
+  }
+
+  const SolutionReader& solution_;
+  const SolutionHeader& header_;
+  const std::string& path_;
+  const SolveConfig& config_;
+  const Scene whole_;
+  const std::optional<ReducedScene> found_;
+  const ReducedScene* part_;  // nullptr: the whole body is written
+  Deck deck_;
+  std::map<Spot, int> number_;  // of the places in what is written
+};
+
+}  // namespace
+
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
   if (header.mesh.section)
@@ -168,88 +300,7 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
   if (!header.mesh.cell().names.febio)
     refuse(path, "", fmt::format("cells {}", names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
            "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
-  Scene whole = make_scene(config, header.mesh, {}, nowhere);
-  whole.directions = header.directions;
-  const std::optional<ReducedScene> found = ReducedScene::find(config.symmetry, header.mesh, whole, nowhere);
-  const ReducedScene* part = exportable(found);
-  const Scene& scene = part ? part->scene() : whole;
-
-  Deck deck;
-  deck.mesh = part ? part->mesh() : header.mesh;
-  deck.mesh.node_sets.clear(), deck.mesh.facet_sets.clear();
-  for (const Material& m : scene.materials) deck.materials.push_back(acting(m));
-  deck.groups = groups_of(deck.mesh, scene);
-  deck.share = static_cast<double>(header.mesh.n_cells()) / deck.mesh.n_cells();
-
-  std::map<Spot, int> number;  // of the places in what is written
-  for (int n = 0; n < deck.mesh.n_nodes(); ++n) number[spot(deck.mesh.X[n])] = n;
-  const auto name_set = [&](const std::string& set) {
-    std::vector<int>& nodes = deck.mesh.node_sets[set];
-    if (!nodes.empty()) return !nodes.empty();
-    for (int n : header.mesh.node_sets.at(set))
-      if (const auto at = number.find(spot(header.mesh.X[n])); at != number.end()) nodes.push_back(at->second);
-    std::sort(nodes.begin(), nodes.end());
-    if (nodes.empty()) deck.mesh.node_sets.erase(set);
-    return deck.mesh.node_sets.count(set) > 0;
-  };
-  for (const SupportConfig& support : config.supports)
-    for (Axis axis : support.hold)
-      if (name_set(support.on)) deck.held.push_back({support.on, static_cast<int>(axis), 0});
-  for (const LoadConfig& load : config.loads)
-    for (int k = 0; k < 3; ++k)
-      if (const auto& to = k == 0   ? load.displacement.x
-                           : k == 1 ? load.displacement.y
-                                    : load.displacement.z;
-          to && name_set(load.on))
-        deck.held.push_back({load.on, k, *to});
-  if (part)
-    for (int k = 0; k < 3; ++k) {
-      std::vector<int> plane;
-      for (int n = 0; n < deck.mesh.n_nodes(); ++n)
-        if (scene.dofs.tie[n].T(k, k) == 0) plane.push_back(n);
-      if (plane.empty()) continue;
-      std::string name = fmt::format("mirror_{}", "xyz"[k]);
-      while (header.mesh.node_sets.count(name)) name += "_";
-      deck.mesh.node_sets[name] = plane, deck.held.push_back({name, k, 0});
-    }
-  deck.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by, version, revision));
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const RigidContact& law = scene.contacts[c];
-    const Sphere& sphere = std::get<Sphere>(law.shape);
-    const Vec3 to = plain(indenter_displacement(law, 1));
-    deck.words.push_back(
-        fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
-                    law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
-    Vec3 middle = Vec3::Zero();  // of the whole body's candidates
-    for (int n : whole.contacts[c].nodes) middle += header.mesh.X[n] / static_cast<double>(whole.contacts[c].nodes.size());
-    std::string set = config.contacts.at(law.name).on;
-    if (set.empty()) {  // what the indenter can reach
-      set = "contact_" + law.name;
-      while (header.mesh.node_sets.count(set)) set += "_";
-      deck.mesh.node_sets[set] = law.nodes;
-    } else {
-      name_set(set);
-    }
-    deck.contacts.push_back(contact_of(deck.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path));
-  }
-
-  const LoadPathOptions& increments = config.path;
-  deck.first = increments.steps ? 1.0 / *increments.steps : increments.first;
-  deck.largest = increments.steps ? deck.first : increments.largest, deck.smallest = increments.smallest;
-  std::set<double> stops(scene.stops.begin(), scene.stops.end());
-  stops.insert(1.0);
-  deck.stops.assign(stops.begin(), stops.end());
-
-  deck.words.push_back(fmt::format("{} cells {}, {} nodes", deck.mesh.n_cells(),
-                                   names(deck.mesh.type)[static_cast<int>(deck.mesh.type)], deck.mesh.n_nodes()));
-  if (header.formulation == "displacement")
-    deck.words.push_back("solved with formulation: displacement, which locks near incompressibility: cells here do not");
-  if (part) deck.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part->words(), deck.share));
-  if (found && !part)
-    deck.words.push_back("solved by symmetry (" + found->words() +
-                         "), which mirror planes between cells cannot express: the whole body");
-  for (const std::string& line : answers(solution, config)) deck.words.push_back(line);
-  return deck;
+  return DeckComposer(solution, config, path).deck();
 }
 
 }  // namespace langer

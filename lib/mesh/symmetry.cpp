@@ -90,8 +90,10 @@ std::optional<Symmetry> find_symmetry(const Mesh& mesh, const Vec3& signs, const
   return s;
 }
 
-Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
-  const double tolerance = 1e-7 * size_of(mesh);
+namespace {
+
+// all products of the generators, the identity first
+std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& generators) {
   std::vector<Symmetry> group(1);
   group[0].node.resize(mesh.X.size()), group[0].cell.resize(mesh.n_cells());
   std::iota(group[0].node.begin(), group[0].node.end(), 0);
@@ -104,11 +106,12 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
       for (int& cell : product.cell) cell = g.cell[cell];
       group.push_back(std::move(product));
     }
+  return group;
+}
 
-  Quotient q;
-  std::vector<int> kept_cell(mesh.n_cells(), -1), kept_node(mesh.X.size(), -1);
-  const int per_cell = nodes_per_cell(mesh.type);
-  q.mesh.type = mesh.type, q.mesh.bodies = mesh.bodies;
+// The first cell of each orbit, with its share.
+void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tolerance, Quotient& q) {
+  std::vector<int> kept_cell(mesh.n_cells(), -1);
   q.cell_image.resize(mesh.n_cells());
   for (int e = 0; e < mesh.n_cells(); ++e) {
     int first = e;
@@ -124,21 +127,34 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
     kept_cell[e] = static_cast<int>(q.cell.size());
     q.cell.push_back(e);
     q.cell_share.push_back(static_cast<double>(orbit.size()));
+  }
+  for (int& cell : q.cell_image) cell = kept_cell[cell];
+}
+
+// The mesh of the kept cells; returns the kept node of each node of the whole, -1 where no kept cell has it.
+std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
+  q.mesh.type = mesh.type, q.mesh.bodies = mesh.bodies;
+  std::vector<int> kept_node(mesh.X.size(), -1);
+  for (int e : q.cell) {
     if (!mesh.body.empty()) q.mesh.body.push_back(mesh.body[e]);
     if (!mesh.frames.empty()) q.mesh.frames.push_back(mesh.frames[e]);
     for (int a : mesh.cell(e)) kept_node[a] = 0;
   }
-  for (int& cell : q.cell_image) cell = kept_cell[cell];
   for (std::size_t i = 0; i < kept_node.size(); ++i)
     if (kept_node[i] == 0) {
       kept_node[i] = static_cast<int>(q.node.size());
       q.node.push_back(static_cast<int>(i));
       q.mesh.X.push_back(mesh.X[i]);
     }
-  q.mesh.connectivity.reserve(q.cell.size() * static_cast<std::size_t>(per_cell));
+  q.mesh.connectivity.reserve(q.cell.size() * static_cast<std::size_t>(nodes_per_cell(mesh.type)));
   for (int e : q.cell)
     for (int a : mesh.cell(e)) q.mesh.connectivity.push_back(kept_node[a]);
+  return kept_node;
+}
 
+// Each node in terms of the kept node of its orbit that comes first.
+void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group, const std::vector<int>& kept_node, double tolerance,
+               Quotient& q) {
   q.node_share.assign(q.node.size(), 0);
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     int master = -1, orbit = 0;
@@ -159,6 +175,17 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
     if (q.node[kept] == static_cast<int>(n)) q.node_share[kept] = static_cast<double>(group.size()) / orbit;
   }
   for (int n : q.node) q.tie.push_back(q.node_image[n]);
+}
+
+}  // namespace
+
+Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
+  const double tolerance = 1e-7 * size_of(mesh);
+  const std::vector<Symmetry> group = group_of(mesh, generators);
+  Quotient q;
+  keep_cells(mesh, group, tolerance, q);
+  const std::vector<int> kept_node = make_part(mesh, q);
+  tie_nodes(mesh, group, kept_node, tolerance, q);
   return q;
 }
 

@@ -17,11 +17,13 @@ namespace {
 
 using Find = std::function<Place(const std::string&)>;
 
-class Composer {
+// What is asked of a scene's nodes, by sets and directions, and what is wrong with it.
+class Nodes {
  public:
-  Composer(const Mesh& mesh, const Find& where) : mesh_(mesh), where_(where) {}
+  Nodes(const Mesh& mesh, const Find& where)
+      : mesh_(mesh), where_(where), named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())), value_(named_by_.size(), 0) {}
 
-  const std::vector<int>& nodes(const std::string& set, const std::string& key) {
+  const std::vector<int>& of_set(const std::string& set, const std::string& key) {
     static const std::vector<int> none;
     const auto found = mesh_.node_sets.find(set);
     if (found != mesh_.node_sets.end() && !found->second.empty()) return found->second;
@@ -34,11 +36,29 @@ class Composer {
     return none;
   }
 
+  // to [mm]; false, and an error, where the same direction of the node was told something else
+  bool prescribe(int node, int axis, double to, const std::string& key) {
+    const std::size_t dof = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
+    if (!named_by_[dof].empty() && value_[dof] != to) {
+      errors.push_back(
+          {where_(key), key,
+           fmt::format("asks for {} = {} mm at a node that {} sets to {} mm", "xyz"[axis], to, named_by_[dof], value_[dof]),
+           "one value for each direction of a node", ""});
+      return false;
+    }
+    named_by_[dof] = key, value_[dof] = to;
+    prescribed.push_back({static_cast<int>(dof), to});
+    return true;
+  }
+
+  std::vector<Prescribed> prescribed;  // in the order of the config
   std::vector<Error> errors;
 
  private:
   const Mesh& mesh_;
   const Find& where_;
+  std::vector<std::string> named_by_;  // by dof: the key; empty where none
+  std::vector<double> value_;          // by dof [mm]
 };
 
 void set_angles(Material& material, const std::vector<double>& angles, const std::string& key, const Find& where,
@@ -122,6 +142,61 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
   return nodes;
 }
 
+void hold_and_move(Nodes& nodes, const SolveConfig& config) {
+  for (std::size_t i = 0; i < config.supports.size(); ++i) {
+    const std::string key = fmt::format("supports[{}]", i);
+    for (int node : nodes.of_set(config.supports[i].on, key + ".on"))
+      for (Axis axis : config.supports[i].hold) nodes.prescribe(node, static_cast<int>(axis), 0, key);
+  }
+  for (std::size_t i = 0; i < config.loads.size(); ++i) {
+    const std::string key = fmt::format("loads[{}]", i);
+    const Displacement& d = config.loads[i].displacement;
+    bool agrees = true;
+    for (int node : nodes.of_set(config.loads[i].on, key + ".on"))
+      for (int axis = 0; axis < 3 && agrees; ++axis)
+        if (const auto& to = axis == 0 ? d.x : axis == 1 ? d.y : d.z)
+          agrees = nodes.prescribe(node, axis, *to, key + ".displacement");
+  }
+}
+
+// shape and path as the config gives them; no candidates yet
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact) {
+  RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
+  if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
+    SurfaceFile file = read_surface(facets->file.path);
+    for (Vec3& p : file.points) p = facets->scale * p + vec(facets->move);
+    facets->tree = std::make_shared<TriangleTree>(Triangles{std::move(file.points), std::move(file.corners)});
+  }
+  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
+  return rigid;
+}
+
+void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
+                         std::vector<Error>& errors) {
+  for (int node : rigid.nodes)
+    if (const double g = shape_at(rigid.shape, mesh.X[node]).gap; g < -1e-9) {
+      const Vec3& X = mesh.X[node];
+      errors.push_back({where(key), key,
+                        fmt::format("starts {:.3g} mm inside the body at ({:g}, {:g}, {:g})", -g, X[0], X[1], X[2]),
+                        "a start outside the body or touching it", "the indenter moves in from there by `motion`"});
+      return;
+    }
+}
+
+void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh, const Find& where) {
+  for (const auto& [name, contact] : config.contacts) {
+    const std::string key = fmt::format("contacts.{}", name);
+    RigidContact rigid = indenter_of(name, contact);
+    for (const Waypoint& w : rigid.motion) scene.stops.push_back(w.t);
+    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
+    if (rigid.nodes.empty() && contact.on.empty())
+      nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
+                              "a way that brings it to a node that may move", "look at its place and at how far it goes"});
+    refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
+    scene.contacts.push_back(std::move(rigid));
+  }
+}
+
 }  // namespace
 
 int Scene::families() const {
@@ -132,72 +207,18 @@ int Scene::families() const {
 
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {
   Scene scene;
-  Composer composer(mesh, where);
+  Nodes nodes(mesh, where);
   scene.formulation = config.formulation.value_or(usual_formulation(mesh.type));
   if (scene.formulation == Formulation::linear_dilatation && !mesh.cell().second_order())
-    composer.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
-                               "mean_dilatation", "cells: hex27 in the mesh's config"});
-  std::vector<Prescribed> prescribed;
-  std::vector<std::string> named_by(3 * static_cast<std::size_t>(mesh.n_nodes()));
-  std::vector<double> value(named_by.size(), 0);
-  const auto prescribe = [&](int node, int axis, double to, const std::string& key) {
-    const std::size_t dof = 3 * static_cast<std::size_t>(node) + axis;
-    if (!named_by[dof].empty() && value[dof] != to) {
-      composer.errors.push_back(
-          {where(key), key,
-           fmt::format("asks for {} = {} mm at a node that {} sets to {} mm", "xyz"[axis], to, named_by[dof], value[dof]),
-           "one value for each direction of a node", ""});
-      return false;
-    }
-    named_by[dof] = key, value[dof] = to;
-    prescribed.push_back({static_cast<int>(dof), to});
-    return true;
-  };
-
-  for (std::size_t i = 0; i < config.supports.size(); ++i) {
-    const std::string key = fmt::format("supports[{}]", i);
-    for (int node : composer.nodes(config.supports[i].on, key + ".on"))
-      for (Axis axis : config.supports[i].hold) prescribe(node, static_cast<int>(axis), 0, key);
-  }
-  for (std::size_t i = 0; i < config.loads.size(); ++i) {
-    const std::string key = fmt::format("loads[{}]", i);
-    const Displacement& d = config.loads[i].displacement;
-    bool agrees = true;
-    for (int node : composer.nodes(config.loads[i].on, key + ".on"))
-      for (int axis = 0; axis < 3 && agrees; ++axis)
-        if (const auto& to = axis == 0 ? d.x : axis == 1 ? d.y : d.z) agrees = prescribe(node, axis, *to, key + ".displacement");
-  }
-  for (const auto& [name, contact] : config.contacts) {
-    const std::string key = fmt::format("contacts.{}", name);
-    RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
-    if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
-      SurfaceFile file = read_surface(facets->file.path);
-      for (Vec3& p : file.points) p = facets->scale * p + vec(facets->move);
-      facets->tree = std::make_shared<TriangleTree>(Triangles{std::move(file.points), std::move(file.corners)});
-    }
-    for (const WaypointConfig& w : contact.motion) {
-      rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
-      scene.stops.push_back(w.t);
-    }
-    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, prescribed) : composer.nodes(contact.on, key + ".on");
-    if (rigid.nodes.empty() && contact.on.empty())
-      composer.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
-                                 "a way that brings it to a node that may move", "look at its place and at how far it goes"});
-    for (int node : rigid.nodes)
-      if (const double g = shape_at(rigid.shape, mesh.X[node]).gap; g < -1e-9) {
-        const Vec3& X = mesh.X[node];
-        composer.errors.push_back({where(key + ".rigid"), key + ".rigid",
-                                   fmt::format("starts {:.3g} mm inside the body at ({:g}, {:g}, {:g})", -g, X[0], X[1], X[2]),
-                                   "a start outside the body or touching it", "the indenter moves in from there by `motion`"});
-        break;
-      }
-    scene.contacts.push_back(std::move(rigid));
-  }
-  add_materials(scene, config, mesh, material, where, composer.errors);
+    nodes.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
+                            "mean_dilatation", "cells: hex27 in the mesh's config"});
+  hold_and_move(nodes, config);
+  add_contacts(scene, nodes, config, mesh, where);
+  add_materials(scene, config, mesh, material, where, nodes.errors);
   if (mesh.section)
-    for (Error& error : section_errors(config, mesh, scene, where)) composer.errors.push_back(std::move(error));
-  if (!composer.errors.empty()) throw Failure(Exit::config, composer.errors);
-  scene.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed)).dofs;
+    for (Error& error : section_errors(config, mesh, scene, where)) nodes.errors.push_back(std::move(error));
+  if (!nodes.errors.empty()) throw Failure(Exit::config, nodes.errors);
+  scene.dofs = number_dofs(mesh.n_nodes(), std::move(nodes.prescribed)).dofs;
   return scene;
 }
 
