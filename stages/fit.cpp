@@ -40,7 +40,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   record.at_rest = at_rest;
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.warn("{}", line);
-  if (config.check == SecondAnswer::nlopt) {
+  if (config.cross_check == SecondAnswer::nlopt) {
     const Comparison second = cross_check(problem, found.best, static_cast<unsigned>(config.seed));
     second.agrees ? job.say("{}", second.text) : job.warn("{}", second.text);
   }

@@ -24,7 +24,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, bool a
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run)
     return dry_run(config, run.reduction.scene(), run.body, run.statics,
-                   config.estimate == EstimateBy::second_rung ? estimate_seconds(config, material, job.where) : 0, job.quiet);
+                   config.estimate == EstimateBy::refinement ? estimate_seconds(config, material, job.where) : 0, job.quiet);
   need_memory(run.statics, config.threads);
   const std::string loose = held_by_contact(run, job.where);
   Recording recording(run, watch, job.config, job.identity, job.output);

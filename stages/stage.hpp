@@ -261,6 +261,7 @@ void read_job(Job<Config>& job, const StageSpec& spec, const CommandLine& given,
   job.where = std::move(loaded.where);
   if (!job.dry_run) need_output(job.output, given.config_file, job.inputs);
   job.identity = identity_of(std::string(spec.name), job.config, job.where, job.inputs, command);
+  for (const std::string& notice : loaded.notices) job.warn("{}", notice);
   if (!job.dry_run) need_replaceable(job.output);  // by now it is known what the config names
   begin_beside(job.output);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "base/former.hpp"
 #include "base/input_path.hpp"
 
 namespace langer {
@@ -24,6 +25,7 @@ struct Member {
   Range range;
   std::vector<std::string> words;
   const char* hint = "";
+  const char* former = "";  // its key in old files
 
   void add(Required) { required = true; }
   // several ranges hold together
@@ -34,6 +36,7 @@ struct Member {
   }
   void add(const OneOf& one) { words = one.words; }
   void add(const Hint& h) { hint = h.text; }
+  void add(const Formerly& f) { former = f.key; }
 };
 
 Member member(const char* key, const char* unit, const char* doc, const auto&... extras) {
@@ -146,6 +149,16 @@ template <Named E>
 std::vector<std::string> words_of() {
   const auto list = names(E{});
   return {list.begin(), list.end()};
+}
+
+// words that an enum had under other names; empty where none was renamed
+template <Named E>
+std::vector<FormerWord> former_words_of() {
+  if constexpr (requires { former_names(E{}); }) {
+    const auto list = former_names(E{});
+    return {list.begin(), list.end()};
+  } else
+    return {};
 }
 
 // How a message or the reference names what a member may hold, e.g. "a number > 0 in MPa", "one of a, b".

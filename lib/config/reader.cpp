@@ -100,10 +100,14 @@ long long read_whole(const Tree& tree, const std::string& path, const Member& m,
   return x;
 }
 
-int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f) {
-  if (tree.kind == Tree::Kind::scalar)
-    if (const auto it = std::find(words.begin(), words.end(), tree.scalar); it != words.end())
-      return static_cast<int>(it - words.begin());
+int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f,
+              const std::vector<FormerWord>& former) {
+  if (tree.kind == Tree::Kind::scalar) {
+    std::string word = tree.scalar;
+    for (const FormerWord& name : former)
+      if (word == name.was) f.notice(tree.place, path, name.was, name.is), word = name.is;
+    if (const auto it = std::find(words.begin(), words.end(), word); it != words.end()) return static_cast<int>(it - words.begin());
+  }
   std::string hint = m.hint;
   if (tree.kind == Tree::Kind::scalar)
     if (const std::string near = nearest(tree.scalar, words); !near.empty()) hint = fmt::format("did you mean \"{}\"?", near);
@@ -132,6 +136,19 @@ void say_unknown(const Tree::Entry& entry, const std::string& path, const std::v
   f.say(entry.value.place, path,
         fmt::format("unknown key \"{}\"; known: {}{}", entry.key, list_words(known),
                     near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f) {
+  const Tree *given = tree.find(m.key), *old = *m.former ? tree.find(m.former) : nullptr;
+  if (!old) return given;
+  // lowest first: --set or a sweep, the file that includes, those that lie under it
+  const auto depth = [](const Tree& t) { return t.set_later ? -1 : std::countr_zero(t.layers); };
+  if (given && depth(*given) == depth(*old)) {
+    f.say(old->place, join(path, m.former), fmt::format("found beside {}, which it is now called", m.key), "one of the two");
+    return given;
+  }
+  f.notice(old->place, path, m.former, m.key);
+  return given && depth(*given) < depth(*old) ? given : old;
 }
 
 Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {

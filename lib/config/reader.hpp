@@ -2,8 +2,9 @@
 // All errors of a file are collected and thrown together as one Failure(config): unknown key (with the nearest known
 // one), missing key (at the parent), wrong type, out of range, non-finite number, rules between keys.
 //
-//   auto [config, where] = read_config<SolveConfig>(load_yaml("solve.yaml"));
+//   auto [config, where, notices] = read_config<SolveConfig>(load_yaml("solve.yaml"));
 //   where("contacts[0].friction")  ->  Place, for errors found later
+//   notices                        ->  keys and words by their former names (base/former.hpp), read as what they are called now
 #pragma once
 
 #include <algorithm>
@@ -22,13 +23,18 @@ template <class Config>
 struct Loaded {
   Config config;
   Where where;
+  std::vector<std::string> notices;  // one line each, with its place
 };
 
-// Errors found so far. A reading that says something leaves the value as it was.
+// Errors and notices found so far. A reading that says an error leaves the value as it was.
 struct Findings {
   std::vector<Error> errors;
+  std::vector<std::string> notices;
   void say(const Place& where, const std::string& key, std::string found, std::string expected = "", std::string hint = "") {
     errors.push_back({where, key, std::move(found), std::move(expected), std::move(hint)});
+  }
+  void notice(const Place& where, const std::string& key, const std::string& was, const std::string& is) {
+    notices.push_back(text(Error{where, key, was + " is now called " + is, "", ""}));
   }
 };
 
@@ -37,8 +43,8 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out, Findings& f);
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f);
 long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f);
-int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words,
-              Findings& f);  // -1: none
+int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f,
+              const std::vector<FormerWord>& former = {});  // -1: none
 void say_unknown(const Tree::Entry& entry, const std::string& path, const std::vector<std::string>& known, Findings& f);
 [[noreturn]] void throw_sorted(std::vector<Error> errors);  // by place
 bool is_name(const std::string& name);                      // may stand in file names, HDF5 paths and paths of keys
@@ -48,13 +54,16 @@ std::string item(const std::string& path, std::size_t index);
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
 
+// What stands under the member's key or its former one, whichever lies over the other; nullptr: neither. An error within one file.
+const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f);
+
 // the entries of a map that have these keys
 Tree part_of(const Tree& tree, const std::vector<std::string>& keys);
 
 template <Listed T>
 void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f) {
   const std::size_t before = f.errors.size();
-  std::vector<std::string> known;
+  std::vector<std::string> known, former;
   for_each_line(out, [&](const Member& m, auto& value) {
     using V = std::remove_cvref_t<decltype(value)>;
     if constexpr (is_choice<V>)
@@ -71,13 +80,16 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
       }
     known.push_back(m.key);
     const std::string key = join(path, m.key);
-    if (const Tree* given = tree.find(m.key))
+    if (*m.former) former.push_back(m.former);
+    if (const Tree* given = find_member(tree, path, m, f))
       read_value(*given, key, m, value, f);
     else if (m.required)
       f.say(tree.place, key, "missing", type_words<V>(m) + " (" + m.doc + ")", m.hint);
   });
   for (const Tree::Entry& entry : tree.map)
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) say_unknown(entry, path, known, f);
+    if (std::find(known.begin(), known.end(), entry.key) == known.end() &&
+        std::find(former.begin(), former.end(), entry.key) == former.end())
+      say_unknown(entry, path, known, f);
   if constexpr (Complaining<T>) {
     if (f.errors.size() > before) return;
     for (const Complaint& c : out.complaints()) {
@@ -171,7 +183,7 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
   if constexpr (is_whole_number<T>) {
     read_number(tree, path, m, out, f);
   } else if constexpr (Named<T>) {
-    if (const int i = read_word(tree, path, m, words_of<T>(), f); i >= 0) out = static_cast<T>(i);
+    if (const int i = read_word(tree, path, m, words_of<T>(), f, former_words_of<T>()); i >= 0) out = static_cast<T>(i);
   } else if constexpr (is_leaf<T>) {
     read_leaf(tree, path, m, out, f);
   } else if constexpr (is_optional<T>) {
@@ -220,7 +232,7 @@ Loaded<Config> read_config(Tree tree) {
   else
     f.say(tree.place, "", "found " + description(tree), "a map with the keys " + list_words(keys_of<Config>()));
   if (!f.errors.empty()) throw_sorted(std::move(f.errors));
-  return {std::move(config), {std::move(tree)}};
+  return {std::move(config), {std::move(tree)}, std::move(f.notices)};
 }
 
 }  // namespace langer

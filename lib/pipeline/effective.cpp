@@ -22,7 +22,7 @@ namespace {
 template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
-  Effective e{to_yaml(loaded.config, relative_to(folder)), {}, {}};
+  Effective e{to_yaml(loaded.config, relative_to(folder)), {}, loaded.notices};
   for (const NamedFile& file : files_named_by(loaded.config)) e.files.push_back({file.path, file.key, loaded.where(file.key)});
   if constexpr (std::is_same_v<Config, FitConfig>)
     e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); };

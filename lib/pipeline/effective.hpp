@@ -18,7 +18,8 @@ struct Effective {
     std::string key;
     Place place;
   };
-  std::vector<File> files;  // input files that the config names
+  std::vector<File> files;                // input files that the config names
+  std::vector<std::string> notices = {};  // keys and words by their former names
   // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty: nothing is measured.
   std::function<std::vector<std::string>()> look_at_data = {};
 };

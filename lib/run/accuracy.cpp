@@ -56,7 +56,7 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   config.path.first = std::min(chosen.rung.step, 1.0);
   config.path.largest = chosen.rung.step;
   config.mesh->cells = chosen.rung.cells;
-  if (!config.estimate) config.estimate = EstimateBy::second_rung;
+  if (!config.estimate) config.estimate = EstimateBy::refinement;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format(
       "{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the refinement study's scenes {} the "
@@ -79,7 +79,7 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   if (!found.met)
     found.words = fmt::format(
         "asked for {:g} %, and the error of the force is {} {:.2g} %: not reached; take the limit beside the force, or shorter cells: "
-        "mesh.geometry.indented_block.edge below {:g} with estimate: second_rung, in place of accuracy",
+        "mesh.geometry.indented_block.edge below {:g} with estimate: refinement, in place of accuracy",
         chosen.wanted, estimated ? "estimated at" : "in scenes of this kind up to", found.percent, chosen.rung.edge);
   return found;
 }

@@ -80,7 +80,7 @@ std::optional<Limit> limit_of(const Family& family, const std::string& name, dou
 }
 
 // what an estimate solves
-struct SecondRungs {
+struct Refinements {
   std::vector<SolveConfig> hex8, hex27;  // without what is known
   std::vector<double> length;            // of the hex8 meshes' cells, `own` included
   bool own = false;                      // the solved mesh is the finest of its family
@@ -89,43 +89,43 @@ struct SecondRungs {
   int n_scenes() const { return static_cast<int>(hex8.size() + hex27.size()) + (per_change != 0); }
 };
 
-SecondRungs second_rungs(const SolveConfig& config, const Find& where) {
+Refinements refinements(const SolveConfig& config, const Find& where) {
   if (!config.mesh || !has_edge_in_contact_radii(config.mesh->geometry))
     throw Failure(Exit::config, Error{where("estimate"), "estimate",
                                       "the mesh is not an indented_block or indented_disc of this config", "", ""});
-  SecondRungs rungs;
+  Refinements refined;
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;
   const double edge = *edge_in_contact_radii(geometry);
   const Lengths lengths = is_section(geometry) ? of_disc : of_block;
   const bool quadratic = reference(config.mesh->cells).second_order();
   const bool locks = config.formulation == Formulation::displacement;  // and with it its limit on such cells
-  rungs.own = !quadratic && !locks && edge <= lengths.fine_enough;
-  if (!rungs.own) {
+  refined.own = !quadratic && !locks && edge <= lengths.fine_enough;
+  if (!refined.own) {
     other.mesh->cells = CellType::hex8;
     other.formulation.reset();
     *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * edge : edge, lengths.finest);
-    rungs.hex8.push_back(other);
+    refined.hex8.push_back(other);
   }
-  rungs.length = {1};
+  refined.length = {1};
   const double cells = cells_along(geometry);
   for (double factor : longer) {
     *longer_cells(geometry) = factor;
-    rungs.length.push_back(cells / cells_along(geometry));
-    rungs.hex8.push_back(other);
+    refined.length.push_back(cells / cells_along(geometry));
+    refined.hex8.push_back(other);
   }
   if (has_friction(config)) {
     const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
-    rungs.per_change = increment > 0.5 ? -1 : 1.0 / 3;
+    refined.per_change = increment > 0.5 ? -1 : 1.0 / 3;
     set_increment(other.path, increment > 0.5 ? 0.5 * increment : 2 * increment);
-    rungs.other_increments = other;
+    refined.other_increments = other;
   }
   for (double factor : hex27_longer) {
     if (!quadratic) continue;
-    rungs.hex27.push_back(config);
-    *edge_in_contact_radii(rungs.hex27.back().mesh->geometry) = factor * edge;
+    refined.hex27.push_back(config);
+    *edge_in_contact_radii(refined.hex27.back().mesh->geometry) = factor * edge;
   }
-  return rungs;
+  return refined;
 }
 
 }  // namespace
@@ -175,29 +175,29 @@ std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh
 
 std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
                                            const std::vector<Valued>& found, double residual, const EstimateListener& listener) {
-  const SecondRungs rungs = second_rungs(config, where);
+  const Refinements refined = refinements(config, where);
   int begun = 0;
   const auto solved = [&](const std::vector<SolveConfig>& scenes, Family family) {
     for (const SolveConfig& scene : scenes) {
       ++begun;
       family.found.push_back(end_of_path(scene, material, where, [&](const Run& run) {
-        return listener ? listener(run, begun, rungs.n_scenes()) : RunListener{};
+        return listener ? listener(run, begun, refined.n_scenes()) : RunListener{};
       }));
     }
     return family;
   };
   const std::vector<std::vector<Valued>> itself{found}, nothing;
-  const Family family = solved(rungs.hex8, {rungs.length, rungs.own ? itself : nothing});
+  const Family family = solved(refined.hex8, {refined.length, refined.own ? itself : nothing});
   // stresses and what lies far from the contact are those of the cells: meshes of the same kind
-  const Family alike = rungs.hex27.empty() ? family : solved(rungs.hex27, {{1, hex27_longer[0], hex27_longer[1]}, itself});
-  const Family path = rungs.per_change == 0 ? Family{} : solved({rungs.other_increments}, {{}, {family.found.back()}});
+  const Family alike = refined.hex27.empty() ? family : solved(refined.hex27, {{1, hex27_longer[0], hex27_longer[1]}, itself});
+  const Family path = refined.per_change == 0 ? Family{} : solved({refined.other_increments}, {{}, {family.found.back()}});
 
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
     const auto limit = q.name == "force" ? limit_of(family, q.name, 2) : limit_of(alike, q.name, q.name == "von_mises_max" ? 1 : 2);
     if (!limit) continue;
     double increments = 0;
-    if (!path.found.empty()) increments = rungs.per_change * (path.of(1, q.name).value_or(0) - path.of(0, q.name).value_or(0));
+    if (!path.found.empty()) increments = refined.per_change * (path.of(1, q.name).value_or(0) - path.of(0, q.name).value_or(0));
     estimates.push_back({q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value)});
   }
   return estimates;
@@ -230,13 +230,13 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
 }
 
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
-  const SecondRungs rungs = second_rungs(config, where);
+  const Refinements refined = refinements(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
     Run run(body_mesh(scene, "", where), scene, material, where);
     return forecast_of(scene, run.body, run.statics, run.scene.stops).seconds();
   };
-  double sum = rungs.per_change == 0 ? 0 : seconds(rungs.other_increments);
-  for (const auto* scenes : {&rungs.hex8, &rungs.hex27})
+  double sum = refined.per_change == 0 ? 0 : seconds(refined.other_increments);
+  for (const auto* scenes : {&refined.hex8, &refined.hex27})
     for (const SolveConfig& scene : *scenes) sum += seconds(scene);
   return sum;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "base/former.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "material/at_rest.hpp"
@@ -122,8 +123,9 @@ enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
 // How the errors of a result are estimated (run/error_estimate.hpp).
-enum class EstimateBy { none, recovery, second_rung };
-constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "second_rung"}; }
+enum class EstimateBy { none, recovery, refinement };
+constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement"}; }
+constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }
 
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
@@ -152,7 +154,7 @@ struct SolveConfig {
       "symmetry from what was measured (pipelines/trade.yaml)");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
-      "errors of force, greatest von Mises stress and displacements at points: second_rung solves the scene again on cells longer by "
+      "errors of force, greatest von Mises stress and displacements at points: refinement solves the scene again on cells longer by "
       "1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
       "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
@@ -199,16 +201,15 @@ struct SolveConfig {
     if (accuracy && !percent_of(*accuracy))
       found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
     const bool one_number = mesh && has_edge_in_contact_radii(mesh->geometry);
-    if (estimate == EstimateBy::second_rung && !one_number)
-      found.push_back({"estimate", "second_rung, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
+    if (estimate == EstimateBy::refinement && !one_number)
+      found.push_back({"estimate", "refinement, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
                        "the key mesh with geometry: {indented_block: ...} or {indented_disc: ...}",
                        "coarser cells are made from it"});
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
       if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
       if (mesh && is_section(mesh->geometry))
-        found.push_back(
-            {key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
-             "of a section, cells: hex27 with an edge of 0.125 and estimate: second_rung tell what its force is worth"});
+        found.push_back({key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
+                         "of a section, cells: hex27 with an edge of 0.125 and estimate: refinement tell what its force is worth"});
       else if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
         found.push_back({key, mesh ? "a mesh of another kind" : "no mesh here", "the key mesh with geometry: {indented_block: ...}",
                          "its cells are what accuracy chooses"});

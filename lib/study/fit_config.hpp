@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/former.hpp"
 #include "base/input_path.hpp"
 #include "config/tree.hpp"
 #include "fit/fit.hpp"
@@ -124,7 +125,7 @@ struct FitConfig {
   Dilatation dilatation = Dilatation::incompressible;
   int starts = 20;
   int seed = 1;
-  SecondAnswer check = SecondAnswer::none;
+  SecondAnswer cross_check = SecondAnswer::none;
   std::optional<StudyConfig> study;
   static void fields(auto& v) {
     v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
@@ -139,7 +140,8 @@ struct FitConfig {
     v(&FitConfig::starts, "starts", unit::none, "searches: one from the start values, the others from random places in the box",
       between(1, 100000));
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
-    v(&FitConfig::check, "check", unit::none, "a second answer by another method; disagreement is a warning");
+    v(&FitConfig::cross_check, "cross_check", unit::none, "a second answer by another method; disagreement is a warning",
+      Formerly{"check"});
     v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
   }
   std::vector<Complaint> complaints() const;

@@ -87,7 +87,10 @@ std::string check_file(const std::string& path, std::string kind) {
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
-  return fmt::format("{}: {}, right{}", path, kind, effective.look_at_data ? warnings(effective.look_at_data()) : "");
+  std::vector<std::string> doubts = effective.notices;
+  if (effective.look_at_data)
+    for (const std::string& doubt : effective.look_at_data()) doubts.push_back(doubt);
+  return fmt::format("{}: {}, right{}", path, kind, warnings(doubts));
 }
 
 }  // namespace langer
