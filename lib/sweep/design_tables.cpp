@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string_view>
 
 #include "store/curves_file.hpp"
 
@@ -40,7 +41,7 @@ std::vector<Value> values(const QuantityEffects& e, Eigen::Index i) {
   return all;
 }
 
-const Value& named(const std::vector<Value>& all, const std::string& name) {
+const Value& named(const std::vector<Value>& all, std::string_view name) {
   return *std::find_if(all.begin(), all.end(), [&](const Value& v) { return v.name == name; });
 }
 
