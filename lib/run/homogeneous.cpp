@@ -7,9 +7,7 @@
 
 #include "mesh/quality.hpp"
 #include "mesh/reference.hpp"
-#include "run/equilibrium_by.hpp"
-#include "run/step_record.hpp"
-#include "solve/load_path.hpp"
+#include "run/run.hpp"
 
 namespace langer {
 
@@ -115,20 +113,13 @@ Equilibrium HomogeneousScene::equilibrium() const {
 }
 
 bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
-  Equilibrium body = equilibrium();
-  Statics statics(body, {}, {});
   bool balances = false;
-  load_path(
-      path, 0, std::nullopt, scene_.stops,
-      [&](double t) {
-        statics.begin(t);
-        return equilibrium_by(solver_, statics);
-      },
-      [&](double, double taken, double next, const SolveReport& report) {
-        statics.accept();
-        balances = whole(step_record(statics, body, taken, next, report)).has_value();
-        return false;
-      });
+  RunListener listener;
+  listener.of_part = [&](StepRecord& one) {
+    balances = whole(one).has_value();
+    return false;
+  };
+  Run(mesh_, scene_, std::nullopt, path, solver_).follow(listener);
   return balances;
 }
 
