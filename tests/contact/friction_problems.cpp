@@ -71,6 +71,23 @@ TEST_CASE("a thousand random problems of up to eight contacts satisfy the law") 
   CHECK(failed == 0);
 }
 
+TEST_CASE("however small the budget, what counts as solved satisfies the law to 1e-11") {
+  int solved = 0;
+  for (int seed = 0; seed < 100; ++seed)
+    for (int sweeps : {4, 8, 16, 32, 64, 128}) {
+      const LocalProblem p = test::random_problem(seed, 1 + seed % 8);
+      LocalOptions few;
+      few.sweeps = sweeps, few.newton_steps = 0;
+      VecX r = VecX::Zero(p.q.size());
+      const LocalReport report = solve_local(p, r, few);
+      if (!report.converged) continue;
+      ++solved;
+      CHECK(report.residual <= 1e-11);
+      CHECK(test::law_defect(p, r) <= 1e-9 * std::max(1.0, r.lpNorm<Eigen::Infinity>()));
+    }
+  CHECK(solved > 100);
+}
+
 // Two contacts that push each other down harder than they hold themselves: no forces keep both out, and sweeps grow a million
 // times with each contact. Their end does not come from counting sweeps that will never be made.
 TEST_CASE("forces that run away end the search at once, without convergence and finite") {

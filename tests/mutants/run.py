@@ -58,7 +58,7 @@ class Build:
         self.root, self.build, self.work, self.jobs = root, build, work, jobs
         self.commands = {}  # object -> (source, command)
         for entry in json.loads((build / "compile_commands.json").read_text()):
-            words = shlex.split(entry["command"])
+            words = [w for w in shlex.split(entry["command"]) if w != "-Werror"]  # a change may leave a name without use
             self.commands[words[words.index("-o") + 1]] = (Path(entry["file"]), words)
         self.depend = {}  # object -> files
         for line in sh("ninja -t deps", build)[1].splitlines():

@@ -1,0 +1,36 @@
+// Displacements that are imposed on one node by two keys: alike, they are one; unlike, they are refused.
+#include <doctest/doctest.h>
+
+#include "support/block.hpp"
+#include "support/solved_scene.hpp"
+
+using namespace langer;
+using test::config_of, test::nowhere;
+
+namespace {
+
+std::string said_of(const std::string& text) {
+  const Mesh mesh = test::block(test::even(0, 1, 2), test::even(0, 1, 2), test::even(0, 1, 2));
+  const SolveConfig config = config_of(text + "\nmaterial: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1e-3}}}\n");
+  try {
+    make_scene(config, mesh, config.material, nowhere);
+  } catch (const Failure& failure) {
+    CHECK(failure.code() == Exit::config);
+    return failure.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("two unlike displacements of one node are refused by the keys of both, two alike are one") {
+  const std::string held = "supports: [{on: x_min, hold: [x, y, z]}, {on: y_min, hold: [y]}]\n";
+  CHECK(said_of(held + "loads: [{on: x_max, displacement: {x: 0.2}}]") == "accepted");
+  CHECK(said_of(held + "loads: [{on: x_max, displacement: {x: 0.2, y: 0}}]") == "accepted");
+  const std::string refused = said_of(held + "loads: [{on: x_max, displacement: {x: 0.2, y: 0.1}}]");
+  CHECK(refused.find("loads[0].displacement") != std::string::npos);
+  CHECK(refused.find("y = 0.1 mm at a node that supports[1] sets to 0 mm") != std::string::npos);
+  const std::string twice = said_of(held + "loads: [{on: x_max, displacement: {x: 0.2}}, {on: y_max, displacement: {x: -0.2}}]");
+  CHECK(twice.find("loads[1].displacement") != std::string::npos);
+  CHECK(twice.find("loads[0]") != std::string::npos);
+}

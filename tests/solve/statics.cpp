@@ -1,0 +1,66 @@
+// What an increment may be given and what it refuses: dead loads in proportion to t, elements that are turned inside out.
+#include "solve/statics.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scene/scene.hpp"
+#include "solve/newton.hpp"
+#include "support/block.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+struct Held {
+  Mesh mesh = test::cube(2);
+  Equilibrium body;
+  Statics statics;
+  Held() : body(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation, held_below(mesh)), statics(body, {}, {}) {}
+  static Dofs held_below(const Mesh& mesh) {
+    std::vector<Prescribed> held;
+    for (int n : mesh.node_sets.at("y_min"))
+      for (int k = 0; k < 3; ++k) held.push_back({3 * n + k, 0});
+    return number_dofs(mesh.n_nodes(), held).dofs;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a dead load grows in proportion to t: supports bear t times it") {
+  Held held;
+  VecX F = VecX::Zero(3 * held.mesh.n_nodes());
+  const auto& top = held.mesh.node_sets.at("y_max");
+  const Vec3 load(0.004, 0.01, -0.002);  // [N]
+  for (int n : top) F.segment<3>(3 * n) = load / static_cast<double>(top.size());
+  held.statics.set_dead_load(F);
+  for (double t : {0.25, 0.5, 1.0}) {
+    held.statics.begin(t);
+    REQUIRE(newton(held.statics.problem(), held.statics.trial(), {}).converged());
+    held.statics.accept();
+    const VecX reactions = held.statics.reactions();
+    Vec3 sum = Vec3::Zero();
+    for (int n : held.mesh.node_sets.at("y_min")) sum += reactions.segment<3>(3 * n);
+    CHECK((sum + t * load).norm() <= 1e-6 * load.norm());
+  }
+}
+
+TEST_CASE("a step that turns an element inside out, or nearly so, is not admissible; one that halves its volume is") {
+  Held held;
+  held.statics.begin(0.5);
+  const Problem problem = held.statics.problem();
+  const auto by = [&](double share) {  // the upper cells, by this share of their height
+    VecX u = VecX::Zero(3 * held.mesh.n_nodes());
+    const auto& top = held.mesh.node_sets.at("y_max");
+    const double cell = 0.5 * (held.mesh.X[top[0]][1] - held.mesh.X[held.mesh.node_sets.at("y_min")[0]][1]);
+    for (int n : top) u[3 * n + 1] = -share * cell;
+    return u;
+  };
+  CHECK(problem.admissible(by(0)));
+  CHECK(problem.admissible(by(0.5)));
+  CHECK(!problem.admissible(by(0.99)));
+  CHECK(!problem.admissible(by(1.5)));
+  VecX nan = by(0);
+  nan[4] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(!problem.admissible(nan));
+}
