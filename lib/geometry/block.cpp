@@ -1,5 +1,7 @@
 #include "geometry/block.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "geometry/grading.hpp"
@@ -10,24 +12,52 @@ namespace langer {
 
 namespace {
 
+// each side resampled by itself, so that a line keeps passing through the place
+std::vector<double> around_place(const Block& b, int axis) {
+  const std::size_t k = axis == 0 ? 0 : 1;
+  const double at = b.around->at[k], low = b.origin[axis], high = low + b.size[axis];
+  const auto side = [&](double length, std::size_t which) {
+    const int n = b.around->n[k][which];
+    return Side{length, b.around->within[k], n > 0 ? std::min(b.centre->edge, length / n) : 0, n};
+  };
+  const Side below = side(at - low, 0), above = side(high - at, 1);
+  std::vector<double> lines = lines_around(at, below, above, "geometry.block.centre.edge");
+  if (b.around->instead) {
+    const auto [n_below, n_above] = (*b.around->instead)[k];
+    const auto place = lines.begin() + below.n;
+    std::vector<double> low_side(lines.begin(), place + 1), high_side(place, lines.end());
+    if (below.n > 0) low_side = resampled(low_side, n_below);
+    if (above.n > 0) high_side = resampled(high_side, n_above);
+    lines = low_side;
+    lines.insert(lines.end(), high_side.begin() + 1, high_side.end());
+  }
+  lines.front() = low, lines.back() = high;
+  return lines;
+}
+
 GridLines grid_lines(const Block& b, const Points& points, std::vector<std::string>& notes) {
   GridLines lines;
   for (int i = 0; i < 3; ++i) {
     const double low = b.origin[i], high = b.origin[i] + b.size[i];
     const int n = b.divisions[i];
-    if (i == 1 && b.top)
+    if (i != 1 && b.around)
+      lines[i] = around_place(b, i);
+    else if (i == 1 && b.top)
       lines[i] = lines_to_top(low, high, n, b.top->edge, "geometry.block.top.edge");
     else if (i != 1 && b.centre)
       lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.block.centre.edge");
     else
       lines[i] = even_lines(low, high, n);
-    if (b.instead) lines[i] = resampled(lines[i], (*b.instead)[i]);
+    if (b.instead && !(i != 1 && b.around)) lines[i] = resampled(lines[i], (*b.instead)[i]);
     std::vector<Demand> demands;
     for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
+    if (i == 1)
+      for (double y : b.borders) demands.push_back({y, "bodies"});
     const std::string axis(1, "xyz"[i]);
     const Moved moved = through(lines[i], demands, axis, fmt::format("geometry.block.divisions[{}]", i));
     if (moved.furthest > 1e-9 * b.size[i])
-      notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through the points", axis, moved.furthest));
+      notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers", axis,
+                                  moved.furthest));
     lines[i] = moved.lines;
   }
   return lines;

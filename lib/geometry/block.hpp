@@ -25,6 +25,13 @@ namespace langer {
 
 inline constexpr long long most_cells = 4'000'000;  // beyond, a number is more likely a slip than a wish
 
+// Cells around a place beside the middle: numbers of them below and above it, along x and z.
+struct AroundPlace {
+  std::array<double, 2> at{}, within{};
+  std::array<std::array<int, 2>, 2> n{};
+  std::optional<std::array<std::array<int, 2>, 2>> instead;  // of `n`, graded as they are
+};
+
 struct Block {
   static constexpr const char* key = "block";
   std::array<double, 3> origin{}, size{};
@@ -32,6 +39,8 @@ struct Block {
   std::optional<TowardsCentre> centre;
   std::optional<TowardsTop> top;
   std::optional<std::array<int, 3>> instead;  // of `divisions`, graded as they are; not for files
+  std::vector<double> borders;                // y of the faces between layers: grid lines go through them; not for files
+  std::optional<AroundPlace> around;          // in place of the middle; its numbers add up to those above; not for files
   static void fields(auto& v) {
     v(&Block::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -85,13 +94,15 @@ struct GradedBlock {
   std::vector<Complaint> complaints() const;
 };
 
-// A block for a round indenter above its middle: cells by one number, their length in radii of the contact. Under the indenter
-// they are even, up to 1.1 contact radii; to the sides, the bottom and far layers they grow. Halving `edge` halves them all.
+// A block for a round indenter: cells by one number, their length in radii of the contact. Under the indenter they are even, up to
+// 1.1 contact radii or `even`; to the sides, the bottom and far layers they grow. Halving `edge` halves them all.
 struct IndentedBlock {
   static constexpr const char* key = "indented_block";
   std::array<double, 3> origin{}, size{};
   double radius = 0, depth = 0, edge = 0.175;
   double longer = 1;  // all cells by this factor, as nearly as their numbers allow; not for files
+  std::optional<std::array<double, 2>> under, even;
+  std::vector<double> borders;  // y of the faces between layers; not for files
   static void fields(auto& v) {
     v(&IndentedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -99,8 +110,12 @@ struct IndentedBlock {
     v(&IndentedBlock::depth, "depth", unit::mm, "how deep it is pressed, at most", required, positive);
     v(&IndentedBlock::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact",
       between(0.02, 1));
+    v(&IndentedBlock::under, "under", unit::mm, "x and z of the place below the indenter, a node; none: the middle of the block");
+    v(&IndentedBlock::even, "even", unit::mm, "how far from there cells are even, along x and z; none: 1.1 radii of the contact",
+      positive);
   }
   double contact_radius() const;  // of a sphere, where it cuts the undeformed surface [mm]
+  bool in_the_middle() const;
   Block block() const;
   std::vector<Complaint> complaints() const;
 };

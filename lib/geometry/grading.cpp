@@ -77,6 +77,17 @@ std::vector<double> lines_to_centre(double low, double high, int n, double edge,
   return lines;
 }
 
+std::vector<double> lines_around(double place, const Side& below, const Side& above, const std::string& key) {
+  const auto away = [&](const Side& side) {
+    return side.n > 0 ? refined(side.length, side.n, side.edge, side.within, key) : std::vector<double>{0};
+  };
+  std::vector<double> lines;
+  const std::vector<double> low = away(below), high = away(above);
+  for (auto x = low.rbegin(); x != low.rend(); ++x) lines.push_back(place - *x);
+  for (std::size_t i = 1; i < high.size(); ++i) lines.push_back(place + high[i]);
+  return lines;
+}
+
 std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key) {
   std::vector<double> lines;
   const std::vector<double> below = refined(high - low, n, edge, 0, key);

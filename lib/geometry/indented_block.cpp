@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,24 +26,27 @@ int needed_cells(double rest, double cell) {
   return n;
 }
 
-// n[i] / factor for a factor near `wanted` by which all three can be divided best; fewer than n of at least one
-std::array<int, 3> divided(const std::array<int, 3>& n, double wanted) {
-  std::array<int, 3> best = n;
+// n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at least one. What is 0 stays 0.
+std::vector<int> divided(const std::vector<int>& n, double wanted) {
+  std::vector<int> best = n;
   double least = std::numeric_limits<double>::infinity();
   for (int k : n)
     for (double to : {std::floor(k / wanted), std::ceil(k / wanted)}) {
       if (to < 1) continue;
       const double factor = k / to;
       double off = 0.7 * std::abs(std::log(factor / wanted));
-      std::array<int, 3> counts{};
-      for (int i = 0; i < 3; ++i) {
-        counts[i] = std::max(1, bounded(std::round(n[i] / factor)));
-        off = std::max(off, std::abs(std::log(n[i] / (counts[i] * factor))));
+      std::vector<int> counts = n;
+      for (int& count : counts) {
+        if (count == 0) continue;
+        const int fewer = std::max(1, bounded(std::round(count / factor)));
+        off = std::max(off, std::abs(std::log(count / (fewer * factor))));
+        count = fewer;
       }
       if (counts != n && off < least) least = off, best = counts;
     }
   return best;
 }
+
 }  // namespace
 
 double IndentedBlock::contact_radius() const {
@@ -53,23 +57,50 @@ double IndentedBlock::contact_radius() const {
 Block IndentedBlock::block() const {
   const double a = contact_radius(), cell = edge * a;
   Block b;
-  b.origin = origin, b.size = size;
+  b.origin = origin, b.size = size, b.borders = borders;
+  const auto cells_along = [&](double length, double within) {
+    const double even_part = std::min(within, length);
+    const int fine = std::max(1, bounded(std::round(even_part / cell)));
+    const int coarse = length > even_part
+                           ? std::max(growing_cells(0.65, edge, length / even_part, 6.8), needed_cells(length - fine * cell, cell))
+                           : 0;
+    return std::min(fine + coarse, bounded(std::ceil(length / cell - 1e-9)));  // no more than even cells would be
+  };
+  const bool beside = (under && !in_the_middle()) || even;
+  if (beside) b.around.emplace();
   for (int i : {0, 2}) {
-    const double half = 0.5 * size[i], even = std::min(covered * a, half);
-    const int fine = std::max(1, bounded(std::round(even / cell)));
-    const int coarse =
-        half > even ? std::max(growing_cells(0.65, edge, half / even, 6.8), needed_cells(half - fine * cell, cell)) : 0;
-    b.divisions[i] = 2 * std::min(fine + coarse, bounded(std::ceil(half / cell - 1e-9)));  // no more than even cells would be
+    if (!beside) {
+      b.divisions[i] = 2 * cells_along(0.5 * size[i], covered * a);
+      continue;
+    }
+    const std::size_t k = i == 0 ? 0 : 1;
+    const double at = under ? (*under)[k] : origin[i] + 0.5 * size[i], within = even ? (*even)[k] : covered * a;
+    b.around->at[k] = at, b.around->within[k] = within;
+    const double least = 1e-6 * size[i];  // from the end of the block
+    for (const auto& [side, length] : {std::pair{0, at - origin[i]}, {1, origin[i] + size[i] - at}})
+      b.around->n[k][side] = length > least ? cells_along(length, within) : 0;
+    b.divisions[i] = b.around->n[k][0] + b.around->n[k][1];
   }
-  b.centre = TowardsCentre{std::min(cell, std::min(size[0] / b.divisions[0], size[2] / b.divisions[2])), covered * a};
+  b.centre =
+      TowardsCentre{beside ? cell : std::min(cell, std::min(size[0] / b.divisions[0], size[2] / b.divisions[2])), covered * a};
   b.divisions[1] =
       std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3), 1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
   b.top = TowardsTop{std::min(1.6 * cell, size[1] / b.divisions[1])};
-  if (longer != 1) {
-    const std::array<int, 3> n = divided({b.divisions[0] / 2, b.divisions[1], b.divisions[2] / 2}, longer);
+  if (longer != 1 && beside) {
+    const auto& [x, z] = b.around->n;
+    const std::vector<int> n = divided({x[0], x[1], b.divisions[1], z[0], z[1]}, longer);
+    b.around->instead = {{{n[0], n[1]}, {n[3], n[4]}}};
+    b.instead = {n[0] + n[1], n[2], n[3] + n[4]};
+  } else if (longer != 1) {
+    const std::vector<int> n = divided({b.divisions[0] / 2, b.divisions[1], b.divisions[2] / 2}, longer);
     b.instead = {2 * n[0], n[1], 2 * n[2]};
   }
   return b;
+}
+
+bool IndentedBlock::in_the_middle() const {
+  const auto is = [&](double at, int i) { return std::abs(at - origin[i] - 0.5 * size[i]) <= 1e-9 * size[i]; };
+  return !under || (is((*under)[0], 0) && is((*under)[1], 2));
 }
 
 std::vector<Complaint> IndentedBlock::complaints() const {
@@ -77,6 +108,10 @@ std::vector<Complaint> IndentedBlock::complaints() const {
   if (contact_radius() > 0.45 * std::min(size[0], size[2]))
     found.push_back({"size", fmt::format("a block of {:g} x {:g} mm", size[0], size[2]),
                      fmt::format("more than {:.3g} mm, the contact with room around it", contact_radius() / 0.45), ""});
+  for (int i : {0, 2})
+    if (const double at = under ? (*under)[i / 2] : origin[i]; at < origin[i] || at > origin[i] + size[i])
+      found.push_back({"under", fmt::format("{} = {:g}", "xyz"[i], at),
+                       fmt::format("{:g} to {:g} mm, a place on the block", origin[i], origin[i] + size[i]), ""});
   if (depth > size[1])
     found.push_back({"depth", fmt::format("found {:g}", depth), fmt::format("less than the thickness, {:g} mm", size[1]), ""});
   if (!found.empty()) return found;

@@ -39,10 +39,13 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   if (b.instead) lines = resampled(lines, (*b.instead)[axis]);
   std::vector<Demand> demands;
   for (const auto& [name, x] : points) demands.push_back({x[axis], "points." + name});
+  if (axis == 1)
+    for (double y : b.borders) demands.push_back({y, "bodies"});
   const std::string name(1, "xy"[axis]);
   const Moved moved = through(lines, demands, name, fmt::format("geometry.section.divisions[{}]", axis));
   if (moved.furthest > 1e-9 * b.size[axis])
-    notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through the points", name, moved.furthest));
+    notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers", name,
+                                moved.furthest));
   return moved.lines;
 }
 
@@ -86,10 +89,12 @@ std::vector<Complaint> SectionBox::complaints() const {
 }
 
 SectionBox IndentedDisc::section() const {
-  const IndentedBlock whole{{-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer};
+  const IndentedBlock whole{
+      {-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer, {}, {}, {}};
   const Block b = whole.block();
-  SectionBox half{SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}, {}};
+  SectionBox half{SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}, {}, {}};
   if (b.instead) half.instead = {(*b.instead)[0] / 2, (*b.instead)[1]};
+  half.borders = borders;
   return half;
 }
 

@@ -23,6 +23,7 @@ struct SectionBox {
   std::optional<TowardsTop> top;
   std::optional<double> thickness;
   std::optional<std::array<int, 2>> instead;  // of `divisions`, graded as they are; not for files
+  std::vector<double> borders;                // y of the faces between layers: grid lines go through them; not for files
   static void fields(auto& v) {
     v(&SectionBox::of, "of", unit::none,
       "a body of revolution about the y axis, x being the radius, or one that does not move along z", required);
@@ -43,7 +44,8 @@ struct IndentedDisc {
   static constexpr const char* key = "indented_disc";
   std::array<double, 2> size{};
   double base = 0, radius = 0, depth = 0, edge = 0.175;
-  double longer = 1;  // all cells by this factor, as nearly as their numbers allow; not for files
+  double longer = 1;            // all cells by this factor, as nearly as their numbers allow; not for files
+  std::vector<double> borders;  // y of the faces between layers; not for files
   static void fields(auto& v) {
     v(&IndentedDisc::size, "size", unit::mm, "radius and thickness of the disc", required, between(1e-3, 1e6));
     v(&IndentedDisc::base, "base", unit::mm, "y of its lower face");

@@ -60,6 +60,17 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
   }
 }
 
+// of geometries whose cells one number gives: nobody could lay them between the layers by hand
+Geometry with_borders(const MeshConfig& config) {
+  Geometry geometry = config.geometry;
+  std::vector<double> borders;
+  double y = box(geometry).origin[1];
+  for (std::size_t b = 0; b + 1 < config.bodies.size(); ++b) borders.push_back(y += config.bodies[b].thickness);
+  if (auto* block = std::get_if<IndentedBlock>(&geometry)) block->borders = borders;
+  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) disc->borders = borders;
+  return geometry;
+}
+
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
@@ -70,7 +81,7 @@ MadeMesh made(const MeshConfig& config) {
         else
           return mesh_of(g, config.positions(), result.notes);
       },
-      config.geometry);
+      with_borders(config));
   if (config.cells != mesh.type) {
     const auto section = mesh.section;
     mesh = raised(mesh, config.cells);
