@@ -6,6 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "run/footprint.hpp"
+#include "run/progress.hpp"
+
 namespace langer {
 
 namespace {
@@ -14,6 +17,62 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
   const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
   return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
                                           [&](const auto& body) { return fibrous(body.second.material); });
+}
+
+// where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
+constexpr AccuracyRung coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr double finest_edge = 0.04, shortest_step = 0.01;  // finer ones were never tried
+
+void put(const AccuracyRung& rung, SolveConfig& config) {
+  std::get<IndentedBlock>(config.mesh->geometry).edge = rung.edge;
+  config.path.steps.reset();
+  config.path.first = std::min(rung.step, 1.0);
+  config.path.largest = rung.step;
+  config.mesh->cells = rung.cells;
+}
+
+// cells to where the indenters are, unless the config says where
+void place_cells(IndentedBlock& block, const Footprint& print) {
+  const double a = block.contact_radius();
+  const auto middle = [&](int k) { return block.origin[2 * k] + 0.5 * block.size[2 * k]; };
+  const bool beside = std::abs(print.middle(0) - middle(0)) > 0.02 * a || std::abs(print.middle(1) - middle(1)) > 0.02 * a;
+  const double widest = std::max(print.half(0), print.half(1));
+  // a plane over all of the top has no place of its own
+  if (2 * print.half(0) > 0.99 * block.size[0] && 2 * print.half(1) > 0.99 * block.size[2]) return;
+  if (!block.under && beside) block.under = {print.middle(0), print.middle(1)};
+  if (!block.even && widest > 1.05 * a) {
+    block.even.emplace();
+    for (int k : {0, 1}) (*block.even)[static_cast<std::size_t>(k)] = print.half(k) + 0.1 * a;
+  }
+}
+
+// one sphere above the middle of one layer, at least as thick as the contact is wide
+bool of_the_studys_kind(const SolveConfig& config, const IndentedBlock& block, const std::optional<Footprint>& print) {
+  if (config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
+  if (!std::holds_alternative<Sphere>(config.contacts.begin()->second.rigid)) return false;
+  const double a = std::max(print->half(0), print->half(1));
+  return !block.under && !block.even && a <= block.size[1] && a > 0.7 * block.contact_radius();
+}
+
+// in thin layers with cells that are short enough for some layers of them
+AccuracyRung where_to_begin(const SolveConfig& config, IndentedBlock block) {
+  constexpr int fewest_layers = 5;
+  AccuracyRung rung = has_friction(config) ? coarsest_with_friction : coarsest;
+  for (block.edge = rung.edge; block.block().divisions[1] < fewest_layers && block.edge > finest_edge; block.edge *= 0.95)
+    rung.edge = 0.95 * block.edge;
+  return rung;
+}
+
+// Of a force, in percent of it, taken at its worst where no study tells that parts of it cancel: meshes that do not follow one law
+// leave more open than their scatter.
+double percent_of(const ErrorEstimate& e, bool shown) {
+  if (shown) return e.in_percent(e.total());
+  return e.in_percent(std::abs(e.cells) + std::abs(e.increments) + 2 * e.scatter + e.solver);
+}
+
+bool counts(const ErrorEstimate& e, const std::vector<ErrorEstimate>& all) {
+  const auto forces = std::count_if(all.begin(), all.end(), [](const ErrorEstimate& other) { return other.of.of_force(); });
+  return e.of.of_force() && (forces == 1 || e.of.name != "force");  // of several indenters their own: a sum may be none
 }
 
 }  // namespace
@@ -46,42 +105,152 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   constexpr double by_name[]{5, 1, 0.2};
   ChosenRung chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
-  const bool plain = !has_friction(config) && !has_fibres(config, material);
+  auto& block = std::get<IndentedBlock>(config.mesh->geometry);
+  const std::optional<Footprint> print = footprint(config, box(config.mesh->geometry));
+  if (print) place_cells(block, *print);
+  chosen.shown = of_the_studys_kind(config, block, print);
+  const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
+  const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
   const auto& rungs = accuracy_rungs(plain);
   auto rung = std::find_if(rungs.begin(), rungs.end(), [&](const AccuracyRung& r) { return r.error <= chosen.wanted; });
-  chosen.met = rung != rungs.end();
-  chosen.rung = chosen.met ? *rung : rungs.back();
-
-  std::get<IndentedBlock>(config.mesh->geometry).edge = chosen.rung.edge;
-  config.path.first = std::min(chosen.rung.step, 1.0);
-  config.path.largest = chosen.rung.step;
-  config.mesh->cells = chosen.rung.cells;
+  chosen.met = chosen.shown && rung != rungs.end();
+  chosen.rung = !chosen.shown ? where_to_begin(config, block) : chosen.met ? *rung : rungs.back();
+  put(chosen.rung, config);
   if (!config.estimate) config.estimate = EstimateBy::refinement;
   if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
-  chosen.words = fmt::format(
-      "{:g} % wanted: {} of {:g} contact radii, increments of {:g}; in the refinement study's scenes {} the "
-      "force was within {:g} %{}",
-      chosen.wanted, names(CellType{})[static_cast<int>(chosen.rung.cells)], chosen.rung.edge, chosen.rung.step,
-      plain ? "without fibres and friction" : "with friction", chosen.rung.error, chosen.met ? "" : ", the finest level measured");
+  chosen.words = fmt::format("{:g} % wanted: {}", chosen.wanted, in_words(chosen.rung));
+  if (chosen.shown)
+    chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
+                                plain ? "without fibres and friction" : "with friction", chosen.rung.error,
+                                chosen.met ? "" : ", the finest level measured");
   return chosen;
+}
+
+std::string in_words(const AccuracyRung& rung) {
+  return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", names(CellType{})[static_cast<int>(rung.cells)], rung.edge,
+                     rung.step);
 }
 
 ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
   ReachedAccuracy found{chosen.rung.error, chosen.met, ""};
   bool estimated = false;
   for (const ErrorEstimate& e : estimates) {
-    if (e.of.unit != unit::N) continue;
-    const double percent = e.in_percent(e.total());
+    if (!counts(e, estimates)) continue;
+    const double percent = percent_of(e, chosen.shown);
     found.percent = estimated ? std::max(found.percent, percent) : percent;
     estimated = true;
   }
   if (estimated) found.met = found.percent <= chosen.wanted;
-  if (!found.met)
-    found.words = fmt::format(
-        "asked for {:g} %, and the error of the force is {} {:.2g} %: not reached; take the limit beside the force, or shorter cells: "
-        "mesh.geometry.indented_block.edge below {:g} with estimate: refinement, in place of accuracy",
-        chosen.wanted, estimated ? "estimated at" : "in scenes of this kind up to", found.percent, chosen.rung.edge);
+  if (found.met) return found;
+  if (estimated)
+    found.words =
+        fmt::format("asked for {:g} %, and the error of the force is estimated at {:.2g} %", chosen.wanted, found.percent);
+  else if (chosen.shown)
+    found.words = fmt::format("asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
+                              chosen.wanted, found.percent);
+  else
+    found.words = fmt::format("asked for {:g} %, and the error of the force is not known: nothing was estimated", chosen.wanted);
   return found;
+}
+
+std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
+  AccuracyRung finer = chosen.rung;
+  const double enough = 0.8 * chosen.wanted;
+  double step = 1, edge = 1;  // factors
+  for (const ErrorEstimate& e : estimates)
+    if (counts(e, estimates)) {
+      const double increments = e.in_percent(std::abs(e.increments));
+      if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
+    }
+  const auto percent = [&](const ErrorEstimate& e, double x) {
+    return e.in_percent(std::abs(e.cells) * std::pow(x, e.order) + std::abs(e.increments) * step * step + 2 * e.scatter * x +
+                        e.solver);
+  };
+  for (const ErrorEstimate& e : estimates)
+    if (counts(e, estimates))
+      while (percent(e, edge) > enough && edge > 0.02) edge *= 0.97;
+  finer.edge *= edge, finer.step *= step;
+  finer.step = std::max(finer.step, shortest_step), finer.edge = std::max(finer.edge, finest_edge);
+  if (finer.edge > 0.99 * chosen.rung.edge && finer.step > 0.99 * chosen.rung.step) return std::nullopt;
+  return finer;
+}
+
+Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
+    : voice_(voice), config_(config), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
+  if (!chosen_) return;
+  voice_.say("accuracy: {}", chosen_->words);
+  if (chosen_->shown || config_.estimate != EstimateBy::refinement) return;
+  voice_.say("accuracy: the study has no scene of this kind; these cells tell which ones it needs{}",
+             dry ? " (not with --dry-run)" : "");
+  if (dry) return;
+  const EstimateListener listener = [&](const Run& run, int n, int of) { return estimate_progress(voice_, run, n, of); };
+  while (!piloted(material)) {
+  }
+}
+
+bool Accuracy::piloted(const std::optional<Material>& material) {
+  const EstimateListener listener = [&](const Run& run, int n, int of) { return estimate_progress(voice_, run, n, of); };
+  try {
+    const auto found = end_of_path(config_, material, where_, [&](const Run& run) { return listener(run, 0, 0); });
+    const auto errors = estimate_errors(config_, material, where_, found, 0, listener);
+    const ReachedAccuracy there = reached(*chosen_, errors);
+    const auto finer = there.met ? std::nullopt : finer_rung(*chosen_, errors);
+    if (finer) take(*finer);
+    voice_.say("accuracy: {:.2g} % there; {}", there.percent, in_words(chosen_->rung));
+    return true;
+  } catch (const Failure& failure) {
+    if (failure.code() != Exit::not_converged) throw;
+    voice_.say("accuracy: no estimate there, {}", failure.what());
+    return !shorter_cells();
+  }
+}
+
+// where no error is known that would say which
+bool Accuracy::shorter_cells() {
+  constexpr double factor = 0.7;
+  if (++without_estimate_ > 3 || chosen_->rung.edge * factor < finest_edge) return false;
+  AccuracyRung rung = chosen_->rung;
+  rung.edge *= factor;
+  take(rung);
+  voice_.say("accuracy: {}", in_words(rung));
+  return true;
+}
+
+void Accuracy::take(const AccuracyRung& rung) {
+  chosen_->rung = rung, chosen_->rung.error = 0;
+  chosen_->met = chosen_->shown = false;  // no study stands for it
+  put(rung, config_);
+}
+
+bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
+  if (!chosen_ || config_.estimate != EstimateBy::refinement) return false;
+  if (estimates.empty()) return shorter_cells();
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  const auto finer = found.met ? std::nullopt : finer_rung(*chosen_, estimates);
+  if (!finer) return false;
+  take(*finer);
+  voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
+  return true;
+}
+
+std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_) return {};
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  if (!chosen_->shown && estimates.empty()) return {};  // not known
+  return {{"accuracy", found.percent, "percent"}};
+}
+
+void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const {
+  if (!chosen_) return;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  if (found.met) return;
+  if (estimates.empty() && config_.estimate != EstimateBy::refinement) return voice_.warn("accuracy: " + found.words);
+  const char* key = config_.accuracy ? "accuracy" : "fidelity";
+  throw Failure(Exit::not_accurate,
+                Error{where_(key), key, found.words, fmt::format("at most {:g} %", chosen_->wanted),
+                      fmt::format("kept: {}, solved with {}; ask for what was reached, or say where cells are to be short: "
+                                  "mesh.geometry with estimate, in place of {}",
+                                  output, in_words(chosen_->rung), key)});
 }
 
 }  // namespace langer

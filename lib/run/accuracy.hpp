@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/voice.hpp"
 #include "run/error_estimate.hpp"
 #include "scene/solve_config.hpp"
 
@@ -19,15 +20,20 @@ struct AccuracyRung {
   double step;   // largest increment, as a share of the path to the first waypoint's end
   double error;  // [%]
 };
+std::string in_words(const AccuracyRung& rung);
 const std::vector<AccuracyRung>& accuracy_rungs(bool plain);  // by falling error; plain: isotropic, without friction
 
 struct ChosenRung {
   AccuracyRung rung;
   double wanted = 0;  // [%]
-  bool met = false;   // false: the finest there is does not promise that much
+  bool shown =
+      true;  // the study's kind of scene: one sphere above the middle of one layer that is thicker than the contact is wide
+  bool met =
+      false;  // the study promises it; false: the finest there is does not promise that much, or the scene is of another kind
   std::string words;
 };
-// Puts the rung's cells, increments and symmetry into the config; nothing where no accuracy is wanted.
+// Puts the rung's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
+// is wanted. Scenes that are not of the study's kind get the coarsest hex8: their own error decides (Accuracy).
 // material: of the bodies that the config names none for
 std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
 
@@ -38,5 +44,37 @@ struct ReachedAccuracy {
   std::string words;  // where it is not: what was asked for, what was found, what to do
 };
 ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
+
+// The level at which these errors, of one that was solved, fall below four fifths of what is wanted: cells' with the length of the
+// cells to their order, increments' with the square of their length. Nothing where it is the finest that there is.
+std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
+
+// The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and again with shorter cells or
+// increments until that is within what was asked for or there are no shorter ones.
+class Accuracy {
+ public:
+  using Where = std::function<Place(const std::string&)>;
+  // config as it was written. Scenes unlike those of the study are solved on coarse cells first, unless `dry`, to find where to begin.
+  // Throws Failure(not_converged) where they have no equilibrium there, or one with the signal's code.
+  Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry);
+
+  const SolveConfig& config() const { return config_; }  // to be solved
+  // Whether to solve again, with config() as it is now. Says so.
+  bool refine(const std::vector<ErrorEstimate>& estimates);
+  std::vector<Summary> summary(const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
+  // Throws Failure(not_accurate) where the estimates exceed what was asked for.
+  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const;
+
+ private:
+  void take(const AccuracyRung& rung);
+  bool piloted(const std::optional<Material>& material);  // false: to be tried again, with config() as it is now
+  bool shorter_cells();
+
+  Voice voice_;
+  SolveConfig config_;
+  Where where_;
+  std::optional<ChosenRung> chosen_;
+  int without_estimate_ = 0;
+};
 
 }  // namespace langer

@@ -27,6 +27,7 @@ struct Lengths {
 };
 constexpr Lengths of_block{0.18, 0.125}, of_disc{0.07, 0.0442};  // a disc has a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
+constexpr double apart = 1.08, longest = 3;  // lengths of two meshes' cells, at least; the coarsest, at most
 using Find = std::function<Place(const std::string&)>;
 
 void set_increment(LoadPathOptions& path, double increment) {
@@ -110,7 +111,11 @@ Refinements refinements(const SolveConfig& config, const Find& where) {
   refined.length = {1};
   const double cells = cells_along(geometry);
   for (double factor : longer) {
-    *longer_cells(geometry) = factor;
+    do *longer_cells(geometry) = factor;  // a few layers may be divided by two factors alike
+    while (cells / cells_along(geometry) < apart * refined.length.back() && (factor *= 1.1) < longest);
+    if (factor >= longest)
+      throw Failure(Exit::not_converged,
+                    Error{where("estimate"), "estimate", "too few cells to make coarser meshes from them", "shorter cells", ""});
     refined.length.push_back(cells / cells_along(geometry));
     refined.hex8.push_back(other);
   }
@@ -126,6 +131,23 @@ Refinements refinements(const SolveConfig& config, const Find& where) {
     *edge_in_contact_radii(refined.hex27.back().mesh->geometry) = factor * edge;
   }
   return refined;
+}
+
+// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone.
+double order_of_force(const SolveConfig& config) {
+  return std::any_of(config.contacts.begin(), config.contacts.end(),
+                     [](const auto& contact) {
+                       return std::holds_alternative<Plane>(contact.second.rigid) ||
+                              std::holds_alternative<Cylinder>(contact.second.rigid);
+                     })
+             ? 1
+             : 2;
+}
+
+Vec3 force_of(const StepRecord& state, const std::string& contact) {
+  Vec3 force;
+  for (int j = 0; j < 3; ++j) force[j] = state.scalars.at("force_" + contact + "_" + "xyz"[j]);
+  return force;
 }
 
 }  // namespace
@@ -149,6 +171,9 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
   if (!scene.contacts.empty()) found.push_back({"force", "N", state.force_ind.norm()});
+  if (scene.contacts.size() > 1)
+    for (const RigidContact& contact : scene.contacts)
+      found.push_back({"force_" + contact.name, "N", force_of(state, contact.name).norm()});
   const Body body(mesh, scene.materials, scene.directions, scene.formulation);
   const GaussValues gauss = gauss_values(body, state.u);
   double most = 0;
@@ -165,10 +190,8 @@ std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh
   const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), state.u);
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
-    const double cells = q.name == "force"           ? error.energy_share() * q.value
-                         : q.name == "von_mises_max" ? error.von_mises_spread
-                                                     : -1;
-    if (cells >= 0) estimates.push_back({q, cells, 0, 0, state.residual * std::abs(q.value), false});
+    const double cells = q.of_force() ? error.energy_share() * q.value : q.name == "von_mises_max" ? error.von_mises_spread : -1;
+    if (cells >= 0) estimates.push_back({q, cells, 0, 0, state.residual * std::abs(q.value), 2, false});
   }
   return estimates;
 }
@@ -194,11 +217,13 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
 
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
-    const auto limit = q.name == "force" ? limit_of(family, q.name, 2) : limit_of(alike, q.name, q.name == "von_mises_max" ? 1 : 2);
+    const bool force = q.of_force();
+    const double order = force ? order_of_force(config) : q.name == "von_mises_max" ? 1 : 2;
+    const auto limit = limit_of(force ? family : alike, q.name, order);
     if (!limit) continue;
     double increments = 0;
     if (!path.found.empty()) increments = refined.per_change * (path.of(1, q.name).value_or(0) - path.of(0, q.name).value_or(0));
-    estimates.push_back({q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value)});
+    estimates.push_back({q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order});
   }
   return estimates;
 }
@@ -230,6 +255,7 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
 }
 
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
+  if (config.estimate != EstimateBy::refinement) return 0;
   const Refinements refined = refinements(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
     Run run(body_mesh(scene, "", where), scene, material, where);

@@ -1,5 +1,6 @@
 // What a result is worth: the scene is solved again on other meshes, all of whose cells differ by one factor (Block::instead), and q is
-// set against f of q = f + A h^p fitted to them; p = 2, for the greatest stress p = 1. Only where all cells grow alike does an error
+// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, and the force of a
+// plane or a flat punch, p = 1. Only where all cells grow alike does an error
 // follow such a law: layers and cells to the side have errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
 //               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much longer, whatever that
@@ -31,8 +32,9 @@ namespace langer {
 struct Valued {
   std::string name, unit;
   double value = 0;
+  bool of_force() const { return unit == langer::unit::N; }
 };
-// of a state of the whole body: force on the indenter, greatest von Mises stress of the nodes, displacement of each named point
+// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), greatest von Mises stress of the nodes, displacement of each named point
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // of the state at t = 1 of a config that holds its mesh; nothing is written
@@ -45,6 +47,7 @@ struct ErrorEstimate {
   Valued of;
   double cells = 0, increments = 0;  // signed, in the unit of the quantity
   double scatter = 0, solver = 0;
+  double order = 2;       // p of the error of the cells
   bool has_limit = true;  // false: by recovery, which knows no sign
   double total() const { return std::abs(cells + increments) + scatter + solver; }
   double limit() const { return of.value - cells - increments; }
@@ -74,7 +77,7 @@ std::vector<ErrorEstimate> estimated(const SolveConfig& config, const std::optio
 std::string in_words(const ErrorEstimate& estimate);
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates);  // what gather can collect
 
-// CPU seconds that it will take, about (solve/forecast.hpp)
+// CPU seconds that it will take, about (solve/forecast.hpp); 0 where the scene is not solved again
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,
                         const std::function<Place(const std::string&)>& where);
 

@@ -75,15 +75,15 @@ Problem Progress::watched(Problem problem, double t) {
 }
 
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of) {
-  voice.say("errors: scene {} of {}, {}", n, of, sizes(run));
+  const std::string who = of > 0 ? fmt::format("errors: scene {} of {}", n, of) : "coarse cells";
+  voice.say("{}, {}", who, sizes(run));
   RunListener listener;
-  listener.watched = [voice, n, of, seen = !voice.quiet && (voice.verbose || rewrites(voice))](Problem problem, double t) {
-    problem.assess = [voice, n, of, seen, t, k = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
+  listener.watched = [voice, who, seen = !voice.quiet && (voice.verbose || rewrites(voice))](Problem problem, double t) {
+    problem.assess = [voice, who, seen, t, k = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
       if (interrupted()) return Assessment{.admissible = false, .missing = "stopped"};
       const Assessment found = assess(x, with_tangent);
       if (seen)
-        say_iteration(voice, t, k, found,
-                      fmt::format("errors: scene {} of {}  t {:.4f}  iteration {}  residual {}", n, of, t, k, residual_of(found)));
+        say_iteration(voice, t, k, found, fmt::format("{}  t {:.4f}  iteration {}  residual {}", who, t, k, residual_of(found)));
       ++k;
       return found;
     };

@@ -9,7 +9,7 @@
 namespace langer {
 
 const char* const exit_codes =
-    "0 done, 1 a bug, 2 config or arguments, 3 a file, its disk or memory, 4 no convergence, 128 + n stopped by signal n";
+    "0 done, 1 a bug, 2 config or arguments, 3 a file, its disk or memory, 4 no convergence, 5 less accurate than asked for, 128 + n stopped by signal n";
 
 namespace {
 

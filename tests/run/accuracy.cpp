@@ -1,5 +1,6 @@
 // What a wanted accuracy puts into a config.
 #include "run/accuracy.hpp"
+#include "run/footprint.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,11 +9,14 @@
 using namespace langer;
 
 namespace {
+ContactConfig ball(double x, double z, double radius = 2.5, double depth = 1) {
+  return {"", Sphere{radius, {x, 4 + radius, z}}, 0, {{1, {0, -depth, 0}}}};
+}
 SolveConfig indentation() {
   SolveConfig config;
   config.mesh.emplace();
   config.mesh->geometry = IndentedBlock{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.3};
-  config.contacts["ball"];
+  config.contacts["ball"] = ball(0, 0);
   return config;
 }
 double edge_of(const SolveConfig& config) { return std::get<IndentedBlock>(config.mesh->geometry).edge; }
@@ -81,6 +85,7 @@ TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the 
     e.of = {name, unit, value}, e.cells = cells;
     return e;
   };
+  CHECK(chosen.shown);
   CHECK(reached(chosen, {}).met);  // nothing was estimated: the promise stands
   CHECK(reached(chosen, {}).percent == chosen.rung.error);
   const ReachedAccuracy good = reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
@@ -106,6 +111,131 @@ TEST_CASE("fibres take the levels of hexahedra with 8 nodes, friction or not, wh
   layered.materials["dermis"].material = fibrous;
   choose_accuracy(layered, Material{});
   CHECK(layered.mesh->cells == CellType::hex8);
+}
+
+TEST_CASE("scenes unlike the study's are known as such, and begin coarse without a promise") {
+  const auto shown = [](const auto& change) {
+    SolveConfig config = indentation();
+    config.accuracy = "1%";
+    change(config);
+    const ChosenRung chosen = *choose_accuracy(config, std::nullopt);
+    CHECK(chosen.met == chosen.shown);
+    if (!chosen.shown) {
+      CHECK(edge_of(config) == 0.175);
+      CHECK(config.mesh->cells == CellType::hex8);
+      CHECK(!reached(chosen, {}).met);
+    }
+    return chosen.shown;
+  };
+  CHECK(shown([](SolveConfig&) {}));
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"] = ball(3, 0); }));                       // beside the middle
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"] = ball(0, 0, 20); }));                   // wider than the layer is thick
+  CHECK(!shown([](SolveConfig& c) { c.contacts["other"] = ball(8, 0); }));                      // two
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].motion.push_back({2, {4, -1, 0}}); }));  // goes aside
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Cylinder{1, 0.1, {0, 4, 0}, {0, 1, 0}}; }));
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Plane{{0, 4, 0}, {0, -1, 0}}; }));
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Ellipsoid{{3, 1, 2}, {0, 5, 0}}; }));
+  CHECK(!shown([](SolveConfig& c) { c.mesh->bodies = {{"fat", 2}, {"dermis", 2}}; }));
+  CHECK(!shown([](SolveConfig& c) { c.loads.push_back({"x_max", {0.1, {}, {}}}); }));
+}
+
+TEST_CASE("the footprint of indenters is where they cut the top") {
+  const SolveConfig config = indentation();
+  const Box body = box(config.mesh->geometry);
+  SUBCASE("of a sphere, wherever it is and however small") {
+    for (const auto& [x, z, R, d] : {std::tuple{0., 0., 2.5, 1.}, {5., -3., 2.5, 1.}, {-11.3, 7.1, 0.2, 0.02}}) {
+      SolveConfig c = config;
+      c.contacts["ball"] = ball(x, z, R, d);
+      const auto print = footprint(c, body);
+      REQUIRE(print.has_value());
+      const double a = std::sqrt(d * (2 * R - d));
+      CHECK(print->middle(0) == doctest::Approx(x).epsilon(1e-3));
+      CHECK(print->middle(1) == doctest::Approx(z).epsilon(1e-3));
+      CHECK(print->half(0) == doctest::Approx(a).epsilon(0.01));
+      CHECK(print->half(1) == doctest::Approx(a).epsilon(0.01));
+      CHECK(print->deepest == doctest::Approx(d).epsilon(1e-3));
+    }
+  }
+  SUBCASE("of two, of one on its way, of one over the side, of none") {
+    SolveConfig c = config;
+    c.contacts["other"] = ball(8, 0);
+    CHECK(footprint(c, body)->low[0] == doctest::Approx(-2).epsilon(0.01));
+    CHECK(footprint(c, body)->high[0] == doctest::Approx(10).epsilon(0.01));
+    c = config;
+    c.contacts["ball"].motion.push_back({2, {4, -1, 0}});
+    CHECK(footprint(c, body)->high[0] == doctest::Approx(6).epsilon(0.01));
+    CHECK(footprint(c, body)->half(1) == doctest::Approx(2).epsilon(0.01));
+    c.contacts["ball"] = ball(14.5, 0);
+    CHECK(footprint(c, body)->high[0] == 15);
+    c.contacts["ball"] = ball(40, 0);
+    CHECK(!footprint(c, body));
+  }
+}
+
+TEST_CASE("cells go where the indenters are, unless the config says where") {
+  SolveConfig config = indentation();
+  config.accuracy = "1%";
+  config.contacts["ball"] = ball(5, -2);
+  SolveConfig told = config;
+  choose_accuracy(config, std::nullopt);
+  const auto& block = std::get<IndentedBlock>(config.mesh->geometry);
+  REQUIRE(block.under.has_value());
+  CHECK((*block.under)[0] == doctest::Approx(5).epsilon(1e-3));
+  CHECK((*block.under)[1] == doctest::Approx(-2).epsilon(1e-3));
+  std::get<IndentedBlock>(told.mesh->geometry).under = {1, 1};
+  choose_accuracy(told, std::nullopt);
+  CHECK((*std::get<IndentedBlock>(told.mesh->geometry).under)[0] == 1);
+}
+
+TEST_CASE("the next level follows from the error of the one before: cells by their order, increments by its square") {
+  ChosenRung chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, ""};
+  const auto of = [](double cells, double increments, double scatter = 0, double order = 2) {
+    return ErrorEstimate{{"force", "N", 100}, cells, increments, scatter, 0, order};
+  };
+  const auto by_cells = finer_rung(chosen, {of(3.2, 0)});
+  REQUIRE(by_cells.has_value());
+  CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 3.2)).epsilon(0.05));
+  CHECK(by_cells->step == 0.25);
+  CHECK(finer_rung(chosen, {of(3.2, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 3.2).epsilon(0.05));
+  const auto by_step = finer_rung(chosen, {of(0.3, 3)});
+  REQUIRE(by_step.has_value());
+  CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.1)).epsilon(0.01));
+  CHECK(by_step->edge > 0.15);
+  chosen.rung.edge = 0.04;
+  CHECK(!finer_rung(chosen, {of(3.2, 0)}));  // the finest there is
+}
+
+TEST_CASE("cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {
+  for (const auto& [x, z] : {std::pair{5., -3.}, {14.9, 0.}, {15., 15.}, {0., 2.}}) {
+    CAPTURE(x);
+    IndentedBlock b{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175};
+    b.under = {x, z};
+    CHECK(b.complaints().empty());
+    CHECK(contradictions(b, {}).empty());
+    std::vector<std::string> notes;
+    const Mesh mesh = mesh_of(b, {}, notes);
+    double nearest = 1e9;
+    for (const Vec3& X : mesh.X) nearest = std::min(nearest, (X - Vec3(x, 4, z)).norm());
+    CHECK(nearest < 1e-9);
+    IndentedBlock longer = b;
+    longer.longer = 1.5;
+    const Mesh coarse = mesh_of(longer, {}, notes);
+    CHECK(coarse.n_cells() < 0.6 * mesh.n_cells());
+    nearest = 1e9;
+    for (const Vec3& X : coarse.X) nearest = std::min(nearest, (X - Vec3(x, 4, z)).norm());
+    CHECK(nearest < 1e-9);
+    IndentedBlock fine = b;
+    fine.edge = 0.0875;
+    CHECK(mesh_of(fine, {}, notes).n_cells() == doctest::Approx(8 * mesh.n_cells()).epsilon(0.35));
+  }
+  IndentedBlock outside{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175};
+  outside.under = {16, 0};
+  CHECK(!outside.complaints().empty());
+  IndentedBlock middle{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175};
+  const Block usual = middle.block();
+  middle.under = {0, 0};
+  CHECK(middle.block().divisions == usual.divisions);
+  CHECK(!middle.block().around);
 }
 
 TEST_CASE("half the edge of an indented block halves its cells, and they are even under the indenter") {

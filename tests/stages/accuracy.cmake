@@ -1,0 +1,50 @@
+# An accuracy that is asked for is met, in scenes unlike those of the refinement study too, or ends with a code of its own.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(folder ${WORK}/project)
+# a sphere near a corner of its block, beside the middle
+file(WRITE ${folder}/beside.yaml "include: configs/solve/trade_isotropic.yaml
+mesh:
+  geometry: {indented_block: {origin: [-8, 0, -8], size: [16, 4, 16], radius: 2.5, depth: 0.4}}
+contacts:
+  sphere: {on: '', rigid: {sphere: {radius: 2.5, centre: [3, 6.5, 2]}}, motion: [{t: 1, to: [0, -0.4, 0]}]}
+")
+function(number name out)
+  string(REGEX MATCH "\"${name}\": ([0-9.e+-]+)" all "${said}")
+  if(all STREQUAL "")
+    message(FATAL_ERROR "no ${name}:\n${said}")
+  endif()
+  set(${out} ${CMAKE_MATCH_1} PARENT_SCOPE)
+endfunction()
+
+run(0 ${BIN}/langer-solve beside.yaml -o asked.h5 --json --set accuracy=2%)
+expect_said("2 % wanted")
+expect_said("the study has no scene of this kind")
+number(accuracy_percent reached)
+if(reached GREATER 2)
+  message(FATAL_ERROR "asked for 2 %, ended with ${reached} % and exit code 0")
+endif()
+number(force_N force)
+run(0 ${BIN}/langer-solve beside.yaml -o fine.h5 --json --quiet --set symmetry=none --set mesh.geometry.indented_block.edge=0.1
+    --set "mesh.geometry.indented_block.under=[3, 2]")
+number(force_N fine)
+execute_process(COMMAND awk "BEGIN { off = 100 * (${force} / ${fine} - 1); print off; exit !(off > -2 && off < 2) }" OUTPUT_VARIABLE off RESULT_VARIABLE far)
+if(far)
+  message(FATAL_ERROR "asked for 2 %, the force ${force} N is ${off} % off that of finer cells, ${fine} N")
+endif()
+
+# recovery knows no law of the cells' length: it judges the first level, which stays as the result, with what was reached
+file(WRITE ${folder}/coarse.yaml "include: configs/solve/trade_isotropic.yaml
+mesh:
+  geometry: {indented_block: {origin: [-8, 0, -8], size: [16, 4, 16], radius: 2.5, depth: 1}}
+contacts:
+  sphere: {on: ''}
+estimate: recovery
+")
+run(5 ${BIN}/langer-solve coarse.yaml -o short.h5 --set accuracy=0.2%)
+expect_said("asked for 0.2 %")
+expect_said("short.h5")
+run(0 ${BIN}/langer-post configs/post/force.yaml --solution short.h5 -o curves.h5 --quiet)
+# without an estimate nothing is judged, which is said
+run(0 ${BIN}/langer-solve beside.yaml -o loose.h5 --set accuracy=2% --set estimate=none)
+expect_said("nothing was estimated")
