@@ -14,22 +14,21 @@ namespace {
 
 struct Solved {
   enum class At { the_end, not_homogeneous, too_coarse } at = At::the_end;
-  std::vector<Summary> summary;
-  std::vector<ErrorEstimate> errors;
+  std::vector<Summary> summary = {};
+  std::vector<ErrorEstimate> errors = {};
 };
 
 // Not homogeneous: a body that was solved at a point ceases to deform alike everywhere; its steps before are kept, to continue from.
 // Too coarse: accuracy has another config now.
 Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& material, Accuracy& accuracy, bool at_a_point) {
-  const double began = wall_seconds();
   const SolveConfig config = accuracy.config();
   Run run(body_mesh(config, job.has("mesh") ? job.input("mesh") : "", job.where), config, material, job.where, at_a_point);
   const double jump = say_scene(job.voice(), run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
-  if (job.dry_run)
-    return {Solved::At::the_end,
-            dry_run(config, run.reduction.scene(), run.body, run.statics, estimate_seconds(config, material, job.where), job.quiet),
-            {}};
+  if (job.dry_run) {
+    const double estimate = estimate_seconds(config, material, job.where);
+    return {.summary = dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, job.quiet)};
+  }
   need_memory(run.statics, config.threads);
   const std::string loose = held_by_contact(run, job.where);
   Recording recording(run, watch, config, job.identity, job.output);
@@ -40,25 +39,21 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
 
   const Interruptible at_the_end_of_a_step;
   const RunEnd end = recording.follow(progress);
-  if (end.at == RunEnd::At::not_homogeneous) return {Solved::At::not_homogeneous, {}, {}};
+  if (end.at == RunEnd::At::not_homogeneous) return {Solved::At::not_homogeneous};
   for (const std::string& line : watch.warnings()) job.warn("{}", line);
   if (end.path.complete)
     for (const std::string& line : watch.contact_warnings()) job.warn("{}", line);
   recording.need_the_end(end, loose);
 
   std::vector<ErrorEstimate> errors = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
-  if (accuracy.refine(errors)) return {Solved::At::too_coarse, {}, {}};
-  std::vector<Summary> said = summary_of(errors);  // of the result as a whole
-  for (const auto& more : {accuracy.summary(errors), watch.contact_summary()}) said.insert(said.end(), more.begin(), more.end());
-  // the processor's time before this function is that of loading the program, and of what accuracy solved
-  recording.finish(
-      recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds() - began, 1e-6 * peak_bytes()}), said);
+  if (accuracy.refine(errors)) return {Solved::At::too_coarse};
+  const std::vector<Summary> said = joined({summary_of(errors), accuracy.summary(errors), watch.contact_summary()});
+  recording.finish(recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}),
+                   said);
   progress.finished(end.path, run.statics, recording.seconds());
-  std::vector<Summary> summary = summary_of(run, end, recording.n_steps());
-  summary.insert(summary.end(), said.begin(), said.end());
-  summary.push_back({"fibre_jump", jump, "deg"});
-  for (const Summary& s : watch.stability_summary()) summary.push_back(s);
-  return {Solved::At::the_end, summary, errors};
+  return {Solved::At::the_end,
+          joined({summary_of(run, end, recording.n_steps()), said, {{"fibre_jump", jump, "deg"}}, watch.stability_summary()}),
+          errors};
 }
 
 std::vector<Summary> solve(const Job<SolveConfig>& job) {

@@ -1,6 +1,7 @@
 #include "geometry/block.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,24 @@ std::vector<double> around_place(const Block& b, int axis) {
   return lines;
 }
 
+// each layer by itself, by `share` of its cells, as nearly as their number allows
+std::vector<double> resampled_between(const std::vector<double>& lines, const std::vector<double>& borders, double share) {
+  std::vector<double> found{lines.front()}, layer{lines.front()};
+  const auto is_border = [&](double y) {
+    return std::any_of(borders.begin(), borders.end(),
+                       [&](double b) { return std::abs(b - y) < 1e-9 * (lines.back() - lines.front()); });
+  };
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    layer.push_back(lines[i]);
+    if (i + 1 < lines.size() && !is_border(lines[i])) continue;
+    const std::vector<double> again =
+        resampled(layer, std::max(1, static_cast<int>(std::lround(share * static_cast<double>(layer.size() - 1)))));
+    found.insert(found.end(), again.begin() + 1, again.end());
+    layer = {lines[i]};
+  }
+  return found;
+}
+
 GridLines grid_lines(const Block& b, const Points& points, std::vector<std::string>& notes) {
   GridLines lines;
   for (int i = 0; i < 3; ++i) {
@@ -48,11 +67,14 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
       lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.block.centre.edge");
     else
       lines[i] = even_lines(low, high, n);
-    if (b.instead && !(i != 1 && b.around)) lines[i] = resampled(lines[i], (*b.instead)[i]);
     std::vector<Demand> demands;
-    for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
-    if (i == 1)
+    if (i == 1 && !b.borders.empty()) {
       for (double y : b.borders) demands.push_back({y, "bodies"});
+      lines[i] = through(lines[i], demands, "y", "geometry.block.divisions[1]").lines;
+    }
+    if (b.instead && i == 1) lines[i] = resampled_between(lines[i], b.borders, 1.0 * (*b.instead)[1] / n);
+    if (b.instead && i != 1 && !b.around) lines[i] = resampled(lines[i], (*b.instead)[i]);
+    for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
     const std::string axis(1, "xyz"[i]);
     const Moved moved = through(lines[i], demands, axis, fmt::format("geometry.block.divisions[{}]", i));
     if (moved.furthest > 1e-9 * b.size[i])

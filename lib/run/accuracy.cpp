@@ -56,7 +56,7 @@ bool of_the_studys_kind(const SolveConfig& config, const IndentedBlock& block, c
 
 // in thin layers with cells that are short enough for some layers of them
 AccuracyRung where_to_begin(const SolveConfig& config, IndentedBlock block) {
-  constexpr int fewest_layers = 5;
+  const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
   AccuracyRung rung = has_friction(config) ? coarsest_with_friction : coarsest;
   for (block.edge = rung.edge; block.block().divisions[1] < fewest_layers && block.edge > finest_edge; block.edge *= 0.95)
     rung.edge = 0.95 * block.edge;
@@ -162,13 +162,16 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
       const double increments = e.in_percent(std::abs(e.increments));
       if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
     }
+  const double least = finest_edge / chosen.rung.edge;
   const auto percent = [&](const ErrorEstimate& e, double x) {
     return e.in_percent(std::abs(e.cells) * std::pow(x, e.order) + std::abs(e.increments) * step * step + 2 * e.scatter * x +
                         e.solver);
   };
-  for (const ErrorEstimate& e : estimates)
-    if (counts(e, estimates))
-      while (percent(e, edge) > enough && edge > 0.02) edge *= 0.97;
+  for (const ErrorEstimate& e : estimates) {
+    if (!counts(e, estimates)) continue;
+    if (percent(e, least) > chosen.wanted) return std::nullopt;
+    while (percent(e, edge) > enough && edge > least) edge *= 0.97;
+  }
   finer.edge *= edge, finer.step *= step;
   finer.step = std::max(finer.step, shortest_step), finer.edge = std::max(finer.edge, finest_edge);
   if (finer.edge > 0.99 * chosen.rung.edge && finer.step > 0.99 * chosen.rung.step) return std::nullopt;
@@ -205,10 +208,10 @@ bool Accuracy::piloted(const std::optional<Material>& material) {
   }
 }
 
-// where no error is known that would say which
+// once, where no error is known that would say which
 bool Accuracy::shorter_cells() {
   constexpr double factor = 0.7;
-  if (++without_estimate_ > 3 || chosen_->rung.edge * factor < finest_edge) return false;
+  if (++without_estimate_ > 1 || chosen_->rung.edge * factor < finest_edge) return false;
   AccuracyRung rung = chosen_->rung;
   rung.edge *= factor;
   take(rung);

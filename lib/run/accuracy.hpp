@@ -46,7 +46,7 @@ struct ReachedAccuracy {
 ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
 
 // The level at which these errors, of one that was solved, fall below four fifths of what is wanted: cells' with the length of the
-// cells to their order, increments' with the square of their length. Nothing where it is the finest that there is.
+// cells to their order, increments' with the square of their length. Nothing where it is the finest that there is, or not even that would do.
 std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
 
 // The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and again with shorter cells or

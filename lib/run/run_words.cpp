@@ -62,4 +62,10 @@ std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) 
   return summary;
 }
 
+std::vector<Summary> joined(const std::vector<std::vector<Summary>>& parts) {
+  std::vector<Summary> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 }  // namespace langer

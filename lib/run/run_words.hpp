@@ -23,5 +23,6 @@ std::vector<ErrorEstimate> say_errors(const Voice& voice, const SolveConfig& con
                                       const Run::Where& where, const Run& run, const StepRecord& last, const Recording& recording);
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps);
+std::vector<Summary> joined(const std::vector<std::vector<Summary>>& parts);
 
 }  // namespace langer

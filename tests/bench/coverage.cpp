@@ -15,8 +15,7 @@ struct Held {
   double rho = 0, effective = 0;
 };
 
-// with_bootstrap: it costs a hundred fits, and is looked at in one set of four
-void add(Held& held, const FitProblem& q, const VecX& truth, double part, bool with_bootstrap) {
+void add(Held& held, const FitProblem& q, const VecX& truth, double part) {
   const FitResult f = fit(q, {.starts = 1});
   const LeastSquares problem = least_squares_problem(q);
   const VecX factor = interval_factors(f.columns, f.left_out, f.noise);
@@ -25,15 +24,14 @@ void add(Held& held, const FitProblem& q, const VecX& truth, double part, bool w
   BootstrapOptions options;
   options.growth = factor.cwiseQuotient(interval_factors(f.columns, f.left_out, told)).mean();
   options.samples = 100;
-  Bootstrap b;
-  if (with_bootstrap) b = bootstrap([&] { return least_squares_problem(q); }, f.best.p, f.noise, options);
+  const Bootstrap b = bootstrap([&] { return least_squares_problem(q); }, f.best.p, f.noise, options);
   const MatX before = covariance(f.best), white = covariance(f.best.J, f.left_out, white_noise(f.noise.deviation, f.best.r.size()));
   for (int i = 0; i < truth.size(); ++i) {
     const double off = std::abs(f.best.p[i] - truth[i]);
     held.white[i] += part * (off <= 1.96 * std::sqrt(before(i, i)));
     held.error[i] += part * (off <= 1.96 * factor[i] * std::sqrt(white(i, i)));
     held.profile[i] += part * (profile_rise(problem, i, truth[i], f.best.p, f.noise.deviation * factor[i]) <= 3.8415);
-    if (with_bootstrap) held.bootstrap[i] += 4 * part * (b.low[i] <= truth[i] && truth[i] <= b.high[i]);
+    held.bootstrap[i] += part * (b.low[i] <= truth[i] && truth[i] <= b.high[i]);
   }
   held.rho += 0.01 * part * f.noise.rho, held.effective += 0.01 * part * f.noise.effective;
 }
@@ -47,7 +45,7 @@ std::string range(const VecX& v, Eigen::Index n) {
 void measure_coverage() {
   constexpr int seeds = 200;
   fmt::print(
-      "intervals of 95 %, held of 100 (lowest and highest of the parameters), {} sets, bootstrap in every fourth\n"
+      "intervals of 95 %, held of 100 (lowest and highest of the parameters), {} sets\n"
       "| points a curve | rho | found | values count as | as if independent | standard errors | profiles | bootstrap |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
       seeds);
@@ -58,8 +56,7 @@ void measure_coverage() {
       for (int i = 0; i < 5; ++i) truth[i] = exact.free[static_cast<std::size_t>(i)].start;
       Held held;
       for (int seed = 0; seed < seeds; ++seed)
-        add(held, test::noisy(exact, 0.005 * test::largest_of(exact), rho, static_cast<std::uint64_t>(seed)), truth, 100. / seeds,
-            seed % 4 == 0);
+        add(held, test::noisy(exact, 0.005 * test::largest_of(exact), rho, static_cast<std::uint64_t>(seed)), truth, 100. / seeds);
       fmt::print("| {} | {:g} | {:.2f} | {:.0f} of {} | {} | {} | {} | {} |\n", n, rho, held.rho, held.effective, 6 * n,
                  range(held.white, 5), range(held.error, 5), range(held.profile, 5), range(held.bootstrap, 5));
       std::fflush(stdout);
@@ -72,8 +69,7 @@ void measure_coverage() {
   const VecX truth = fit(exact, {.starts = 3}).best.p;
   Held held;
   for (int seed = 0; seed < seeds; ++seed)
-    add(held, test::noisy(exact, 0.005 * test::largest_of(exact), 0, static_cast<std::uint64_t>(seed)), truth, 100. / seeds,
-        seed % 4 == 0);
+    add(held, test::noisy(exact, 0.005 * test::largest_of(exact), 0, static_cast<std::uint64_t>(seed)), truth, 100. / seeds);
   fmt::print("| 30, law misses by more than the noise | 0 | {:.2f} | {:.0f} of 180 | {} | {} | {} | {} |\n", held.rho,
              held.effective, range(held.white, 4), range(held.error, 4), range(held.profile, 4), range(held.bootstrap, 4));
 }

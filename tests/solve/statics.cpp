@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "solve/newton.hpp"
 #include "support/block.hpp"
+#include "support/directions.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -16,7 +17,9 @@ struct Held {
   Mesh mesh = test::cube(2);
   Equilibrium body;
   Statics statics;
-  Held() : body(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation, held_below(mesh)), statics(body, {}, {}) {}
+  Held()
+      : body(test::equilibrium(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation, held_below(mesh))),
+        statics(body, {}, {}) {}
   static Dofs held_below(const Mesh& mesh) {
     std::vector<Prescribed> held;
     for (int n : mesh.node_sets.at("y_min"))
