@@ -138,8 +138,9 @@ class Build:
             return f"{entry}: longer than {limit:.0f} s"
         if code == 0 and not re.search(r"test cases: +[1-9]", out):
             sys.exit(f"{entry}: no such tests")
-        case = re.search(r"^TEST CASE:\s*(.*)", out, re.M)
-        return "" if code == 0 else f"{folder}: {case.group(1).strip() if case else 'ends with ' + str(code)}"
+        # other cases are named too, by their messages: the one that fails stands last before its error
+        cases = re.findall(r"^TEST CASE:\s*(.*)", re.split(r" (?:FATAL )?ERROR: ", out, maxsplit=1)[0], re.M)
+        return "" if code == 0 else f"{folder}: {cases[-1].strip() if cases else 'ends with ' + str(code)}"
 
 
 def campaign(mutants, build, limit, results):
