@@ -30,7 +30,7 @@ TEST_CASE("two unlike displacements of one node are refused by the keys of both,
   const std::string refused = said_of(held + "loads: [{on: x_max, displacement: {x: 0.2, y: 0.1}}]");
   CHECK(refused.find("loads[0].displacement") != std::string::npos);
   CHECK(refused.find("y = 0.1 mm at a node that supports[1] sets to 0 mm") != std::string::npos);
-  const std::string twice = said_of(held + "loads: [{on: x_max, displacement: {x: 0.2}}, {on: y_max, displacement: {x: -0.2}}]");
+  const std::string twice = said_of(held + "loads: [{on: x_max, displacement: {x: 0.2}}, {on: x_max, displacement: {x: -0.2}}]");
   CHECK(twice.find("loads[1].displacement") != std::string::npos);
   CHECK(twice.find("loads[0]") != std::string::npos);
 }
