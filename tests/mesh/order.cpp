@@ -63,6 +63,23 @@ TEST_CASE("turned cells have their edges along the axes, whatever way round they
   }
 }
 
+TEST_CASE("a cell keeps its hand however skewed it is: turning never mirrors it") {
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  int checked = 0;
+  while (checked < 500) {
+    Mat3 A = Mat3::NullaryExpr([&] { return normal(random); });
+    if (A.determinant() < 0) A.col(2) *= -1;
+    if (A.determinant() < 0.05) continue;
+    Mesh mesh = example::one_cell([&](const Vec3& xi) { return Vec3(A * xi); });
+    const std::vector<int> corners = mesh.connectivity;
+    turn_cells(mesh);
+    CHECK(jacobian(mesh, 0, Vec3::Zero()).determinant() == doctest::Approx(A.determinant()).epsilon(1e-12));
+    CHECK(std::is_permutation(corners.begin(), corners.end(), mesh.connectivity.begin()));
+    ++checked;
+  }
+}
+
 TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the last digit, one that is not stays") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> rounding(-1e-10, 1e-10);

@@ -69,6 +69,49 @@ TEST_CASE("Morris: a linear model has its slopes times the ranges and sigma = 0"
     }
 }
 
+TEST_CASE("Morris: mean, mean size and deviation are those of a sample of the effects along the paths") {
+  // y = x1^2 + 3 x1 x2 + sin x3 on a box; what the paths visit is written down
+  std::vector<VecX> points;
+  std::vector<double> values;
+  const auto phi = [&](const VecX& p, VecX& y) {
+    y = vec({p[0] * p[0] + 3 * p[0] * p[1] + std::sin(p[2])});
+    points.push_back(p), values.push_back(y[0]);
+    return true;
+  };
+  const VecX lower = vec({-1, 0, 2}), upper = vec({1, 4, 5});
+  for (int n : {2, 3, 7}) {
+    CAPTURE(n);
+    points.clear(), values.clear();
+    SamplingOptions options;
+    options.resamples = 10;
+    const Morris e = morris(same(phi), lower, upper, n, 6, options);
+    REQUIRE(e.trajectories == n);
+    REQUIRE(points.size() == static_cast<std::size_t>(4 * n));
+    std::vector<std::vector<double>> effects(3);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (i % 4 == 0) continue;  // the next path begins
+      const VecX moved = (points[i] - points[i - 1]).cwiseQuotient(upper - lower);
+      Eigen::Index k;
+      moved.cwiseAbs().maxCoeff(&k);
+      CHECK(moved.cwiseAbs().sum() == doctest::Approx(0.6));  // levels/(2 (levels - 1)), by one parameter alone
+      effects[static_cast<std::size_t>(k)].push_back((values[i] - values[i - 1]) / moved[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const auto& all = effects[static_cast<std::size_t>(k)];
+      REQUIRE(all.size() == static_cast<std::size_t>(n));  // each parameter moves once on each path
+      double mu = 0, mu_star = 0, pairs = 0;
+      for (double a : all) {
+        mu += a / n, mu_star += std::abs(a) / n;
+        for (double b : all) pairs += (a - b) * (a - b);
+      }
+      CHECK(e.mu.value(k, 0) == doctest::Approx(mu).epsilon(1e-10));
+      CHECK(e.mu_star.value(k, 0) == doctest::Approx(mu_star).epsilon(1e-10));
+      // the unbiased variance: half the mean square of the differences of two effects
+      CHECK(e.sigma.value(k, 0) == doctest::Approx(std::sqrt(pairs / (2.0 * n * (n - 1)))).epsilon(1e-10).scale(1));
+    }
+  }
+}
+
 TEST_CASE("Morris: an interaction shows as sigma, which one-at-a-time effects do not see") {
   //   y = x1 x2 on [-1, 1]^2: at the middle neither moves anything
   const auto phi = [](const VecX& p, VecX& y) {

@@ -79,6 +79,42 @@ TEST_CASE("a residual that becomes NaN is never a success and never hangs, whene
     }
 }
 
+// f(x) = log x has no value left of 0, where Newton's first step from x = 5 leads: x - x log x = -3. KINSOL must be told, so that
+// it halves the step; a residual that is no number would stand in its vectors for good.
+TEST_CASE("a step to where the residual is no number, or is too large to be squared, is shortened and the root is found") {
+  for (bool too_large : {false, true})
+    for (KinsolStrategy strategy : {KinsolStrategy::newton, KinsolStrategy::linesearch}) {
+      CAPTURE(too_large);
+      CAPTURE(static_cast<int>(strategy));
+      VecX at;
+      int outside = 0;
+      FreeBalance b;
+      b.free = {0};
+      b.residual = [&](const VecX& x, VecX& f) {
+        f[0] = x[0] > 0 ? std::log(x[0]) : too_large ? -1e200 : std::nan("");
+        outside += !(x[0] > 0);
+        return true;  // as if it were a number
+      };
+      b.tangent = [&](const VecX& x) { return at = x, true; };
+      b.solve = [&](const VecX& rhs, bool) { return VecX(rhs.cwiseProduct(at)); };
+      Problem p;
+      p.assess = [&](const VecX& x, bool) {
+        Assessment a;
+        a.residual = std::abs(std::log(x[0])), a.reference = 1;
+        return a;
+      };
+      p.correction = []() -> std::optional<VecX> { return VecX::Zero(1); };  // nothing is imposed: KINSOL does it all
+      p.admissible = [](const VecX&) { return true; };
+      p.moved = [](const VecX&, double) {};
+      KinsolOptions options;
+      options.strategy = strategy, options.relative = 1e-10, options.rounds = 3, options.largest_move = 100;
+      VecX x = VecX::Constant(1, 5.0);
+      CHECK(kinsol(p, b, x, options).converged());
+      CHECK(std::abs(x[0] - 1) < 1e-9);
+      CHECK(outside > 0);
+    }
+}
+
 TEST_CASE("indentation with friction: every strategy agrees with newton to 1e-8 mm") {
   test::Indentation scene;
   scene.nx = scene.nz = 10, scene.ny = 3, scene.h = 0.6, scene.depth = 0.4, scene.newton.relative = 1e-9;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -77,6 +78,30 @@ TEST_CASE("Newton finds Rosenbrock's minimum with a quadratic tail") {
   CHECK(report.iterations <= 8);
 }
 
+TEST_CASE("no component moves further in an iteration than the largest move; the step keeps its direction") {
+  Rosenbrock r;
+  for (double largest : {0.03, 0.3, 100.0}) {
+    CAPTURE(largest);
+    VecX x(2);
+    x << -1.2, 1;
+    VecX before = x;
+    int shortened = 0;
+    Problem p = r.problem();
+    p.moved = [&](const VecX& dx, double step) {
+      const double longest = dx.lpNorm<Eigen::Infinity>();
+      CHECK(step == doctest::Approx(std::min(1.0, largest / longest)).epsilon(1e-14));
+      CHECK(step * longest <= largest * (1 + 1e-14));
+      shortened += step < 1;
+    };
+    NewtonOptions options;
+    options.iterations = 200, options.largest_move = largest;
+    const SolveReport report = newton(p, x, options);
+    CHECK(report.converged());
+    CHECK((x - VecX::Ones(2)).norm() < 1e-6);
+    CHECK((shortened > 0) == (largest < 1));
+  }
+}
+
 TEST_CASE("Newton says why it stops: too few iterations, a singular tangent, a force that is not finite") {
   Rosenbrock r;
   VecX x(2);
@@ -120,6 +145,36 @@ TEST_CASE("the load path cuts back, grows again, hits its stops and ends at 1") 
   double widest = 0;
   for (std::size_t i = 1; i < reached.size(); ++i) widest = std::max(widest, reached[i] - reached[i - 1]);
   CHECK(widest > 0.1);  // grown again after the hard place
+}
+
+TEST_CASE("increments grow by half where the step was easy, stay where it was not, and are no longer than the largest") {
+  LoadPathOptions options;
+  options.first = 0.001, options.largest = 0.2, options.easy = 4;
+  std::vector<double> taken, asked;
+  int iterations = options.easy;
+  const auto attempt = [&](double) {
+    SolveReport r;
+    r.outcome = Outcome::converged, r.iterations = iterations;
+    return r;
+  };
+  const auto accepted = [&](double t, double by, double next, const SolveReport&) {
+    taken.push_back(by), asked.push_back(next);
+    iterations = t > 0.1 && t < 0.3 ? options.easy + 1 : options.easy;
+    return true;
+  };
+  REQUIRE(load_path(options, 0, {}, {}, attempt, accepted).complete);
+  double t = taken[0];
+  int grown = 0, kept = 0;
+  for (std::size_t i = 1; t < 0.8; t += taken[i++]) {  // the last ones are made to end at 1
+    CHECK(taken[i] == doctest::Approx(asked[i - 1]).epsilon(1e-10));
+    const bool hard = t > 0.1 && t < 0.3;
+    const double expected = hard ? taken[i] : std::min(options.largest, 1.5 * taken[i]);
+    CHECK(asked[i] == doctest::Approx(expected).epsilon(1e-10));
+    ++(hard ? kept : grown);
+  }
+  CHECK(grown > 10);
+  CHECK(kept >= 2);
+  CHECK(*std::max_element(taken.begin(), taken.end()) <= options.largest * (1 + 1e-10));
 }
 
 TEST_CASE("the load path gives up at the smallest increment and keeps what was reached") {

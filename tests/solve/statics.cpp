@@ -67,3 +67,26 @@ TEST_CASE("a step that turns an element inside out, or nearly so, is not admissi
   nan[4] = std::numeric_limits<double>::quiet_NaN();
   CHECK(!problem.admissible(nan));
 }
+
+TEST_CASE("a state whose forces lie outside Coulomb's cone is no answer, by however little and though nothing slips") {
+  Held held;
+  const double mu = 0.4;
+  const auto& top = held.mesh.node_sets.at("y_max");
+  const Vec3 on_top = held.mesh.X[static_cast<std::size_t>(top[0])];
+  const RigidContact rough{"rough", Plane{{on_top[0], on_top[1], on_top[2]}, {0, -1, 0}}, mu, top, {{1, Vec3(0, 0, 0)}}};
+  Statics statics(held.body, {rough}, {});
+  // at rest the plane just touches: with these forces gap, slip and their work are 0
+  const auto assessed = [&](double share, double r_n) {
+    BodyState state = statics.accepted();
+    for (Vec3& r : state.r[0]) r = r_n * Vec3(share * mu, -1, 0);
+    statics.restore(state);
+    statics.begin(0.5);
+    return statics.problem().assess(statics.trial(), false);
+  };
+  for (double share : {0.0, 0.5, 1 - 1e-7, 1.0}) CHECK(assessed(share, 0.01).others);
+  for (double share : {1 + 1e-7, 1 + 1e-4, 1.5}) {
+    CAPTURE(share);
+    CHECK(assessed(share, 0.01).missing == "the contact law does not hold");
+  }
+  CHECK(!assessed(0, -0.01).others);  // a pull
+}
