@@ -68,7 +68,10 @@ class Build:
                 here = line.split(":")[0]
                 self.depend[here] = set()
         self.library = [o for o in self.commands if "liblanger.dir/" in o]
-        self.symbols, self.program = {}, work / "test_changed"
+        self.symbols, self.program = {}, work / "bin/test_changed"
+        self.program.parent.mkdir(exist_ok=True)
+        if not (work / "lib").exists():
+            (work / "lib").symlink_to(build / "lib")  # where programs look for langer_gmsh.so, beside their bin
 
     def names(self, objects):
         """defines and needs symbols, of each object"""
