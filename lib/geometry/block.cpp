@@ -19,9 +19,10 @@ std::vector<double> around_place(const Block& b, int axis) {
   const double at = b.around->at[k], low = b.origin[axis], high = low + b.size[axis];
   const auto side = [&](double length, std::size_t which) {
     const int n = b.around->n[k][which];
-    return Side{length, b.around->within[k], n > 0 ? std::min(b.centre->edge, length / n) : 0, n};
+    const double within = b.around->within[k], even = n > 0 ? length / n : 0;
+    return GradedSide{length, within, within < length ? std::min(b.centre->edge, even) : even, n};
   };
-  const Side below = side(at - low, 0), above = side(high - at, 1);
+  const GradedSide below = side(at - low, 0), above = side(high - at, 1);
   std::vector<double> lines = lines_around(at, below, above, "geometry.block.centre.edge");
   if (b.around->instead) {
     const auto [n_below, n_above] = (*b.around->instead)[k];

@@ -77,8 +77,8 @@ std::vector<double> lines_to_centre(double low, double high, int n, double edge,
   return lines;
 }
 
-std::vector<double> lines_around(double place, const Side& below, const Side& above, const std::string& key) {
-  const auto away = [&](const Side& side) {
+std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above, const std::string& key) {
+  const auto away = [&](const GradedSide& side) {
     return side.n > 0 ? refined(side.length, side.n, side.edge, side.within, key) : std::vector<double>{0};
   };
   std::vector<double> lines;

@@ -29,12 +29,12 @@ std::vector<double> even_lines(double low, double high, int n);
 std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within, const std::string& key);
 
 // One side of a place at which cells have the length `edge` up to `within` and grow from there.
-struct Side {
+struct GradedSide {
   double length = 0, within = 0, edge = 0;
   int n = 0;  // cells; 0: the place lies on this end
 };
 // a line through `place`, with a side below and one above it
-std::vector<double> lines_around(double place, const Side& below, const Side& above, const std::string& key);
+std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above, const std::string& key);
 
 // the uppermost cell is `edge` long
 std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key);

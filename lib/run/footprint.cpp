@@ -7,7 +7,7 @@ namespace langer {
 
 namespace {
 
-constexpr int samples = 100;  // along x and z, of the whole top and then of what was found there
+constexpr int samples = 100;  // along x and z, of the whole top
 constexpr int places = 8;     // between two waypoints
 
 struct Top {
@@ -24,6 +24,19 @@ void add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, do
   all->deepest = std::max(all->deepest, -gap);
 }
 
+// whether the line at this x (k = 0) or z comes inside, near what is known of the print
+bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, double value, const Top& top) {
+  const int other = 1 - k;
+  const double slack = (top.high[other] - top.low[other]) / samples;
+  const double low = near.low[other] - slack, high = near.high[other] + slack;
+  for (int i = 0; i <= 4 * samples; ++i) {
+    const double across = std::clamp(low + (high - low) * i / (4 * samples), top.low[other], top.high[other]);
+    const Vec3 x = k == 0 ? Vec3(value, top.y, across) : Vec3(across, top.y, value);
+    if (shape_at(shape, x - u).gap < 0) return true;
+  }
+  return false;
+}
+
 // of one indenter at one place
 std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const Top& top) {
   std::optional<Footprint> found;
@@ -31,15 +44,21 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
     const double x = (*inside + u)[0], z = (*inside + u)[2];
     if (x >= top.low[0] && x <= top.high[0] && z >= top.low[1] && z <= top.high[1]) add(found, shape, u, x, top.y, z);
   }
-  Top part = top;
-  for (int look = 0; look < 3; ++look) {
-    const double dx = (part.high[0] - part.low[0]) / samples, dz = (part.high[1] - part.low[1]) / samples;
-    for (int i = 0; i <= samples; ++i)
-      for (int j = 0; j <= samples; ++j) add(found, shape, u, part.low[0] + i * dx, top.y, part.low[1] + j * dz);
-    if (!found) return found;
-    part.low = {std::max(top.low[0], found->low[0] - dx), std::max(top.low[1], found->low[1] - dz)};
-    part.high = {std::min(top.high[0], found->high[0] + dx), std::min(top.high[1], found->high[1] + dz)};
-  }
+  const auto at = [&](int k, int i) { return top.low[k] + (top.high[k] - top.low[k]) * i / samples; };
+  for (int i = 0; i <= samples; ++i)
+    for (int j = 0; j <= samples; ++j) add(found, shape, u, at(0, i), top.y, at(1, j));
+  if (!found) return found;
+  for (int k : {0, 1, 0, 1})
+    for (double* end : {&found->low[k], &found->high[k]}) {
+      const double step = (top.high[k] - top.low[k]) / samples, side = end == &found->low[k] ? -1 : 1;
+      double in = *end, out = std::clamp(*end + side * step, top.low[k], top.high[k]);
+      if (enters(shape, u, *found, k, out, top)) in = out;
+      while (std::abs(out - in) > 1e-6 * step) {
+        const double between = 0.5 * (in + out);
+        (enters(shape, u, *found, k, between, top) ? in : out) = between;
+      }
+      *end = in;
+    }
   return found;
 }
 

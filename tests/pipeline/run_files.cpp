@@ -86,6 +86,9 @@ TEST_CASE("an output may not be a folder, replace what it is made from, or lie b
     CHECK_THROWS_AS(need_output(bad, config, {{"curve", {folder.at("here/c.csv")}}}), Failure);
   }
   CHECK(fs::is_regular_file(folder.at("here/c.csv")));
+  for (const std::string& input : {config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv")})  // whatever it holds
+    CHECK_THROWS_WITH_AS(need_output(input, config, {{"curve", {folder.at("here/c.csv")}}}),
+                         (input + ": the output would replace an input").c_str(), Failure);
 }
 
 TEST_CASE("--set replaces a value, and says so where it cannot") {

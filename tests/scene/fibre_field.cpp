@@ -96,5 +96,8 @@ TEST_CASE("the same points from a CSV file and from an HDF5 file, datasets of un
   } catch (const Failure& e) {
     CHECK(std::string(e.what()).find("a_z") != std::string::npos);
   }
+  std::ofstream(csv) << "x,y,z,a_x,a_y,a_z\n0,0,0,1,0,0\n2,0,0,0,0,0\n";
+  field.file.path = csv;
+  CHECK_THROWS_WITH_AS(read_directions(field), doctest::Contains("a direction of no length"), Failure);
   std::filesystem::remove_all(folder);
 }

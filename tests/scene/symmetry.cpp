@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -112,6 +114,32 @@ TEST_CASE("parts of meshes of hex27 too give what the whole body gives") {
 TEST_CASE("an indenter drawn along the fibres leaves one mirror plane") {
   CHECK(compare({.alpha = 0, .to = Vec3(0.3, -0.4, 0)}) > 1.7);
   CHECK(compare({.alpha = 0, .to = Vec3(0, -0.4, 0.3)}) > 1.7);
+}
+
+TEST_CASE("both ends pulled apart: the part takes the displacements of its own nodes, not of their images") {
+  const Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 1, 1), test::even(-1, 1, 2));
+  for (bool other_first : {false, true}) {
+    Scene scene;
+    scene.formulation = usual_formulation(mesh.type);
+    scene.materials = {test::table1(0, 1e-4)};
+    scene.directions = test::directions(mesh, scene.materials);
+    std::vector<Prescribed> pulled;
+    for (const auto& [side, by] : {std::pair{"x_min", -0.2}, {"x_max", 0.2}})
+      for (int n : mesh.node_sets.at(side)) pulled.insert(pulled.end(), {{3 * n, by}, {3 * n + 1, 0}, {3 * n + 2, 0}});
+    if (other_first) std::reverse(pulled.begin(), pulled.end());
+    scene.dofs = number_dofs(mesh.n_nodes(), pulled).dofs;
+    for (SymmetryChoice symmetry : {SymmetryChoice::mirror_x, SymmetryChoice::quarter}) {
+      const auto part = ReducedScene::find(symmetry, mesh, scene, nowhere);
+      REQUIRE(part.has_value());
+      const Dofs& dofs = part->scene().dofs;
+      REQUIRE(!dofs.prescribed.empty());
+      for (const Prescribed& p : dofs.prescribed)
+        if (p.dof % 3 == 0 && p.value != 0) CHECK(p.value * part->mesh().X[p.dof / 3][0] > 0);
+      const auto whole = solved(mesh, scene, std::nullopt, in_four_steps()), few = solved(mesh, scene, part, in_four_steps());
+      CHECK(largest(whole.last().u, few.last().u) < 1e-8);
+      CHECK(largest(whole.last().reaction, few.last().reaction) < 1e-8);
+    }
+  }
 }
 
 TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked for and not there is refused with what breaks it") {

@@ -25,7 +25,7 @@ if(reached GREATER 2)
   message(FATAL_ERROR "asked for 2 %, ended with ${reached} % and exit code 0")
 endif()
 number(force_N force)
-run(0 ${BIN}/langer-solve beside.yaml -o fine.h5 --json --quiet --set symmetry=none --set mesh.geometry.indented_block.edge=0.1
+run(0 ${BIN}/langer-solve beside.yaml -o fine.h5 --json --quiet --set path.first=0.5 --set path.largest=0.5 --set mesh.geometry.indented_block.edge=0.14
     --set "mesh.geometry.indented_block.under=[3, 2]")
 number(force_N fine)
 execute_process(COMMAND awk "BEGIN { off = 100 * (${force} / ${fine} - 1); print off; exit !(off > -2 && off < 2) }" OUTPUT_VARIABLE off RESULT_VARIABLE far)
@@ -44,7 +44,7 @@ estimate: recovery
 run(5 ${BIN}/langer-solve coarse.yaml -o short.h5 --set accuracy=0.2%)
 expect_said("asked for 0.2 %")
 expect_said("short.h5")
-run(0 ${BIN}/langer-post configs/post/force.yaml --solution short.h5 -o curves.h5 --quiet)
+run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution short.h5 -o curves.h5 --quiet)
 # without an estimate nothing is judged, which is said
 run(0 ${BIN}/langer-solve beside.yaml -o loose.h5 --set accuracy=2% --set estimate=none)
 expect_said("nothing was estimated")
