@@ -1,11 +1,11 @@
 // langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv;
 // figures and maps of all members.
 #include "sweep/gather.hpp"
+#include "hdf5/seal.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/pictures.hpp"
 #include "stage.hpp"
 #include "store/material_file.hpp"
-#include "store/seal.hpp"
 #include "sweep/design_tables.hpp"
 #include "sweep/gather_config.hpp"
 #include "sweep/sweep_file.hpp"

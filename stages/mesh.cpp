@@ -2,10 +2,10 @@
 //   langer-mesh indentation.yaml -o mesh.h5
 #include <filesystem>
 
+#include "hdf5/seal.hpp"
 #include "scene/make_mesh.hpp"
 #include "stage.hpp"
 #include "store/mesh_file.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 namespace {

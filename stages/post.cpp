@@ -4,13 +4,13 @@
 #include <set>
 
 #include "export/export_scene.hpp"
+#include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
 #include "plot/pictures.hpp"
 #include "run/post_config.hpp"
 #include "run/post_files.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
-#include "store/seal.hpp"
 #include "store/snapshot.hpp"
 #include "store/solution_file.hpp"
 

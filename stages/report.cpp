@@ -2,11 +2,11 @@
 //   langer-report report.yaml --solution solution.h5 --curves curves.h5 -o report.html
 #include <filesystem>
 
+#include "hdf5/seal.hpp"
 #include "report/page.hpp"
 #include "report/report_config.hpp"
 #include "report/sources.hpp"
 #include "stage.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 namespace {

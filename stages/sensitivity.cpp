@@ -2,9 +2,9 @@
 //   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
 #include <memory>
 
+#include "hdf5/seal.hpp"
 #include "run/step_record.hpp"
 #include "stage.hpp"
-#include "store/seal.hpp"
 #include "study/long_work.hpp"
 #include "study/ranking.hpp"
 #include "study/sensitivity_tables.hpp"

@@ -1,10 +1,10 @@
 // langer-solve: equilibrium along a load path.
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
+#include "accuracy/accuracy.hpp"
+#include "accuracy/say_errors.hpp"
 #include "base/memory.hpp"
-#include "run/accuracy.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
-#include "run/error_estimate.hpp"
 #include "run/run_words.hpp"
 #include "run/step_record.hpp"
 #include "stage.hpp"

@@ -29,9 +29,9 @@
 #include "base/traps.hpp"
 #include "base/version.hpp"
 #include "base/voice.hpp"
+#include "hdf5/h5.hpp"
 #include "pipeline/ports.hpp"
 #include "pipeline/run_files.hpp"
-#include "store/h5.hpp"
 #include "store/lock.hpp"
 #include "tool/usage.hpp"
 

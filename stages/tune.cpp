@@ -2,10 +2,10 @@
 // rung, also as trade.csv; the front of each quantity as picture and CSV; the cheapest rung for each error wanted.
 #include <cmath>
 
+#include "hdf5/seal.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/pictures.hpp"
 #include "stage.hpp"
-#include "store/seal.hpp"
 #include "sweep/gather.hpp"
 #include "sweep/sweep_file.hpp"
 #include "sweep/trade.hpp"

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "config/reader.hpp"
+#include "hdf5/replace.hpp"
+#include "hdf5/seal.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/expand.hpp"
 #include "pipeline/makefile.hpp"
 #include "pipeline/run_files.hpp"
 #include "pipeline/slurm.hpp"
 #include "store/lock.hpp"
-#include "store/replace.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 

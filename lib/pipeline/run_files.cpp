@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "hdf5/replace.hpp"
 #include "store/curves_file.hpp"
-#include "store/replace.hpp"
 
 namespace langer {
 

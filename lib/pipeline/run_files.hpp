@@ -8,10 +8,10 @@
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
+#include "hdf5/replace.hpp"
 #include "pipeline/ports.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
-#include "store/replace.hpp"
 
 namespace langer {
 

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "hdf5/replace.hpp"
+#include "hdf5/seal.hpp"
 #include "plot/drawing.hpp"
 #include "plot/gnuplot.hpp"
-#include "store/replace.hpp"
-#include "store/seal.hpp"
 
 namespace langer {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hdf5/h5.hpp"
 #include "report/sources.hpp"
-#include "store/h5.hpp"
 #include "store/material_file.hpp"
 
 namespace langer::report {

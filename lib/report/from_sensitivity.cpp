@@ -1,7 +1,7 @@
 #include <sstream>
 
+#include "hdf5/h5.hpp"
 #include "report/sources.hpp"
-#include "store/h5.hpp"
 #include "store/provenance.hpp"
 
 namespace langer::report {

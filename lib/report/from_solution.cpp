@@ -3,10 +3,10 @@
 #include <functional>
 #include <map>
 
+#include "hdf5/h5.hpp"
 #include "report/body_view.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
-#include "store/h5.hpp"
 #include "store/solution_file.hpp"
 
 namespace langer::report {

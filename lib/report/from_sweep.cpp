@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <sstream>
 
+#include "hdf5/h5.hpp"
+#include "hdf5/units.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
-#include "store/h5.hpp"
 #include "store/provenance.hpp"
-#include "store/units.hpp"
 
 namespace langer::report {
 

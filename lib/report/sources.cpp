@@ -4,7 +4,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 #include "store/provenance.hpp"
 
 namespace langer::report {

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "base/voice.hpp"
-#include "run/accuracy.hpp"
-#include "run/error_estimate.hpp"
-#include "run/recording.hpp"
+#include "run/run.hpp"
+#include "store/provenance.hpp"
 
 namespace langer {
 
@@ -16,11 +15,6 @@ double say_scene(const Voice& voice, const Run& run);
 
 // Motions that only contact resists, in words; empty where there are none. Throws Failure(config) for a body that nothing holds.
 std::string held_by_contact(const Run& run, const Run::Where& where);
-
-// Estimates and says them; empty where config asks for none, or where there is none (a warning: the result itself stands).
-// Throws Failure with the signal's code where one has come.
-std::vector<ErrorEstimate> say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                                      const Run::Where& where, const Run& run, const StepRecord& last, const Recording& recording);
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps);
 std::vector<Summary> joined(const std::vector<std::vector<Summary>>& parts);

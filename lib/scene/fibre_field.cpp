@@ -11,10 +11,10 @@
 
 #include "base/csv_table.hpp"
 #include "config/formula.hpp"
+#include "hdf5/h5.hpp"
+#include "hdf5/units.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
-#include "store/h5.hpp"
-#include "store/units.hpp"
 
 namespace langer {
 

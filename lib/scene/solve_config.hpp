@@ -118,11 +118,11 @@ struct BodyConfig {
   }
 };
 
-// Named points of the measured front of accuracy against cost (run/accuracy.hpp).
+// Named points of the measured front of accuracy against cost (accuracy/accuracy.hpp).
 enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
-// How the errors of a result are estimated (run/error_estimate.hpp).
+// How the errors of a result are estimated (accuracy/error_estimate.hpp).
 enum class EstimateBy { none, recovery, refinement };
 constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement"}; }
 constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "store/h5.hpp"
-#include "store/seal.hpp"
-#include "store/units.hpp"
+#include "hdf5/h5.hpp"
+#include "hdf5/seal.hpp"
+#include "hdf5/units.hpp"
 
 namespace langer {
 

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hdf5/units.hpp"
 #include "mesh/reference.hpp"
 #include "mesh/section.hpp"
-#include "store/units.hpp"
 
 namespace langer {
 

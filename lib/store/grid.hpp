@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "hdf5/h5.hpp"
 #include "mesh/mesh.hpp"
-#include "store/h5.hpp"
 #include "store/provenance.hpp"
 
 namespace langer {

@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "store/checksum.hpp"
-#include "store/seal.hpp"
+#include "hdf5/checksum.hpp"
+#include "hdf5/seal.hpp"
 
 namespace langer {
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "config/member.hpp"
-#include "store/h5.hpp"
-#include "store/units.hpp"
+#include "hdf5/h5.hpp"
+#include "hdf5/units.hpp"
 
 namespace langer {
 

@@ -12,7 +12,7 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/version.hpp"
-#include "store/units.hpp"
+#include "hdf5/units.hpp"
 
 namespace langer {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 #include "store/identity.hpp"
 
 namespace langer {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include "hdf5/units.hpp"
 #include "store/grid.hpp"
 #include "store/listing.hpp"
 #include "store/provenance.hpp"
 #include "store/solution_file.hpp"
 #include "store/solution_layout.hpp"
-#include "store/units.hpp"
 
 namespace langer {
 

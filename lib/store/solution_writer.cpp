@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "hdf5/seal.hpp"
 #include "store/grid.hpp"
 #include "store/listing.hpp"
 #include "store/provenance.hpp"
-#include "store/seal.hpp"
 #include "store/solution_file.hpp"
 #include "store/solution_layout.hpp"
 #include "store/step_journal.hpp"

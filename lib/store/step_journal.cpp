@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/say.hpp"
-#include "store/checksum.hpp"
+#include "hdf5/checksum.hpp"
 
 namespace langer {
 

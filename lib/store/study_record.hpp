@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "hdf5/h5.hpp"
 #include "material/stability.hpp"
-#include "store/h5.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {

@@ -4,7 +4,7 @@
 
 #include "study/sensitivity_tables.hpp"
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 
 namespace langer {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "hdf5/seal.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/heat_map.hpp"
 #include "plot/pictures.hpp"
 #include "store/curves_file.hpp"
-#include "store/seal.hpp"
 #include "study/sensitivity_tables.hpp"
 
 namespace langer {

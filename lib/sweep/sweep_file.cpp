@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "store/h5.hpp"
-#include "store/seal.hpp"
+#include "hdf5/h5.hpp"
+#include "hdf5/seal.hpp"
 
 namespace langer {
 

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "config/member.hpp"
-#include "store/seal.hpp"
+#include "hdf5/seal.hpp"
 #include "tool/schemas.hpp"
 #include "tool/starter_files.hpp"
 

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "config/writer.hpp"
+#include "hdf5/h5.hpp"
 #include "scene/solve_config.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/provenance.hpp"
 #include "store/solution_file.hpp"
 #include "support/block.hpp"

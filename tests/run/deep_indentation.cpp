@@ -1,9 +1,9 @@
 // Quadratic cells under high pressure.
 #include <doctest/doctest.h>
 
+#include "accuracy/error_estimate.hpp"
 #include "config/reader.hpp"
 #include "config/tree.hpp"
-#include "run/error_estimate.hpp"
 
 using namespace langer;
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "accuracy/accuracy.hpp"
+#include "accuracy/error_estimate.hpp"
 #include "base/random.hpp"
 #include "config/reader.hpp"
 #include "fit/stiffness_at_rest.hpp"
 #include "material/at_rest.hpp"
-#include "run/accuracy.hpp"
-#include "run/error_estimate.hpp"
 #include "study/fit_config.hpp"
 #include "support/solved_scene.hpp"
 

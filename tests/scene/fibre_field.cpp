@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

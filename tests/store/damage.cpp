@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "hdf5/h5.hpp"
 #include "refusal.hpp"
 #include "solution_example.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/material_file.hpp"
 #include "store/mesh_file.hpp"
 #include "store/provenance.hpp"

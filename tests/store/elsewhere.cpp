@@ -4,13 +4,13 @@
 
 #include <cstring>
 
+#include "hdf5/h5.hpp"
+#include "hdf5/units.hpp"
 #include "refusal.hpp"
 #include "solution_example.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/material_file.hpp"
 #include "store/mesh_file.hpp"
-#include "store/units.hpp"
 
 using namespace langer;
 using example::holds;

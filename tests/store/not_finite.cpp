@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
+#include "hdf5/h5.hpp"
 #include "solution_example.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/material_file.hpp"
 #include "store/mesh_file.hpp"
 

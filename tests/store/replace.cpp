@@ -1,5 +1,5 @@
 // What belongs to the user is never written over.
-#include "store/replace.hpp"
+#include "hdf5/replace.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -7,11 +7,11 @@
 #include <array>
 
 #include "example.hpp"
+#include "hdf5/h5.hpp"
+#include "hdf5/seal.hpp"
 #include "refusal.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/mesh_file.hpp"
-#include "store/seal.hpp"
 
 using namespace langer;
 using example::holds;

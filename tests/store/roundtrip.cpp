@@ -3,10 +3,10 @@
 #include <cmath>
 #include <thread>
 
+#include "hdf5/h5.hpp"
 #include "mesh/raise.hpp"
 #include "solution_example.hpp"
 #include "store/curves_file.hpp"
-#include "store/h5.hpp"
 #include "store/material_file.hpp"
 #include "store/mesh_file.hpp"
 #include "store/provenance.hpp"

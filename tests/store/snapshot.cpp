@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "example.hpp"
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 #include "store/provenance.hpp"
 
 using namespace langer;

@@ -6,8 +6,8 @@
 #include <csignal>
 #include <functional>
 
+#include "hdf5/h5.hpp"
 #include "solution_example.hpp"
-#include "store/h5.hpp"
 
 using namespace langer;
 using example::bytes;

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "base/random.hpp"
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 #include "store/material_file.hpp"
 #include "study/fit_report.hpp"
 #include "study/study_files.hpp"

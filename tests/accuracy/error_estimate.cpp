@@ -1,5 +1,5 @@
 // Estimated errors against true ones.
-#include "run/error_estimate.hpp"
+#include "accuracy/error_estimate.hpp"
 
 #include <doctest/doctest.h>
 

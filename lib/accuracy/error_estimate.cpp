@@ -1,4 +1,4 @@
-#include "run/error_estimate.hpp"
+#include "accuracy/error_estimate.hpp"
 
 #include <fmt/format.h>
 

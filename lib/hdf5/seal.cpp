@@ -1,4 +1,4 @@
-#include "store/seal.hpp"
+#include "hdf5/seal.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "store/checksum.hpp"
-#include "store/replace.hpp"
+#include "hdf5/checksum.hpp"
+#include "hdf5/replace.hpp"
 
 namespace langer {
 

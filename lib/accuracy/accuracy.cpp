@@ -1,4 +1,4 @@
-#include "run/accuracy.hpp"
+#include "accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "run/footprint.hpp"
+#include "accuracy/footprint.hpp"
 #include "run/progress.hpp"
 
 namespace langer {

@@ -1,4 +1,4 @@
-#include "store/replace.hpp"
+#include "hdf5/replace.hpp"
 
 #include <algorithm>
 #include <filesystem>

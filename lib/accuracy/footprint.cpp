@@ -1,4 +1,4 @@
-#include "run/footprint.hpp"
+#include "accuracy/footprint.hpp"
 
 #include <algorithm>
 #include <cmath>

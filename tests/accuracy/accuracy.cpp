@@ -1,6 +1,6 @@
 // What a wanted accuracy puts into a config.
-#include "run/accuracy.hpp"
-#include "run/footprint.hpp"
+#include "accuracy/accuracy.hpp"
+#include "accuracy/footprint.hpp"
 
 #include <doctest/doctest.h>
 

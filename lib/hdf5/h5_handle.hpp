@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 
 namespace langer::h5 {
 

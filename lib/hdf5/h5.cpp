@@ -1,4 +1,4 @@
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "store/h5_handle.hpp"
-#include "store/replace.hpp"
-#include "store/seal.hpp"
+#include "hdf5/h5_handle.hpp"
+#include "hdf5/replace.hpp"
+#include "hdf5/seal.hpp"
 
 namespace langer::h5 {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/error_estimate.hpp"
 #include "base/voice.hpp"
-#include "run/error_estimate.hpp"
 #include "scene/solve_config.hpp"
 
 namespace langer {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "store/h5.hpp"
+#include "hdf5/h5.hpp"
 
 namespace langer {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "store/h5_handle.hpp"
+#include "hdf5/h5_handle.hpp"
 
 namespace langer::h5 {
 
