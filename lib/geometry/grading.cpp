@@ -34,7 +34,8 @@ double growing(double edge, double q, int m, double enough) {
 
 std::vector<double> refined(double length, int n, double edge, double within, const std::string& key) {
   const int fine = 0.5 * within / n < 0.5 * edge ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n) : n, m = n - fine;
-  const double rest = length - fine * edge, most = rest * (1 + 1e-9), least = rest * (1 - 1e-9);
+  const double left = length - fine * edge, rest = m == 0 && std::abs(left) < 1e-9 * length ? 0 : left, most = rest * (1 + 1e-9),
+               least = rest * (1 - 1e-9);
   if (growing(edge, 1, m, most) > most)
     refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge", "");
   if (growing(edge, largest_growth, m, least) < least)
