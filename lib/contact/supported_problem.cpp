@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/traps.hpp"
 #include "contact/alart_curnier.hpp"
 
 namespace langer {
@@ -48,8 +49,14 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
     // directions that nothing decides (all contacts open, a body free to spin under a smooth sphere): the least step
     constexpr double decided = 1e-8;
     const Eigen::PartialPivLU<MatX> lu(Jacobian);
-    VecX step = lu.solve(-now.F);
-    if (lu.rcond() < decided || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
+    VecX step;
+    bool singular;
+    {
+      const NoTraps a_pivot_may_be_zero;
+      step = lu.solve(-now.F);
+      singular = lu.rcond() < decided;
+    }
+    if (singular || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
       Eigen::CompleteOrthogonalDecomposition<MatX> least;
       least.setThreshold(decided);
       step = least.compute(Jacobian).solve(-now.F);
