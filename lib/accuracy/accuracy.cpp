@@ -64,10 +64,10 @@ AccuracyRung where_to_begin(const SolveConfig& config, IndentedBlock block) {
 }
 
 // Of a force, in percent of it, taken at its worst where no study tells that parts of it cancel: meshes that do not follow one law
-// leave more open than their scatter.
-double percent_of(const ErrorEstimate& e, bool shown) {
-  if (shown) return e.in_percent(e.total());
-  return e.in_percent(std::abs(e.cells) + std::abs(e.increments) + 2 * e.scatter + e.solver);
+// leave more open than their scatter; on cells longer by the factor `edge`, in increments longer by `step`.
+double worst_percent(const ErrorEstimate& e, double edge = 1, double step = 1) {
+  return e.in_percent(std::abs(e.cells) * std::pow(edge, e.order) + std::abs(e.increments) * step * step + 2 * e.scatter * edge +
+                      e.solver);
 }
 
 bool counts(const ErrorEstimate& e, const std::vector<ErrorEstimate>& all) {
@@ -136,7 +136,7 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   bool estimated = false;
   for (const ErrorEstimate& e : estimates) {
     if (!counts(e, estimates)) continue;
-    const double percent = percent_of(e, chosen.shown);
+    const double percent = chosen.shown ? e.in_percent(e.total()) : worst_percent(e);
     found.percent = estimated ? std::max(found.percent, percent) : percent;
     estimated = true;
   }
@@ -163,14 +163,10 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
       if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
     }
   const double least = finest_edge / chosen.rung.edge;
-  const auto percent = [&](const ErrorEstimate& e, double x) {
-    return e.in_percent(std::abs(e.cells) * std::pow(x, e.order) + std::abs(e.increments) * step * step + 2 * e.scatter * x +
-                        e.solver);
-  };
   for (const ErrorEstimate& e : estimates) {
     if (!counts(e, estimates)) continue;
-    if (percent(e, least) > chosen.wanted) return std::nullopt;
-    while (percent(e, edge) > enough && edge > least) edge *= 0.97;
+    if (worst_percent(e, least, step) > chosen.wanted) return std::nullopt;
+    while (worst_percent(e, edge, step) > enough && edge > least) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
   finer.step = std::max(finer.step, shortest_step), finer.edge = std::max(finer.edge, finest_edge);
@@ -186,7 +182,6 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
   voice_.say("accuracy: the study has no scene of this kind; these cells tell which ones it needs{}",
              dry ? " (not with --dry-run)" : "");
   if (dry) return;
-  const EstimateListener listener = [&](const Run& run, int n, int of) { return estimate_progress(voice_, run, n, of); };
   while (!piloted(material)) {
   }
 }

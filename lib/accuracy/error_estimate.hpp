@@ -1,7 +1,6 @@
 // What a result is worth: the scene is solved again on other meshes, all of whose cells differ by one factor (Block::instead), and q is
-// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, and the force of a
-// plane or a flat punch, p = 1. Only where all cells grow alike does an error
-// follow such a law: layers and cells to the side have errors of opposite signs.
+// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, and the force of a plane or a flat punch,
+// p = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the side have errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
 //               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much longer, whatever that
 //               costs
@@ -34,7 +33,8 @@ struct Valued {
   double value = 0;
   bool of_force() const { return unit == langer::unit::N; }
 };
-// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), greatest von Mises stress of the nodes, displacement of each named point
+// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), greatest von Mises stress of the
+// nodes, displacement of each named point
 std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // of the state at t = 1 of a config that holds its mesh; nothing is written

@@ -69,19 +69,24 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
     else
       lines[i] = even_lines(low, high, n);
     std::vector<Demand> demands;
+    double moved_furthest = 0;
+    const std::string axis(1, "xyz"[i]), divisions = fmt::format("geometry.block.divisions[{}]", i);
+    const auto pass = [&] {
+      const Moved moved = through(lines[i], demands, axis, divisions);
+      moved_furthest = std::max(moved_furthest, moved.furthest);
+      lines[i] = moved.lines;
+    };
     if (i == 1 && !b.borders.empty()) {
       for (double y : b.borders) demands.push_back({y, "bodies"});
-      lines[i] = through(lines[i], demands, "y", "geometry.block.divisions[1]").lines;
+      pass();
     }
     if (b.instead && i == 1) lines[i] = resampled_between(lines[i], b.borders, 1.0 * (*b.instead)[1] / n);
     if (b.instead && i != 1 && !b.around) lines[i] = resampled(lines[i], (*b.instead)[i]);
     for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
-    const std::string axis(1, "xyz"[i]);
-    const Moved moved = through(lines[i], demands, axis, fmt::format("geometry.block.divisions[{}]", i));
-    if (moved.furthest > 1e-9 * b.size[i])
+    pass();
+    if (moved_furthest > 1e-9 * b.size[i])
       notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers", axis,
-                                  moved.furthest));
-    lines[i] = moved.lines;
+                                  moved_furthest));
   }
   return lines;
 }

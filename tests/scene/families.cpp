@@ -30,17 +30,6 @@ Ended run(const std::string& text, const Mesh& mesh) {
   return out;
 }
 
-std::string refusal(const std::string& text, const Mesh& mesh) {
-  const SolveConfig config = config_of(text);
-  try {
-    make_scene(config, mesh, config.material, nowhere);
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == Exit::config);
-    return failure.what();
-  }
-  return "accepted";
-}
-
 const std::string pulled =
     "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
     "loads: [{on: x_max, displacement: {x: 0.2}}]\npath: {steps: 2}\nsolver: {newton: {relative: 1.0e-11}}\n";
@@ -157,8 +146,8 @@ TEST_CASE("Angles and fields that nothing takes are refused at their key") {
     CHECK(said.find(part) != std::string::npos);
   };
   const std::string both = "materials: {a: " + own + ", b: " + own + "}\n", field = "fibre_field: {formula: {alpha: \"90\"}}\n";
-  holds(refusal(both + field + pulled, mesh), "fibre_field: no body takes it");
-  holds(refusal(both + "fibre_angles: [20]\n" + pulled, mesh), "fibre_angles: no body takes it");
-  holds(refusal(top + field + "fibre_angles: [20]\n" + pulled, mesh), "fibre_angles: found beside fibre_field");
-  holds(refusal(top + "fibre_field: null\nfibre_angles: [20]\n" + pulled, mesh), "accepted");
+  holds(test::said_of_scene(both + field + pulled, mesh), "fibre_field: no body takes it");
+  holds(test::said_of_scene(both + "fibre_angles: [20]\n" + pulled, mesh), "fibre_angles: no body takes it");
+  holds(test::said_of_scene(top + field + "fibre_angles: [20]\n" + pulled, mesh), "fibre_angles: found beside fibre_field");
+  holds(test::said_of_scene(top + "fibre_field: null\nfibre_angles: [20]\n" + pulled, mesh), "accepted");
 }

@@ -17,6 +17,18 @@ inline const auto nowhere = [](const std::string&) { return Place{}; };
 inline SolveConfig config_of(const std::string& text) { return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config; }
 inline Mesh mesh_in(const SolveConfig& config) { return make_mesh(*config.mesh, nowhere).mesh; }
 
+// what make_scene says of a config on this mesh; "accepted"
+inline std::string said_of_scene(const std::string& text, const Mesh& mesh) {
+  const SolveConfig config = config_of(text);
+  try {
+    make_scene(config, mesh, config.material, nowhere);
+  } catch (const Failure& failure) {
+    CHECK(failure.code() == Exit::config);
+    return failure.what();
+  }
+  return "accepted";
+}
+
 struct Solved {
   std::vector<StepRecord> steps;  // of the whole body
   int free = 0;                   // unknowns
