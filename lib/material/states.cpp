@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "material/existence.hpp"
+#include "mesh/directions.hpp"
 #include "tensor/kinematics.hpp"
 #include "tensor/stress.hpp"
 
@@ -157,10 +157,9 @@ std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind, St
 }
 
 std::vector<Vec3> specimen_fibres(const Material& material, double angle_deg) {
-  const double angle = angle_deg * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
-  Mat3 frame = Mat3::Identity();
-  frame.col(0) = Vec3(c, 0, s), frame.col(2) = Vec3(-s, 0, c);
-  return fibre_directions(material, frame);
+  std::vector<Vec3> a;
+  for (double alpha : fibre_angles(material)) a.push_back(fibre_direction(alpha + angle_deg));
+  return a;
 }
 
 }  // namespace langer

@@ -15,10 +15,11 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
 // from e_x towards e_z, which is about -e_y
 Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) {
-  constexpr double degree = std::numbers::pi / 180;
-  return Eigen::AngleAxisd(-(angle_deg * degree), frame.col(1)) * a;
+  return Eigen::AngleAxisd(-radians(angle_deg), frame.col(1)) * a;
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ int Directions::n_families() const {
 }
 
 Vec3 fibre_direction(double alpha_deg, const Mat3& frame) {
-  const double alpha = alpha_deg * std::numbers::pi / 180;
+  const double alpha = radians(alpha_deg);
   return std::cos(alpha) * frame.col(0) + std::sin(alpha) * frame.col(2);
 }
 
