@@ -28,7 +28,7 @@ Outline Sphere::outline(const Shown& shown) const {
 // a square about the middle of what is shown, and a net of lines
 Outline Plane::outline(const Shown& shown) const {
   constexpr int n = 8;
-  const Vec3 a = vec(outward).normalized(), middle = shown.middle - at(shown.middle).gap * a;
+  const Vec3 a = direction(outward), middle = shown.middle - at(shown.middle).gap * a;
   int least = 0;
   a.cwiseAbs().minCoeff(&least);
   const Vec3 s = shown.size / n * (Vec3::Unit(least) - a[least] * a).normalized();
@@ -53,7 +53,7 @@ Outline Cylinder::outline(const Shown& shown) const {
   }
   if (profile[1][1] <= 0) profile.erase(profile.begin());  // no flat part is left
   for (int i = 1; i <= 4; ++i) profile.push_back({edge + 0.5 * i * radius, radius});
-  return revolved(vec(face), vec(axis).normalized(), profile, 2 * shown.parts);
+  return revolved(vec(face), direction(axis), profile, 2 * shown.parts);
 }
 
 Outline Ellipsoid::outline(const Shown& shown) const {

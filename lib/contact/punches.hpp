@@ -22,12 +22,12 @@ struct Cylinder {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (edge > radius) found.push_back({"edge", "larger than the radius", "edge <= radius", ""});
-    if (!(vec(axis).norm() > 0)) found.push_back({"axis", "[0, 0, 0]", "a direction", ""});
+    if (!(vec(axis).stableNorm() > 0)) found.push_back({"axis", "[0, 0, 0]", "a direction", ""});
     return found;
   }
   // the cylinder is a core (radius less edge, starting one edge behind the face) thickened by the edge radius
   ShapePoint at(const Vec3& x) const {
-    const Vec3 a = vec(axis).normalized(), q = x - vec(face);
+    const Vec3 a = direction(axis), q = x - vec(face);
     const double along = q.dot(a);
     const Vec3 across = q - along * a;
     const double rho = across.norm();
@@ -46,10 +46,10 @@ struct Cylinder {
     }
     return {distance - edge, n, curvature};
   }
-  bool unchanged_by(const Isometry& op) const { return stays(vec(face), op) && keeps_direction(vec(axis), op); }
+  bool unchanged_by(const Isometry& op) const { return stays(vec(face), op) && keeps_direction(direction(axis), op); }
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
-  std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * vec(axis).normalized()); }
+  std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(axis)); }
 
  private:
   // curvature round the axis: n_rho / rho in the direction of the circle

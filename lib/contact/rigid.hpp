@@ -41,18 +41,18 @@ struct Plane {
     v(&Plane::outward, "normal", unit::none, "direction from the plane to the body (any length)", required);
   }
   ShapePoint at(const Vec3& x) const {
-    const Vec3 n = vec(outward).normalized();
+    const Vec3 n = direction(outward);
     return {n.dot(x - vec(point)), n, Mat3::Zero()};
   }
   bool unchanged_by(const Isometry& op) const {
-    const Vec3 p = vec(point), n = vec(outward).normalized();
+    const Vec3 p = vec(point), n = direction(outward);
     return keeps_direction(n, op) && std::abs(n.dot(op(p) - p)) <= same_place * (1 + p.norm());
   }
   Outline outline(const Shown& shown) const;
   double half_width() const { return std::numeric_limits<double>::infinity(); }
   std::optional<Vec3> inside() const { return std::nullopt; }
   std::vector<Complaint> complaints() const {
-    if (vec(outward).norm() > 0) return {};
+    if (vec(outward).stableNorm() > 0) return {};
     return {{"normal", "[0, 0, 0]", "a direction", ""}};
   }
 };

@@ -44,5 +44,7 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
 
 inline Mat3 tangent_projection(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+// of a vector of any length above 0, one whose square is no number of the machine included
+inline Vec3 direction(const std::array<double, 3>& a) { return vec(a).stableNormalized(); }
 
 }  // namespace langer

@@ -153,6 +153,26 @@ TEST_CASE("the outline of every shape lies on its surface and is seen from outsi
   CHECK(area(ball) == doctest::Approx(4 * M_PI * 4).epsilon(1e-3));
 }
 
+TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
+  const auto with = [](double length) {
+    return std::array<Indenter, 2>{Plane{{0, 1, 0}, {0.2 * length, length, 0.3 * length}},
+                                   Cylinder{2, 0.5, {0, 4, 0}, {0.1 * length, length, 0.2 * length}}};
+  };
+  const Vec3 x(0.3, 3.6, 1.1);
+  for (double length : {1e-200, 1e-150, 1e3, 1e200})
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Indenter one = with(1)[i], other = with(length)[i];
+      CHECK(std::visit(
+          [](const auto& shape) {
+            if constexpr (requires { shape.complaints(); }) return shape.complaints().empty();
+            return true;
+          },
+          other));
+      CHECK(shape_at(other, x).gap == doctest::Approx(shape_at(one, x).gap).epsilon(1e-14));
+      CHECK((shape_at(other, x).normal - shape_at(one, x).normal).norm() < 1e-14);
+    }
+}
+
 TEST_CASE("outlines are closed, and what is cut off them leaves a face in the plane") {
   for (const auto& [name, shape] : closed_shapes()) {
     CAPTURE(name);
