@@ -21,13 +21,33 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 
 // where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
 constexpr AccuracyRung coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
-constexpr double finest_edge = 0.04, shortest_step = 0.01;  // finer ones were never tried
+constexpr AccuracyRung of_disc{CellType::hex8, 0.07, 0.25, 0};
+constexpr double finest_of_block = 0.04, finest_of_disc = 0.01, shortest_step = 0.01;  // finer ones were never tried
+constexpr double most_hex8 = 2e5;  // of meshes whose cells are no lengths in contact radii
 
-void put(const AccuracyRung& rung, SolveConfig& config) {
-  std::get<IndentedBlock>(config.mesh->geometry).edge = rung.edge;
-  config.path.steps.reset();
-  config.path.first = std::min(rung.step, 1.0);
-  config.path.largest = rung.step;
+double longest_increment(const LoadPathOptions& path) { return path.steps ? 1.0 / *path.steps : path.largest; }
+
+// Other numbers of cells may not fit the lengths of graded ones: then somewhat shorter ones do.
+Geometry with_cells(const Geometry& written, double factor) {
+  for (int i = 0;; ++i, factor *= 0.97) {
+    Geometry geometry = written;
+    scale_cells(geometry, factor);
+    if (i == 10 || std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry)) return geometry;
+  }
+}
+
+void put(const ChosenRung& chosen, SolveConfig& config) {
+  const AccuracyRung& rung = chosen.rung;
+  Geometry& geometry = config.mesh->geometry;
+  if (double* edge = edge_in_contact_radii(geometry))
+    *edge = rung.edge;
+  else
+    geometry = rung.edge == 1 ? chosen.written : with_cells(chosen.written, rung.edge);
+  if (rung.step != longest_increment(config.path)) {
+    config.path.steps.reset();
+    config.path.first = std::min(rung.step, 1.0);
+    config.path.largest = rung.step;
+  }
   config.mesh->cells = rung.cells;
 }
 
@@ -47,32 +67,81 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
 }
 
 // one sphere above the middle of one layer, at least as thick as the contact is wide
-bool of_the_studys_kind(const SolveConfig& config, const IndentedBlock& block, const std::optional<Footprint>& print) {
-  if (config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
+bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
+  const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
+  if (!block || config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
   if (!std::holds_alternative<Sphere>(config.contacts.begin()->second.rigid)) return false;
   const double a = std::max(print->half(0), print->half(1));
-  return !block.under && !block.even && a <= block.size[1] && a > 0.7 * block.contact_radius();
+  return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
 
-// in thin layers with cells that are short enough for some layers of them
-AccuracyRung where_to_begin(const SolveConfig& config, IndentedBlock block) {
-  const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyRung rung = has_friction(config) ? coarsest_with_friction : coarsest;
-  for (block.edge = rung.edge; block.block().divisions[1] < fewest_layers && block.edge > finest_edge; block.edge *= 0.95)
-    rung.edge = 0.95 * block.edge;
+// With the config's own cells, shorter where there are too few of them to make coarser ones.
+AccuracyRung the_configs_own(const SolveConfig& config) {
+  AccuracyRung rung{config.mesh->cells, 1, longest_increment(config.path), 0, false};
+  for (int n : numbers_of_cells(config.mesh->geometry))
+    if (n > 1) rung.edge = std::min(rung.edge, n / 4.0);
   return rung;
 }
 
-// Of a force, in percent of it, taken at its worst where no study tells that parts of it cancel: meshes that do not follow one law
-// leave more open than their scatter; on cells longer by the factor `edge`, in increments longer by `step`.
-double worst_percent(const ErrorEstimate& e, double edge = 1, double step = 1) {
-  return e.in_percent(std::abs(e.cells) * std::pow(edge, e.order) + std::abs(e.increments) * step * step + 2 * e.scatter * edge +
-                      e.solver);
+// in thin layers with cells that are short enough for some layers of them
+AccuracyRung where_to_begin(const SolveConfig& config, double finest) {
+  Geometry geometry = config.mesh->geometry;
+  double* const edge = edge_in_contact_radii(geometry);
+  if (!edge) return the_configs_own(config);
+  const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
+  AccuracyRung rung = is_section(geometry) ? of_disc : has_friction(config) ? coarsest_with_friction : coarsest;
+  for (*edge = rung.edge; numbers_of_cells(geometry)[1]<fewest_layers&& * edge> finest; *edge *= 0.95) rung.edge = 0.95 * *edge;
+  return rung;
 }
 
+double finest_edge(const MeshConfig& mesh) {
+  if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
+  if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
+  double cells = reference(mesh.cells).second_order() ? 8 : 1;
+  int axes = 0;
+  for (int n : numbers_of_cells(mesh.geometry)) cells *= n, axes += n > 1;
+  return std::min(1.0, std::pow(cells / most_hex8, 1.0 / std::max(axes, 1)));
+}
+
+// What the config says stays where it is finer; what does not is told. `written`: before anything was chosen.
+std::string kept_and_replaced(const SolveConfig& written, AccuracyRung& rung) {
+  std::string replaced;
+  const auto replace = [&](const std::string& what) {
+    replaced += (replaced.empty() ? "; in place of the config's " : ", ") + what;
+  };
+  Geometry geometry = written.mesh->geometry;
+  const SolveConfig usual;
+  if (const double* edge = edge_in_contact_radii(geometry); edge && *edge != IndentedBlock{}.edge) {
+    if (*edge < rung.edge && written.mesh->cells == rung.cells)
+      rung.edge = *edge;
+    else if (*edge != rung.edge)
+      replace(fmt::format("edge of {:g}", *edge));
+  }
+  if (const CellType cells = written.mesh->cells; cells != CellType::hex8 && cells != rung.cells)
+    replace(names(cells)[static_cast<int>(cells)]);
+  const double step = longest_increment(written.path);
+  if (!written.path.steps && step == usual.path.largest) return replaced;
+  if (step < rung.step)
+    rung.step = step;
+  else if (step > rung.step)
+    replace(fmt::format("increments of {:g}", step));
+  return replaced;
+}
+
+// as it would be on cells longer by the factor `edge`, in increments longer by `step` [%]
+double percent_with(ErrorEstimate e, double edge, double step) {
+  e.cells *= std::pow(edge, e.order), e.increments *= step * step, e.scatter *= edge;
+  return e.in_percent(e.total());
+}
+
+// Forces on indenters, of several their own, since a sum may be none; without indenters the reactions.
 bool counts(const ErrorEstimate& e, const std::vector<ErrorEstimate>& all) {
-  const auto forces = std::count_if(all.begin(), all.end(), [](const ErrorEstimate& other) { return other.of.of_force(); });
-  return e.of.of_force() && (forces == 1 || e.of.name != "force");  // of several indenters their own: a sum may be none
+  const auto is = [](const ErrorEstimate& of, const char* begins) { return of.of.name.rfind(begins, 0) == 0; };
+  const auto any = [&](const char* begins) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& e) { return is(e, begins); });
+  };
+  if (any("force_")) return is(e, "force_");
+  return any("force") ? is(e, "force") : is(e, "reaction_");
 }
 
 }  // namespace
@@ -105,20 +174,24 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   constexpr double by_name[]{5, 1, 0.2};
   ChosenRung chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
-  auto& block = std::get<IndentedBlock>(config.mesh->geometry);
-  const std::optional<Footprint> print = footprint(config, box(config.mesh->geometry));
-  if (print) place_cells(block, *print);
-  chosen.shown = of_the_studys_kind(config, block, print);
+  const SolveConfig written = config;
+  Geometry& geometry = config.mesh->geometry;
+  const std::optional<Footprint> print =
+      std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
+  if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
+  chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
+  chosen.shown = of_the_studys_kind(config, print);
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
   const auto& rungs = accuracy_rungs(plain);
   auto rung = std::find_if(rungs.begin(), rungs.end(), [&](const AccuracyRung& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && rung != rungs.end();
-  chosen.rung = !chosen.shown ? where_to_begin(config, block) : chosen.met ? *rung : rungs.back();
-  put(chosen.rung, config);
+  chosen.rung = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *rung : rungs.back();
+  const std::string replaced = kept_and_replaced(written, chosen.rung);
+  put(chosen, config);
   if (!config.estimate) config.estimate = EstimateBy::refinement;
-  if (config.symmetry == SymmetryChoice::none) config.symmetry = SymmetryChoice::automatic;
-  chosen.words = fmt::format("{:g} % wanted: {}", chosen.wanted, in_words(chosen.rung));
+  if (config.symmetry == SymmetryChoice::none && !is_section(geometry)) config.symmetry = SymmetryChoice::automatic;
+  chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.rung), replaced);
   if (chosen.shown)
     chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
                                 plain ? "without fibres and friction" : "with friction", chosen.rung.error,
@@ -127,8 +200,10 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
 }
 
 std::string in_words(const AccuracyRung& rung) {
-  return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", names(CellType{})[static_cast<int>(rung.cells)], rung.edge,
-                     rung.step);
+  const char* cells = names(CellType{})[static_cast<int>(rung.cells)];
+  if (rung.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, rung.edge, rung.step);
+  if (rung.edge == 1) return fmt::format("the config's {}, increments of {:.3g}", cells, rung.step);
+  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, rung.edge, rung.step);
 }
 
 ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
@@ -136,7 +211,7 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   bool estimated = false;
   for (const ErrorEstimate& e : estimates) {
     if (!counts(e, estimates)) continue;
-    const double percent = chosen.shown ? e.in_percent(e.total()) : worst_percent(e);
+    const double percent = e.in_percent(e.total());
     found.percent = estimated ? std::max(found.percent, percent) : percent;
     estimated = true;
   }
@@ -162,14 +237,14 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
       const double increments = e.in_percent(std::abs(e.increments));
       if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
     }
-  const double least = finest_edge / chosen.rung.edge;
+  const double least = chosen.finest / chosen.rung.edge;
   for (const ErrorEstimate& e : estimates) {
     if (!counts(e, estimates)) continue;
-    if (worst_percent(e, least, step) > chosen.wanted) return std::nullopt;
-    while (worst_percent(e, edge, step) > enough && edge > least) edge *= 0.97;
+    if (percent_with(e, least, step) > chosen.wanted) return std::nullopt;
+    while (percent_with(e, edge, step) > enough && edge > least) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
-  finer.step = std::max(finer.step, shortest_step), finer.edge = std::max(finer.edge, finest_edge);
+  finer.step = std::max(finer.step, std::min(shortest_step, chosen.rung.step)), finer.edge = std::max(finer.edge, chosen.finest);
   if (finer.edge > 0.99 * chosen.rung.edge && finer.step > 0.99 * chosen.rung.step) return std::nullopt;
   return finer;
 }
@@ -178,7 +253,7 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
     : voice_(voice), config_(config), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
-  if (chosen_->shown || config_.estimate != EstimateBy::refinement) return;
+  if (chosen_->shown || !chosen_->rung.in_contact_radii || config_.estimate != EstimateBy::refinement) return;
   voice_.say("accuracy: the study has no scene of this kind; these cells tell which ones it needs{}",
              dry ? " (not with --dry-run)" : "");
   if (dry) return;
@@ -206,7 +281,7 @@ bool Accuracy::piloted(const std::optional<Material>& material) {
 // once, where no error is known that would say which
 bool Accuracy::shorter_cells() {
   constexpr double factor = 0.7;
-  if (++without_estimate_ > 1 || chosen_->rung.edge * factor < finest_edge) return false;
+  if (++without_estimate_ > 1 || chosen_->rung.edge * factor < chosen_->finest) return false;
   AccuracyRung rung = chosen_->rung;
   rung.edge *= factor;
   take(rung);
@@ -217,7 +292,7 @@ bool Accuracy::shorter_cells() {
 void Accuracy::take(const AccuracyRung& rung) {
   chosen_->rung = rung, chosen_->rung.error = 0;
   chosen_->met = chosen_->shown = false;  // no study stands for it
-  put(rung, config_);
+  put(*chosen_, config_);
 }
 
 bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {

@@ -16,9 +16,10 @@ namespace langer {
 
 struct AccuracyRung {
   CellType cells;
-  double edge;   // of the cells, in contact radii (IndentedBlock)
-  double step;   // largest increment, as a share of the path to the first waypoint's end
+  double edge;  // of the cells, in contact radii (IndentedBlock, IndentedDisc); in their own lengths where a config has no such key
+  double step;  // largest increment, as a share of the path to the first waypoint's end
   double error;  // [%]
+  bool in_contact_radii = true;
 };
 std::string in_words(const AccuracyRung& rung);
 const std::vector<AccuracyRung>& accuracy_rungs(bool plain);  // by falling error; plain: isotropic, without friction
@@ -26,14 +27,18 @@ const std::vector<AccuracyRung>& accuracy_rungs(bool plain);  // by falling erro
 struct ChosenRung {
   AccuracyRung rung;
   double wanted = 0;  // [%]
-  bool shown =
-      true;  // the study's kind of scene: one sphere above the middle of one layer that is thicker than the contact is wide
-  bool met =
-      false;  // the study promises it; false: the finest there is does not promise that much, or the scene is of another kind
+  // the study's kind of scene: one sphere above the middle of one layer that is thicker than the contact is wide
+  bool shown = true;
+  // the study promises it; false: the finest there is does not promise that much, or the scene is of another kind
+  bool met = false;
   std::string words;
+  double finest = 0;      // edge of the shortest cells that are tried
+  Geometry written = {};  // of the config, its cells placed
 };
 // Puts the rung's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
-// is wanted. Scenes that are not of the study's kind get the coarsest hex8: their own error decides (Accuracy).
+// is wanted. Scenes that are not of the study's kind get the coarsest hex8, or the config's own cells and increments where these are
+// no lengths in contact radii: their own error decides (Accuracy). Shorter cells and increments than the rung's stay, if the config
+// has them; what does not is named in `words`.
 // material: of the bodies that the config names none for
 std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
 

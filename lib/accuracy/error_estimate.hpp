@@ -1,19 +1,23 @@
 // What a result is worth: the scene is solved again on other meshes, all of whose cells differ by one factor (Block::instead), and q is
-// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, and the force of a plane or a flat punch,
-// p = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the side have errors of opposite signs.
+// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, the force of a plane or a flat punch, and what a
+// clamped face passes on, p = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the side have
+// errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
-//               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much longer, whatever that
-//               costs
+//               radii (with friction 0.14, of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much
+//               longer, whatever that costs
 //   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
-//               hex27 longer by sqrt 2 and by 2
+//               hex27 longer by sqrt 2 and by 2, reactions without indenters, too
 // Errors have a sign: what is found lies above its limit by
 //   cells       q - f
-//   increments  (q(2 dt) - q(dt)) / 3, of second order (Statics::slip_from_touch), on the longest of these cells; nothing where no
-//               friction makes the path matter. Of a single increment: what halving it changes
+//   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order (Statics::slip_from_touch), r = 2 or more, so that dt / r <= 1/8;
+//               of increments below 0.1 what twice their length changes; on the longest of these cells; nothing where no friction
+//               makes the path matter
 //   scatter     root mean square of what the fit leaves
 //   solver      the last residual relative to the forces that it balances
-//   total       |cells + increments| + scatter + solver;   limit   found - cells - increments
-// For meshes of the kind indented_block, whose cells one number scales.
+//   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
+//   limit       found - cells - increments
+// For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is not the length in contact radii
+// (block, section), hex8 are taken for fine enough, and hex27 are set against hex8 of half their length.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +37,9 @@ struct Valued {
   double value = 0;
   bool of_force() const { return unit == langer::unit::N; }
 };
-// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), greatest von Mises stress of the
-// nodes, displacement of each named point
-std::vector<Valued> valued(const Scene& scene, const Mesh& mesh, const StepRecord& state);
+// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
+// moved, greatest von Mises stress of the nodes, displacement of each named point
+std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // of the state at t = 1 of a config that holds its mesh; nothing is written
 // Throws Failure(not_converged) where there is none, or one with the signal's code where one has come.
@@ -49,7 +53,9 @@ struct ErrorEstimate {
   double scatter = 0, solver = 0;
   double order = 2;       // p of the error of the cells
   bool has_limit = true;  // false: by recovery, which knows no sign
-  double total() const { return std::abs(cells + increments) + scatter + solver; }
+  // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not follow one law leave more open
+  // than their scatter.
+  double total() const { return (order < 2 ? 1.25 : 1) * std::abs(cells) + std::abs(increments) + 2 * scatter + solver; }
   double limit() const { return of.value - cells - increments; }
   double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };

@@ -140,8 +140,16 @@ struct FromFile {
 using Geometry = std::variant<Block, GradedBlock, IndentedBlock, FromFile, SectionBox, IndentedDisc>;
 bool is_section(const Geometry& geometry);
 double* edge_in_contact_radii(Geometry& geometry);  // of the kinds that one number scales, else nullptr
-double* longer_cells(Geometry& geometry);           // of the same kinds
 inline bool has_edge_in_contact_radii(Geometry geometry) { return edge_in_contact_radii(geometry); }
+
+// Kinds whose cells are laid out along axes from numbers of them. The functions below are for these.
+bool has_numbers_of_cells(const Geometry& geometry);
+std::vector<int> numbers_of_cells(const Geometry& geometry);  // along each axis, as meshed
+// All cells longer by one factor, as nearly as their numbers allow, graded as they were; not for files. Where there is one cell along
+// an axis it stays.
+void lengthen_cells(Geometry& geometry, double factor);
+// the same in the keys of the config: edge, or divisions and the edges of graded cells; also shorter ones
+void scale_cells(Geometry& geometry, double factor);
 Box box(const Geometry& geometry);  // what it spans; of a file, not read yet, nothing
 using Points = std::map<std::string, Vec3>;
 

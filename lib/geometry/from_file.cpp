@@ -92,18 +92,6 @@ bool is_section(const Geometry& geometry) {
   return std::holds_alternative<SectionBox>(geometry) || std::holds_alternative<IndentedDisc>(geometry);
 }
 
-double* edge_in_contact_radii(Geometry& geometry) {
-  if (auto* block = std::get_if<IndentedBlock>(&geometry)) return &block->edge;
-  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) return &disc->edge;
-  return nullptr;
-}
-
-double* longer_cells(Geometry& geometry) {
-  if (auto* block = std::get_if<IndentedBlock>(&geometry)) return &block->longer;
-  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) return &disc->longer;
-  return nullptr;
-}
-
 std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }
 
 }  // namespace langer

@@ -156,4 +156,24 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands, con
   return moved;
 }
 
+std::vector<int> divided(const std::vector<int>& n, double wanted) {
+  std::vector<int> best = n;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k : n)
+    for (double to : {std::floor(k / wanted), std::ceil(k / wanted)}) {
+      if (to < 1) continue;
+      const double factor = k / to;
+      double off = 0.7 * std::abs(std::log(factor / wanted));
+      std::vector<int> counts = n;
+      for (int& count : counts) {
+        if (count == 0) continue;
+        const int fewer = std::max(1, static_cast<int>(std::lround(count / factor)));
+        off = std::max(off, std::abs(std::log(count / (fewer * factor))));
+        count = fewer;
+      }
+      if (counts != n && off < least) least = off, best = counts;
+    }
+  return best;
+}
+
 }  // namespace langer

@@ -42,6 +42,9 @@ std::vector<double> lines_to_top(double low, double high, int n, double edge, co
 // n other cells over the same length, whose lengths change with the place as those of `lines` do, all by one factor
 std::vector<double> resampled(const std::vector<double>& lines, int n);
 
+// n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at least one. What is 0 stays 0.
+std::vector<int> divided(const std::vector<int>& n, double wanted);
+
 struct Moved {
   std::vector<double> lines;
   double furthest = 0;  // largest way of a line

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/block.hpp"
+#include "geometry/grading.hpp"
 
 namespace langer {
 
@@ -24,27 +24,6 @@ int needed_cells(double rest, double cell) {
   int n = 0;
   for (double step = 2.5 * cell; rest > 1e-9 * cell && n < 1000; step *= 2.5) rest -= step, ++n;
   return n;
-}
-
-// n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at least one. What is 0 stays 0.
-std::vector<int> divided(const std::vector<int>& n, double wanted) {
-  std::vector<int> best = n;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k : n)
-    for (double to : {std::floor(k / wanted), std::ceil(k / wanted)}) {
-      if (to < 1) continue;
-      const double factor = k / to;
-      double off = 0.7 * std::abs(std::log(factor / wanted));
-      std::vector<int> counts = n;
-      for (int& count : counts) {
-        if (count == 0) continue;
-        const int fewer = std::max(1, bounded(std::round(count / factor)));
-        off = std::max(off, std::abs(std::log(count / (fewer * factor))));
-        count = fewer;
-      }
-      if (counts != n && off < least) least = off, best = counts;
-    }
-  return best;
 }
 
 }  // namespace

@@ -150,14 +150,15 @@ struct SolveConfig {
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
-      "wanted error of an indentation's force, such as 1%: chooses the cells of mesh.geometry.indented_block, the increments and the "
-      "symmetry, from what was measured (pipelines/trade.yaml) or from a coarse solution, and refines until the estimate is within it; "
-      "exit code 5 where it is not");
+      "wanted error of the force on an indenter, or of the reaction of what is moved, such as 1%: chooses the cells of mesh.geometry, the "
+      "increments and the symmetry, from what was measured (pipelines/trade.yaml) or from a coarse solution, and refines until the "
+      "estimate is within it; exit code 5 where it is not");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
-      "errors of force, greatest von Mises stress and displacements at points: refinement solves the scene again on cells longer by "
-      "1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
-      "mesh.geometry.indented_block or indented_disc, and is taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
+      "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
+      "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other "
+      "increments; wants a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is "
+      "taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own",
@@ -201,20 +202,14 @@ struct SolveConfig {
     if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     if (accuracy && !percent_of(*accuracy))
       found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
-    const bool one_number = mesh && has_edge_in_contact_radii(mesh->geometry);
-    if (estimate == EstimateBy::refinement && !one_number)
-      found.push_back({"estimate", "refinement, and " + std::string(mesh ? "a mesh of another kind" : "no mesh here"),
-                       "the key mesh with geometry: {indented_block: ...} or {indented_disc: ...}",
-                       "coarser cells are made from it"});
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr) {
-      if (contacts.empty()) found.push_back({key, "no contact", "an indentation: accuracy was measured for those", ""});
-      if (mesh && is_section(mesh->geometry))
-        found.push_back({key, "a section", "geometry: {indented_block: ...}: accuracy was measured on blocks",
-                         "of a section, cells: hex27 with an edge of 0.125 and estimate: refinement tell what its force is worth"});
-      else if (!mesh || !std::holds_alternative<IndentedBlock>(mesh->geometry))
-        found.push_back({key, mesh ? "a mesh of another kind" : "no mesh here", "the key mesh with geometry: {indented_block: ...}",
-                         "its cells are what accuracy chooses"});
-    }
+    const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
+    const std::string other_mesh = mesh ? "a mesh whose cells follow from no numbers of this config" : "no mesh here";
+    const char* laid_out = "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
+    if (estimate == EstimateBy::refinement && !numbers)
+      found.push_back({"estimate", "refinement, and " + other_mesh, laid_out,
+                       "coarser cells are made from those numbers; estimate: recovery is for any mesh"});
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
+      found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
     return found;

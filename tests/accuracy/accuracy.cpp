@@ -188,7 +188,7 @@ TEST_CASE("cells go where the indenters are, unless the config says where") {
 }
 
 TEST_CASE("the next level follows from the error of the one before: cells by their order, increments by its square") {
-  ChosenRung chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, ""};
+  ChosenRung chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, "", 0.04};
   const auto of = [](double cells, double increments, double scatter = 0, double order = 2) {
     return ErrorEstimate{{"force", "N", 100}, cells, increments, scatter, 0, order};
   };

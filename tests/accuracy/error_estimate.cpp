@@ -108,9 +108,62 @@ TEST_CASE("with friction the increments have an error, which falls with them, wi
   }
 }
 
-TEST_CASE("a mesh whose cells no number scales has no refinement to estimate by") {
+namespace {
+
+// pulled, sheared or pressed between clamped faces; `n`: cells a millimetre
+SolveConfig between_clamped_faces(const std::string& load, const std::string& law, const char* cells, int n) {
+  return test::config_of(
+      fmt::format("mesh: {{cells: {}, geometry: {{block: {{size: [4, 2, 1], divisions: [{}, {}, {}]}}}}}}\n"
+                  "material: {{matrix: {{yeoh: {{a1: 0.1, a2: 0.1, a3: 0}}}}, volume: {{quadratic: {{d: 1.0e-4}}}}{}}}\n"
+                  "supports: [{{on: x_min, hold: [x, y, z]}}]\n"
+                  "loads: [{{on: x_max, displacement: {}}}]\npath: {{first: 0.5, largest: 0.5}}\nsymmetry: auto\n",
+                  cells, 4 * n, 2 * n, n, law, load));
+}
+
+}  // namespace
+
+TEST_CASE("the reaction of a clamped body has an error bar that holds, and tells something") {
+  const std::string isotropic, fibrous = ", fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 30}]";
+  for (const char* load : {"{x: 1.2, y: 0, z: 0}", "{x: 0, y: 0.8, z: 0}", "{x: -0.8, y: 0, z: 0}"})
+    for (const std::string& law : {isotropic, fibrous}) {
+      const auto scene = [&](const char* cells, int n) { return between_clamped_faces(load, law, cells, n); };
+      const auto finest = [&](int n) { return end_of_path(scene("hex27", n), scene("hex27", n).material, nowhere)[0].value; };
+      // behind the finest by as much as it is behind the one before it, more where p = 1, less where p = 2
+      const double q = finest(6), unknown = std::abs(q - finest(4)), right = q - unknown;
+      for (const auto& [cells, n] : {std::pair{"hex8", 4}, {"hex8", 8}, {"hex27", 4}}) {
+        CAPTURE(load);
+        CAPTURE(law);
+        CAPTURE(cells);
+        CAPTURE(n);
+        const ErrorEstimate reaction = estimates_of(scene(cells, n))[0];
+        CHECK(reaction.of.name == "reaction_x_max");
+        const double error = std::abs(reaction.of.value - right);
+        CAPTURE(error / right);
+        CAPTURE(unknown / right);
+        CHECK(reaction.total() > error - unknown);
+        CHECK(reaction.total() < 8 * (error + unknown));
+      }
+    }
+}
+
+TEST_CASE("a homogeneous body has no error of its cells, and few cells are no estimate") {
+  const auto pulled = [](int n) {
+    return test::config_of(
+        fmt::format("mesh: {{geometry: {{block: {{size: [2, 1, 1], divisions: [4, 1, {}]}}}}}}\n"
+                    "material: {{matrix: {{yeoh: {{a1: 0.3, a2: 0.1, a3: 0}}}}, volume: {{quadratic: {{d: 1.0e-4}}}}}}\n"
+                    "supports: [{{on: x_min, hold: [x]}}, {{on: y_min, hold: [y]}}, {{on: z_min, hold: [z]}}]\n"
+                    "loads: [{{on: x_max, displacement: {{x: 0.6}}}}]\npath: {{first: 1, largest: 1}}\n",
+                    n));
+  };
+  const ErrorEstimate reaction = estimates_of(pulled(4))[0];
+  CHECK(reaction.of.name == "reaction_x_max");
+  CHECK(reaction.total() < 1e-6 * reaction.of.value);
+  CHECK_THROWS_WITH_AS(estimates_of(pulled(3)), doctest::Contains("too few cells along z"), Failure);
+}
+
+TEST_CASE("a mesh whose cells follow from no numbers has no refinement to estimate by") {
   SolveConfig config = rung("isotropic", CellType::hex27, 0.8, 1);
-  config.mesh->geometry = Block{};
+  config.mesh->geometry = GradedBlock{};
   CHECK_THROWS_AS(estimate_errors(config, config.material, nowhere, {}, 0), Failure);
 }
 
