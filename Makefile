@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper install deb map schemas clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -178,6 +178,7 @@ help:
 	@echo "make estimates                estimated errors against true ones, in the scenes of make work-precision"
 	@echo "make accuracy                 whether accuracy: 1% holds on random scenes"
 	@echo "make accuracy-elsewhere       and on scenes unlike those of the refinement study"
+	@echo "make accuracy-random          and on scenes of twelve kinds drawn at random; SEED=1 SCENES=24 ASKED=1 (percent)"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"

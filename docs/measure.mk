@@ -79,3 +79,14 @@ map:
 	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z]*/' lib stages > runs/map_includes
 	@awk -f docs/map.awk runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
 
+
+# the same in scenes of twelve kinds, drawn at random: whether what ends with success is within what was asked for, and whether bars hold.
+# Another SEED draws others; each scene is left as a config in runs/random. About a minute a scene
+SEED ?= 1
+SCENES ?= 24
+ASKED ?= 1
+accuracy-random: configure
+	@cmake --build $(build) --parallel $(JOBS) --target langer-random-scenes
+	@mkdir -p runs/random
+	@$(build)/bin/langer-random-scenes runs/random seed=$(SEED) scenes=$(SCENES) asked=$(ASKED) | tee runs/random/table.md
+	@tests/soak/page docs/work_precision.md random runs/random/table.md

@@ -1,0 +1,214 @@
+#include "random_scenes/draw.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace langer::test {
+
+namespace {
+
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : rng_(seed) {}
+  double uniform(double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(rng_); }
+  double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  bool coin(double chance = 0.5) { return uniform(0, 1) < chance; }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(uniform(0, static_cast<double>(n))); }
+
+ private:
+  std::mt19937_64 rng_;
+};
+
+double rounded(double x) { return std::stod(fmt::format("{:.3g}", x)); }
+
+// as stiff as skin times `scale`; families of fibres: at most so many
+std::string material(Draw& draw, double scale = 1, int families = 2) {
+  const double mu = rounded(scale * draw.logarithmic(0.02, 0.5));  // half the shear modulus [MPa]
+  const std::string matrices[]{fmt::format("neo_hooke: {{a1: {:g}}}", mu),
+                               fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, 0.5 * mu, 0.2 * mu),
+                               fmt::format("gent: {{mu: {:g}, Jm: {:.3g}}}", 2 * mu, draw.uniform(5, 30)),
+                               fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
+  std::string fibres;
+  const auto n = draw.below(static_cast<std::size_t>(families) + 1);
+  for (std::size_t i = 0; i < n; ++i)
+    fibres += fmt::format("{}{{hgo: {{c1: {:g}, c2: {:.3g}}}, alpha: {:.3g}, kappa: {:.2g}}}", i ? ", " : "",
+                          rounded(mu * draw.logarithmic(0.1, 3)), draw.uniform(0.1, 2), draw.uniform(-90, 90),
+                          draw.coin() ? 0 : draw.uniform(0, 0.33));
+  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}{}}}", matrices[draw.below(4)],
+                     rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu), n ? ", fibres: [" + fibres + "]" : "");
+}
+
+// a block under indenters of about this radius and depth
+struct Pressed {
+  double R, H, depth, a;  // radius of a sphere and of its contact, thickness [mm]
+  double half;            // of the sides
+  double friction;
+};
+
+Pressed pressed(Draw& draw, double H_in_a_low, double H_in_a_high) {
+  Pressed p;
+  p.R = rounded(draw.logarithmic(0.5, 20));
+  const double share = draw.uniform(0.05, 0.35);  // of the radius
+  p.a = p.R * std::sqrt(share * (2 - share));
+  p.H = rounded(p.a * draw.uniform(H_in_a_low, H_in_a_high));
+  p.depth = rounded(std::min(share * p.R, 0.3 * p.H));
+  p.a = std::sqrt(p.depth * (2 * p.R - p.depth));
+  p.half = rounded(std::max(3 * p.H, draw.uniform(3, 6) * p.a));
+  p.friction = draw.coin() ? 0 : rounded(draw.uniform(0.05, 1));
+  return p;
+}
+
+std::string block_of(const Pressed& p, const std::string& more = "") {
+  return fmt::format(
+      "mesh: {{geometry: {{indented_block: {{origin: [{:g}, 0, {:g}], size: [{:g}, {:g}, {:g}], radius: {:g}, "
+      "depth: {:g}}}}}{}}}\nsupports: [{{on: bottom, hold: [x, y, z]}}]\n",
+      -p.half, -p.half, 2 * p.half, p.H, 2 * p.half, p.R, p.depth, more);
+}
+
+std::string contact_of(const std::string& name, const std::string& shape, const Pressed& p, const std::string& to) {
+  return fmt::format("  {}: {{rigid: {}, friction: {:g}, motion: [{}]}}\n", name, shape, p.friction, to);
+}
+
+std::string sphere_at(const Pressed& p, double x, double z) {
+  return fmt::format("{{sphere: {{radius: {:g}, centre: [{:g}, {:.10g}, {:g}]}}}}", p.R, x, p.H + p.R, z);
+}
+
+std::string down(const Pressed& p) { return fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -p.depth); }
+
+std::string of(const Pressed& p, const std::string& law, const std::string& contacts, const std::string& more = "") {
+  return block_of(p, more) + "material: " + law + "\ncontacts:\n" + contacts + "stability: off\n";
+}
+
+std::string centred(Draw& draw) {
+  const Pressed p = pressed(draw, 1.2, 4);
+  return of(p, material(draw), contact_of("ball", sphere_at(p, 0, 0), p, down(p)));
+}
+
+std::string beside(Draw& draw) {
+  const Pressed p = pressed(draw, 1, 3);
+  const double room = p.half - 1.3 * p.a;
+  return of(p, material(draw),
+            contact_of("ball", sphere_at(p, rounded(draw.uniform(-room, room)), rounded(draw.uniform(-room, room))), p, down(p)));
+}
+
+std::string thin(Draw& draw) {
+  const Pressed p = pressed(draw, 0.2, 0.8);
+  return of(p, material(draw), contact_of("ball", sphere_at(p, 0, 0), p, down(p)));
+}
+
+std::string layered(Draw& draw) {
+  const Pressed p = pressed(draw, 1, 3);
+  const double top = rounded(p.H * draw.uniform(0.2, 0.7));
+  const std::string layers =
+      fmt::format(", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]", p.H - top, top);
+  const double contrast = draw.logarithmic(0.05, 20);
+  const std::string below = material(draw, 1 / std::sqrt(contrast)), above = material(draw, std::sqrt(contrast));
+  return block_of(p, layers) + "materials: {below: {material: " + below + "}, above: {material: " + above + "}}\ncontacts:\n" +
+         contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
+}
+
+std::string plane(Draw& draw) {
+  const double H = rounded(draw.logarithmic(1, 10)), half = rounded(H * draw.uniform(0.5, 1.5));
+  const double friction = draw.coin() ? 0 : rounded(draw.uniform(0.05, 1));
+  return fmt::format(
+      "mesh: {{geometry: {{block: {{origin: [{:g}, 0, {:g}], size: [{:g}, {:g}, {:g}], divisions: [8, 6, 8]}}}}}}\n"
+      "supports: [{{on: bottom, hold: [x, y, z]}}]\nmaterial: {}\ncontacts:\n"
+      "  press: {{rigid: {{plane: {{point: [0, {:g}, 0], normal: [0, -1, 0]}}}}, friction: {:g}, motion: [{{t: 1, to: "
+      "[0, {:g}, 0]}}]}}\nstability: off\n",
+      -half, -half, 2 * half, H, 2 * half, material(draw), H, friction, -rounded(draw.uniform(0.05, 0.25) * H));
+}
+
+std::string punch(Draw& draw) {
+  const Pressed p = pressed(draw, 1.5, 4);
+  const double radius = rounded(0.8 * p.a), edge = rounded(radius * draw.uniform(0.1, 0.5));
+  const std::string shape =
+      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}", radius, edge, p.H);
+  return of(p, material(draw), contact_of("punch", shape, p, fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -0.5 * p.depth)));
+}
+
+std::string ellipsoid(Draw& draw) {
+  const Pressed p = pressed(draw, 1, 3);
+  const std::string shape =
+      fmt::format("{{ellipsoid: {{half_axes: [{:g}, {:g}, {:g}], centre: [0, {:.10g}, 0]}}}}",
+                  rounded(p.R * draw.uniform(0.7, 1.6)), p.R, rounded(p.R * draw.uniform(0.7, 1.6)), p.H + p.R);
+  return of(p, material(draw), contact_of("egg", shape, p, down(p)));
+}
+
+std::string two_spheres(Draw& draw) {
+  Pressed p = pressed(draw, 1, 2);
+  const double apart = rounded(p.a * draw.uniform(1.5, 3));
+  p.half = rounded(p.half + apart);
+  return of(p, material(draw, 1, 1),
+            contact_of("left", sphere_at(p, -apart, 0), p, down(p)) +
+                contact_of("right", sphere_at(p, apart, 0), p, fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -rounded(0.7 * p.depth))));
+}
+
+std::string drawn_aside(Draw& draw) {
+  Pressed p = pressed(draw, 1, 2);
+  p.friction = rounded(draw.uniform(0.05, 0.6));
+  return of(
+      p, material(draw, 1, 1),
+      contact_of("ball", sphere_at(p, 0, 0), p,
+                 fmt::format("{{t: 0.5, to: [0, {0:g}, 0]}}, {{t: 1, to: [{1:g}, {0:g}, 0]}}", -p.depth, rounded(0.5 * p.a))));
+}
+
+std::string pulled(Draw& draw, bool across) {
+  const double L = rounded(draw.logarithmic(2, 40)), w = rounded(L * draw.uniform(0.15, 0.7)),
+               h = rounded(w * draw.uniform(0.2, 1));
+  const double u = rounded(L * draw.uniform(0.1, 0.5));
+  const auto n = [&](double length) { return std::max(4, static_cast<int>(std::lround(10 * length / L))); };
+  return fmt::format(
+      "mesh: {{geometry: {{block: {{size: [{:g}, {:g}, {:g}], divisions: [{}, {}, {}]}}}}}}\n"
+      "supports: [{{on: x_min, hold: [x, y, z]}}]\nloads: [{{on: x_max, displacement: {{x: {:g}, y: 0, z: {:g}}}}}]\n"
+      "material: {}\nstability: off\n",
+      L, h, w, n(L), n(h), n(w), across ? 0 : u, across ? 0.5 * u : 0, material(draw));
+}
+
+std::string section(Draw& draw) {
+  const Pressed p = pressed(draw, 0.6, 3);
+  return fmt::format(
+             "mesh: {{geometry: {{indented_disc: {{size: [{:g}, {:g}], radius: {:g}, depth: {:g}}}}}}}\n"
+             "supports: [{{on: bottom, hold: [x, y]}}]\nmaterial: {}\ncontacts:\n",
+             p.half, p.H, p.R, p.depth, material(draw, 1, 0)) +
+         contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
+}
+
+using Maker = std::function<std::string(Draw&)>;
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> all{{"centred", centred},
+                                                              {"beside", beside},
+                                                              {"thin", thin},
+                                                              {"layered", layered},
+                                                              {"plane", plane},
+                                                              {"punch", punch},
+                                                              {"ellipsoid", ellipsoid},
+                                                              {"two_spheres", two_spheres},
+                                                              {"drawn_aside", drawn_aside},
+                                                              {"tension", [](Draw& draw) { return pulled(draw, false); }},
+                                                              {"shear", [](Draw& draw) { return pulled(draw, true); }},
+                                                              {"section", section}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& kinds_of_scenes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> found;
+    for (const auto& maker : makers()) found.push_back(maker.first);
+    return found;
+  }();
+  return names;
+}
+
+DrawnScene drawn_scene(std::uint64_t seed, int number) {
+  const auto& [kind, make] = makers()[static_cast<std::size_t>(number) % makers().size()];
+  Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));
+  return {fmt::format("{:03}_{}", number, kind), make(draw)};
+}
+
+}  // namespace langer::test

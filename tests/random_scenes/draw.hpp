@@ -1,0 +1,19 @@
+// Scenes drawn at random, of many kinds: what nobody had in mind when a promise was made. The same seed gives the same scenes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace langer::test {
+
+const std::vector<std::string>& kinds_of_scenes();
+
+struct DrawnScene {
+  std::string name;  // <number>_<kind>
+  std::string yaml;  // a config of langer-solve without an accuracy
+};
+// Scene `number` of a seed: kinds in turn.
+DrawnScene drawn_scene(std::uint64_t seed, int number);
+
+}  // namespace langer::test

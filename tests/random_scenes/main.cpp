@@ -1,0 +1,166 @@
+// Whether an accuracy that is asked for is kept, on scenes drawn at random (random_scenes/draw.hpp), and whether error bars hold.
+//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120]
+// Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and again on shorter cells and half the
+// increments, whose limit is the truth and whose own error bar is what remains unknown of it; scenes that this would take longer than
+// `seconds` of CPU have no truth. One line a scene, then the counts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "accuracy/accuracy.hpp"
+#include "base/stopwatch.hpp"
+#include "config/reader.hpp"
+#include "random_scenes/draw.hpp"
+#include "run/body_mesh.hpp"
+#include "run/dry_run.hpp"
+
+using namespace langer;
+
+namespace {
+
+struct Options {
+  std::string folder;
+  std::uint64_t seed = 1;
+  int scenes = 24, from = 0;
+  double asked = 1, seconds = 120;
+};
+
+Options options_of(int argc, char** argv) {
+  Options o;
+  for (int i = 1; i < argc; ++i) {
+    const std::string text = argv[i];
+    const auto at = text.find('=');
+    const std::string key = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
+    if (value.empty())
+      o.folder = text;
+    else if (key == "seed")
+      o.seed = std::stoull(value);
+    else if (key == "scenes")
+      o.scenes = std::stoi(value);
+    else if (key == "from")
+      o.from = std::stoi(value);
+    else if (key == "asked")
+      o.asked = std::stod(value);
+    else if (key == "seconds")
+      o.seconds = std::stod(value);
+    else
+      throw std::invalid_argument(text);
+  }
+  if (o.folder.empty()) throw std::invalid_argument("no folder");
+  return o;
+}
+
+const auto nowhere = [](const std::string&) { return Place{}; };
+const Voice silent{"scenes", true};
+
+struct Answer {
+  SolveConfig config;  // that it was solved with
+  std::vector<ErrorEstimate> errors;
+  double seconds = 0;
+};
+
+// as stages/solve.cpp, without files
+Answer asked_for(const SolveConfig& config) {
+  const double start = cpu_seconds();
+  Accuracy accuracy(silent, config, config.material, nowhere, false);
+  Answer answer;
+  do {
+    answer.config = accuracy.config();
+    Run run(body_mesh(answer.config, "", nowhere), answer.config, config.material, nowhere);
+    const RunEnd end = run.follow();
+    if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
+    answer.errors = estimated(answer.config, config.material, nowhere, run, end.last, {});
+  } while (accuracy.refine(answer.errors));
+  answer.seconds = cpu_seconds() - start;
+  accuracy.need(answer.errors, "");
+  return answer;
+}
+
+std::vector<ErrorEstimate> truth_of(SolveConfig config, double seconds) {
+  scale_cells(config.mesh->geometry, 0.8);
+  const double step = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
+  config.path.steps.reset();
+  config.path.first = config.path.largest = 0.5 * step;
+  {
+    Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
+    if (forecast_of(config, run.body, run.statics, run.scene.stops).seconds() > seconds) return {};
+  }
+  return estimate_errors(config, config.material, nowhere, end_of_path(config, config.material, nowhere), 0);
+}
+
+struct Counts {
+  int ended = 0, within = 0, outside = 0, undecided = 0, refused = 0, without_truth = 0;
+  int bars = 0, hold = 0, wide = 0;  // of forces
+  int others = 0, others_hold = 0;   // of stresses and displacements
+};
+
+void judge(const Options& o, const std::string& name, const Answer& answer, const std::vector<ErrorEstimate>& truths,
+           Counts& counts) {
+  for (const ErrorEstimate& e : answer.errors) {
+    const auto t =
+        std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) { return other.of.name == e.of.name; });
+    if (t == truths.end()) {
+      fmt::print("| {} | {} | {:.4g} | no truth | | {:.2g} | | {:.1f} |\n", name, e.of.name, e.of.value, e.in_percent(e.total()),
+                 answer.seconds);
+      counts.without_truth += e.of.of_force();
+      continue;
+    }
+    const double truth = t->limit(), unknown = e.in_percent(0.5 * t->total()), off = e.in_percent(e.of.value - truth);
+    const double bar = e.in_percent(e.total());
+    std::string verdict;
+    if (e.of.of_force()) {
+      const bool in = std::abs(off) <= o.asked, sure = std::abs(std::abs(off) - o.asked) > unknown;
+      ++(in || !sure ? in ? counts.within : counts.undecided : counts.outside);
+      if (!in) verdict = sure ? "OUTSIDE" : "outside?";
+      ++counts.bars;
+    } else {
+      ++counts.others;
+    }
+    const bool holds = std::abs(off) <= bar + unknown;
+    (e.of.of_force() ? counts.hold : counts.others_hold) += holds;
+    if (e.of.of_force()) counts.wide += bar > 5 * (std::abs(off) + unknown);
+    if (!holds) verdict += " bar fails";
+    fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {:.1f} |\n", name, e.of.name, e.of.value, off, unknown, bar,
+               verdict, answer.seconds);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Options o = options_of(argc, argv);
+  std::filesystem::create_directories(o.folder);
+  Counts counts;
+  fmt::print(
+      "| scene | quantity | found | off by % | unknown +- % | bar +- % | | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  for (int i = o.from; i < o.from + o.scenes; ++i) {
+    const test::DrawnScene scene = test::drawn_scene(o.seed, i);
+    std::ofstream(o.folder + "/" + scene.name + ".yaml") << scene.yaml << "accuracy: " << o.asked << "%\n";
+    try {
+      SolveConfig config = read_config<SolveConfig>(parse_yaml(scene.yaml, scene.name + ".yaml")).config;
+      config.accuracy = fmt::format("{:g}%", o.asked);
+      const Answer answer = asked_for(config);
+      ++counts.ended;
+      std::vector<ErrorEstimate> truths;
+      try {
+        truths = truth_of(answer.config, o.seconds);
+      } catch (const Failure& failure) {
+        fmt::print("| {} | truth | {} | | | | | |\n", scene.name, failure.what());
+      }
+      judge(o, scene.name, answer, truths, counts);
+    } catch (const Failure& failure) {
+      ++counts.refused;
+      fmt::print("| {} | ended with code {} | {} | | | | | |\n", scene.name, static_cast<int>(failure.code()), failure.what());
+    }
+    std::fflush(stdout);
+  }
+  fmt::print("\n{} scenes of seed {}, asked for {:g} %: {} ended with success, {} with a code of their own.\n", o.scenes, o.seed,
+             o.asked, counts.ended, counts.refused);
+  fmt::print("Forces and reactions: {} within, {} outside, {} not decided, {} without a truth. ", counts.within, counts.outside,
+             counts.undecided, counts.without_truth);
+  fmt::print("Their bars: {} of {} hold, {} more than five times the error. Stresses and displacements: {} of {} bars hold.\n",
+             counts.hold, counts.bars, counts.wide, counts.others_hold, counts.others);
+  return 0;
+}
