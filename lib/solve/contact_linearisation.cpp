@@ -24,7 +24,7 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
     const Vec3 c = indenter_displacement(contact, state.t), c0 = indenter_displacement(contact, state.t_start);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
-      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node), x0 = state.X[node] + state.u_start.segment<3>(3 * node);
+      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node), x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
       Vec3 d = Vec3::Zero();
       for (int j = 0; j < 3; ++j) {
         const int row = factor.last_of(3 * node + j);

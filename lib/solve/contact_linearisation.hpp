@@ -18,8 +18,8 @@ using Reactions = std::vector<std::vector<Vec3>>;
 struct ContactState {
   const std::vector<RigidContact>& contacts;
   const std::vector<Vec3>& X;
-  const VecX& u;        // (3 n) of the trial
-  const VecX& u_start;  // what the increment's slip is measured from
+  const VecX& u;                     // (3 n) of the trial
+  const std::vector<VecX>& u_start;  // by contact: what the increment's slip is measured from
   double t, t_start;
   const Reactions& r;
 };

@@ -26,7 +26,8 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   before_ = now_;
-  u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+  u_ = now_.u, r_ = r_next_ = now_.r;
+  u_start_.assign(contacts_.size(), now_.u);
 }
 
 Statics::Cost Statics::cost() const {
@@ -39,13 +40,15 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   now_ = accepted;
   before_ = before ? *before : accepted;
   K_current_ = factor_serves_ = again_ = false;
-  t_ = now_.t, u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+  t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r;
+  u_start_.assign(contacts_.size(), now_.u);
 }
 
 void Statics::begin(double t) {
   t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false;
   factor_.begin_increment();
-  u_ = u_start_ = now_.u, r_ = r_next_ = now_.r;
+  u_ = now_.u, r_ = r_next_ = now_.r;
+  u_start_.assign(contacts_.size(), now_.u);
   equilibrium_.pressures_from(now_.u);
   const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0;  // then the last movement does not go on
   if (const double last = now_.t - before_.t; last > 0 && !rests) extrapolate(std::min((t - now_.t) / last, 2.0));
@@ -63,7 +66,8 @@ void Statics::extrapolate(double s) {
 // its gap takes to close. Without this its reaction is that of a slip it never made, an error of first order in the increment.
 void Statics::slip_from_touch() {
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
-  for (const RigidContact& contact : contacts_) {
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const RigidContact& contact = contacts_[k];
     if (contact.mu == 0) continue;
     const Vec3 c = indenter_displacement(contact, t_), c0 = indenter_displacement(contact, now_.t);
     for (int node : contact.nodes) {
@@ -71,7 +75,7 @@ void Statics::slip_from_touch() {
       const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
       if (!(gap > options_.gap_tolerance)) continue;
       const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
-      u_start_.segment<3>(3 * node) = u0 + (closed > gap ? gap / closed : 1) * (u - u0 - (c - c0));
+      u_start_[k].segment<3>(3 * node) = u0 + (closed > gap ? gap / closed : 1) * (u - u0 - (c - c0));
     }
   }
 }
@@ -122,7 +126,7 @@ double Statics::force_scale() const {
 bool Statics::contact_law_holds(const VecX& u) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactDefect d =
-        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_, indenter_displacement(contacts_[k], t_),
+        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k], indenter_displacement(contacts_[k], t_),
                        indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
     if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance)
       return false;
@@ -311,7 +315,7 @@ std::vector<ContactDefect> Statics::defects() const {
   const double t0 = now_.t == t_ ? before_.t : now_.t;
   std::vector<ContactDefect> out;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
-    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_, indenter_displacement(contacts_[k], t_),
+    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k], indenter_displacement(contacts_[k], t_),
                                  indenter_displacement(contacts_[k], t0), r_[k], motion(t0)));
   return out;
 }

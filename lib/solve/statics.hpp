@@ -103,7 +103,7 @@ class Statics {
   double t_ = 0;            // of the trial
   VecX u_;
   Reactions r_, r_next_;        // on trial; r_next_: what the last linear solve found
-  VecX u_start_;                // (3 n) what the increment's slip is measured from, the indenter where it began
+  std::vector<VecX> u_start_;   // by contact, (3 n): what the increment's slip is measured from, the indenter where it began
   VecX factored_at_;            // u of the tangent that was factorized last
   bool K_current_ = false;      // K is that of the trial
   bool factor_serves_ = false;  // also for other corrections of this increment
