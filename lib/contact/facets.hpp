@@ -55,7 +55,7 @@ struct Facets {
     v(&Facets::move, "move", unit::mm, "added to the file's positions after scaling");
   }
   ShapePoint at(const Vec3& x) const;
-  bool unchanged_by(const Isometry&) const { return false; }  // its triangles are not compared
+  bool becomes(const Facets&, const Isometry&) const { return false; }  // triangles are not compared
   Outline outline(const Shown& shown) const;
   double half_width() const;
   std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }

@@ -46,7 +46,10 @@ struct Cylinder {
     }
     return {distance - edge, n, curvature};
   }
-  bool unchanged_by(const Isometry& op) const { return stays(vec(face), op) && keeps_direction(direction(axis), op); }
+  bool becomes(const Cylinder& other, const Isometry& op) const {
+    return radius == other.radius && edge == other.edge && goes_to(vec(face), vec(other.face), op) &&
+           turns_to(direction(axis), direction(other.axis), op);
+  }
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(axis)); }
@@ -81,9 +84,11 @@ struct Ellipsoid {
     p.curvature = S * inverse(Mat3::Identity() + p.gap * S);
     return p;
   }
-  bool unchanged_by(const Isometry& op) const {
-    const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal();
-    return stays(vec(centre), op) && (op.turn * H * op.turn.transpose() - H).norm() <= same_place * H.norm();
+  bool becomes(const Ellipsoid& other, const Isometry& op) const {
+    const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal(),
+               image = vec(other.half_axes).cwiseProduct(vec(other.half_axes)).asDiagonal();
+    return goes_to(vec(centre), vec(other.centre), op) &&
+           (op.turn * H * op.turn.transpose() - image).norm() <= same_place * image.norm();
   }
   Outline outline(const Shown& shown) const;
   double half_width() const {

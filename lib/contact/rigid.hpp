@@ -26,7 +26,9 @@ struct Sphere {
     const Vec3 n = q / distance;
     return {distance - radius, n, tangent_projection(n) / distance};
   }
-  bool unchanged_by(const Isometry& op) const { return stays(vec(centre), op); }
+  bool becomes(const Sphere& other, const Isometry& op) const {
+    return radius == other.radius && goes_to(vec(centre), vec(other.centre), op);
+  }
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return vec(centre); }
@@ -44,9 +46,9 @@ struct Plane {
     const Vec3 n = direction(outward);
     return {n.dot(x - vec(point)), n, Mat3::Zero()};
   }
-  bool unchanged_by(const Isometry& op) const {
-    const Vec3 p = vec(point), n = direction(outward);
-    return keeps_direction(n, op) && std::abs(n.dot(op(p) - p)) <= same_place * (1 + p.norm());
+  bool becomes(const Plane& other, const Isometry& op) const {
+    const Vec3 p = vec(other.point), n = direction(other.outward);
+    return turns_to(direction(outward), n, op) && std::abs(n.dot(op(vec(point)) - p)) <= same_place * (1 + p.norm());
   }
   Outline outline(const Shown& shown) const;
   double half_width() const { return std::numeric_limits<double>::infinity(); }
@@ -68,9 +70,15 @@ static_assert(all_are_shapes(static_cast<const Indenter*>(nullptr)), "contact/sh
 inline ShapePoint shape_at(const Indenter& shape, const Vec3& x) {
   return std::visit([&](const auto& s) { return s.at(x); }, shape);
 }
-inline bool unchanged_by(const Indenter& shape, const Isometry& op) {
-  return std::visit([&](const auto& s) { return s.unchanged_by(op); }, shape);
+inline bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op) {
+  return std::visit(
+      [&]<class S>(const S& s) {
+        const S* image = std::get_if<S>(&other);
+        return image && s.becomes(*image, op);
+      },
+      shape);
 }
+inline bool unchanged_by(const Indenter& shape, const Isometry& op) { return becomes(shape, shape, op); }
 inline Outline outline(const Indenter& shape, const Shown& shown) {
   return std::visit([&](const auto& s) { return s.outline(shown); }, shape);
 }

@@ -2,7 +2,7 @@
 // contact/rigid.hpp.
 //   at(x)             gap: signed distance, > 0 outside [mm]; normal: gradient of the gap, from the shape to the body;
 //                     curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of constant gap through x [1/mm]
-//   unchanged_by(op)  the shape is its own image; false where it cannot tell
+//   becomes(other, op)  `other` is its image; false where it cannot tell
 //   outline(shown)    its surface, for pictures
 //   half_width()      half the width of a shape that has an end everywhere, infinite without [mm]
 //   inside()          a point inside of such a shape
@@ -29,14 +29,14 @@ struct Isometry {
   Vec3 operator()(const Vec3& x) const { return centre + turn * (x - centre); }
 };
 inline constexpr double same_place = 1e-9;  // relative
-inline bool stays(const Vec3& x, const Isometry& op) { return (op(x) - x).norm() <= same_place * (1 + x.norm()); }
-inline bool keeps_direction(const Vec3& d, const Isometry& op) { return (op.turn * d - d).norm() <= same_place * d.norm(); }
+inline bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op) { return (op(x) - y).norm() <= same_place * (1 + y.norm()); }
+inline bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op) { return (op.turn * d - e).norm() <= same_place * e.norm(); }
 
 template <class S>
 concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, const Shown& shown) {
   { S::key } -> std::convertible_to<const char*>;
   { shape.at(x) } -> std::same_as<ShapePoint>;
-  { shape.unchanged_by(op) } -> std::same_as<bool>;
+  { shape.becomes(shape, op) } -> std::same_as<bool>;
   { shape.outline(shown) } -> std::same_as<Outline>;
   { shape.half_width() } -> std::same_as<double>;
   { shape.inside() } -> std::same_as<std::optional<Vec3>>;

@@ -190,4 +190,10 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
   return states;
 }
 
+double mean_I4_bar(std::span<const GaussState> states, const Vec3& a) {
+  double sum = 0;
+  for (const GaussState& g : states) sum += (g.F * a).squaredNorm() / std::cbrt(g.J * g.J);
+  return sum / static_cast<double>(states.size());
+}
+
 }  // namespace langer

@@ -58,5 +58,6 @@ struct GaussState {
 };
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
                                      std::span<const Vec3> a, const ElementNodes& u);
+double mean_I4_bar(std::span<const GaussState> states, const Vec3& a);  // over the Gauss points, of fibres along a
 
 }  // namespace langer

@@ -53,7 +53,7 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
 
 // The mirrored part of a body whose cells the planes do not cut; nothing where the whole has to be written.
 const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
-  if (!part) return nullptr;
+  if (!part || part->swaps_indenters()) return nullptr;
   const auto& share = part->cell_share();
   if (std::any_of(share.begin(), share.end(), [&](double s) { return std::abs(s - share[0]) > 1e-12; })) return nullptr;
   const auto& tie = part->scene().dofs.tie;
@@ -274,7 +274,7 @@ class DeckComposer {
     if (part_) deck_.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part_->words(), deck_.share));
     if (found_ && !part_)
       deck_.words.push_back("solved by symmetry (" + found_->words() +
-                            "), which mirror planes between cells cannot express: the whole body");
+                            "), which mirror planes between cells with one indenter on them cannot express: the whole body");
     for (const std::string& line : answers(solution_, config_)) deck_.words.push_back(line);
   }
 

@@ -90,9 +90,6 @@ std::optional<Symmetry> find_symmetry(const Mesh& mesh, const Vec3& signs, const
   return s;
 }
 
-namespace {
-
-// all products of the generators, the identity first
 std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& generators) {
   std::vector<Symmetry> group(1);
   group[0].node.resize(mesh.X.size()), group[0].cell.resize(mesh.n_cells());
@@ -108,6 +105,8 @@ std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& ge
     }
   return group;
 }
+
+namespace {
 
 // The first cell of each orbit, with its share.
 void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tolerance, Quotient& q) {

@@ -37,7 +37,10 @@ struct Quotient {
   std::vector<double> node_share, cell_share;  // by kept: how many of the whole body it stands for; 0 for tied nodes
 };
 
-// By a group of one or two commuting symmetries (their product is included).
+// all products of commuting generators, the identity first
+std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& generators);
+
+// By the group of one or two commuting symmetries.
 Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators);
 
 }  // namespace langer

@@ -52,16 +52,14 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
   for (int e = 0; e < n; ++e) {
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
-    double I4_bar = 0;
     const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e));
     const double w = 1.0 / static_cast<double>(states.size());
     for (const GaussState& g : states) {
       sigma += w * g.sigma;
       J[e] += w * g.J;
-      if (!a.empty()) I4_bar += w * (g.F * a[0]).squaredNorm() / std::cbrt(g.J * g.J);
     }
     pressure[e] = mean_stress(sigma), mises[e] = von_mises(sigma);
-    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : I4_bar;
+    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : mean_I4_bar(states, a[0]);
   }
 }
 

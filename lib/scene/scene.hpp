@@ -27,6 +27,9 @@ struct Scene {
   int families() const;  // with c1 other than 0, in the body that has most of them: others cost nothing
 };
 
+// a family that acts, and not in all directions alike
+inline bool has_direction(const Fibre& family) { return acts(family) && family.kappa < 1.0 / 3 - 1e-12; }
+
 // material: of the bodies that `materials` gives none
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material,
                  const std::function<Place(const std::string&)>& where);

@@ -7,52 +7,20 @@
 #include <map>
 #include <numeric>
 
+#include "element/solid.hpp"
 #include "mesh/section.hpp"
+#include "scene/image.hpp"
 #include "scene/section.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double same = same_place;
-
 struct Operation {
   const char* name;
   Vec3 signs;
-  Isometry about(const Vec3& centre) const { return {signs.asDiagonal(), centre}; }
 };
 const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
-
-// What of the scene is not its own image; empty where nothing.
-std::string broken(const Operation& op, const Symmetry& g, const Mesh& mesh, const Scene& scene) {
-  const bool fibrous = scene.families() > 0;
-  for (int e = 0; e < mesh.n_cells() && fibrous; ++e) {
-    const auto a = scene.directions.of(e), b = scene.directions.of(g.cell[e]);
-    const std::vector<Fibre>& families = scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres;
-    for (std::size_t k = 0; k < a.size(); ++k)
-      if (const Vec3 turned = op.signs.cwiseProduct(a[k]);
-          acts(families[k]) && std::min((turned - b[k]).norm(), (turned + b[k]).norm()) > same)
-        return fmt::format("the fibres of cells {} and {}", e, g.cell[e]);
-  }
-  std::map<int, double> imposed;
-  for (const Prescribed& p : scene.dofs.prescribed) imposed[p.dof] = p.value;
-  for (const auto& [dof, value] : imposed) {
-    const auto other = imposed.find(3 * g.node[dof / 3] + dof % 3);
-    if (other == imposed.end() || std::abs(other->second - op.signs[dof % 3] * value) > same * std::abs(value))
-      return fmt::format("what holds or moves node {} along {}", dof / 3, "xyz"[dof % 3]);
-  }
-  for (const RigidContact& contact : scene.contacts) {
-    if (!unchanged_by(contact.shape, op.about(g.centre)))
-      return fmt::format("the shape or place of the indenter \"{}\"", contact.name);
-    for (const Waypoint& w : contact.motion)
-      if (!keeps_direction(w.u_ind, op.about(g.centre))) return fmt::format("the path of the indenter \"{}\"", contact.name);
-    std::vector<char> candidate(mesh.X.size(), 0);
-    for (int node : contact.nodes) candidate[node] = 1;
-    for (int node : contact.nodes)
-      if (!candidate[g.node[node]]) return fmt::format("the nodes that may touch \"{}\"", contact.name);
-  }
-  return "";
-}
 
 std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
   switch (wanted) {
@@ -74,68 +42,173 @@ std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
 
 }  // namespace
 
+namespace {
+
+// a symmetry of mesh and scene
+struct Generator {
+  Operation operation;
+  Symmetry mesh;
+  std::vector<int> contact;  // image of each
+};
+
+// by name, each looked for once
+class Found {
+ public:
+  Found(const Mesh& mesh, const Scene& scene, const Vec3& centre) : mesh_(mesh), scene_(scene), centre_(centre) {}
+  const Generator* operator()(const Operation& op) {
+    const auto known = known_.find(op.name);
+    if (known != known_.end()) return known->second ? &*known->second : nullptr;
+    std::optional<Generator>& found = known_[op.name];
+    auto g = find_symmetry(mesh_, op.signs, centre_);
+    SceneImage image = g ? image_of(*g, mesh_, scene_) : SceneImage{"the mesh", {}};
+    if (!image.broken.empty())
+      breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
+    else
+      found = Generator{op, std::move(*g), std::move(image.contact)};
+    return found ? &*found : nullptr;
+  }
+  const std::string& breaks() const { return breaks_; }
+
+ private:
+  const Mesh& mesh_;
+  const Scene& scene_;
+  const Vec3 centre_;
+  std::map<std::string, std::optional<Generator>> known_;
+  std::string breaks_;
+};
+
+// images of the contacts by all products of the generators, in the order of group_of
+std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>& generators, std::size_t n_contacts) {
+  std::vector<std::vector<int>> group(1, std::vector<int>(n_contacts));
+  std::iota(group[0].begin(), group[0].end(), 0);
+  for (const Generator* g : generators)
+    for (std::size_t i = 0, n = group.size(); i < n; ++i) {
+      std::vector<int> product = group[i];
+      for (int& contact : product) contact = g->contact[contact];
+      group.push_back(std::move(product));
+    }
+  return group;
+}
+
+Vec3 middle_of(const Mesh& mesh) {
+  Vec3 low = mesh.X[0], high = mesh.X[0];
+  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
 std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
                                                const std::function<Place(const std::string&)>& where) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  const Vec3 centre = 0.5 * (low + high);
-  std::map<std::string, std::optional<Symmetry>> known;
-  std::map<std::string, std::string> breaks;
-  const auto holds = [&](const Operation& op) {
-    if (const auto found = known.find(op.name); found != known.end()) return found->second.has_value();
-    auto g = find_symmetry(mesh, op.signs, centre);
-    std::string why = g ? broken(op, *g, mesh, scene) : "the mesh";
-    if (!why.empty()) g.reset(), breaks[op.name] = why;
-    return (known[op.name] = std::move(g)).has_value();
-  };
-  for (const auto& group : operations(wanted)) {
-    if (!std::all_of(group.begin(), group.end(), holds)) continue;
+  const Vec3 centre = middle_of(mesh);
+  Found found(mesh, scene, centre);
+  for (const auto& operations : operations(wanted)) {
+    std::vector<const Generator*> generators;
+    for (const Operation& op : operations)
+      if (const Generator* g = found(op)) generators.push_back(g);
+    if (generators.size() < operations.size()) continue;
     ReducedScene r;
-    std::vector<Symmetry> generators;
-    for (const Operation& op : group) {
-      generators.push_back(*known[op.name]);
-      r.words_ += (r.words_.empty() ? "" : " and ") + std::string(op.name);
+    std::vector<Symmetry> of_mesh;
+    for (const Generator* g : generators) {
+      of_mesh.push_back(g->mesh);
+      r.words_ += (r.words_.empty() ? "" : " and ") + std::string(g->operation.name);
       for (int k = 0; k < 3; ++k)
-        if (op.signs[k] < 0) r.kept_directions_[k] = 0;
+        if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
-    Quotient& q = r.quotient_ = quotient(mesh, generators);
-    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], q.cell.size(), mesh.n_cells());
-
-    r.scene_.formulation = scene.formulation, r.scene_.materials = scene.materials, r.scene_.stops = scene.stops;
-    r.scene_.directions = scene.directions.of_cells(q.cell);
-    std::vector<Prescribed> prescribed;
-    for (const Prescribed& p : scene.dofs.prescribed) {
-      const Image& image = q.node_image[p.dof / 3];
-      if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
-        prescribed.push_back({3 * image.of + p.dof % 3, p.value});
-    }
-    r.scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
-    for (const RigidContact& contact : scene.contacts) r.take_contact(contact);
+    r.take_part(mesh, scene, of_mesh, contact_group(generators, scene.contacts.size()));
+    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], r.quotient_.cell.size(), mesh.n_cells());
     return r;
   }
   if (wanted == SymmetryChoice::automatic) return std::nullopt;
-  std::string why;
-  for (const auto& [name, what] : breaks) why += (why.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", name, what);
-  throw Failure(Exit::config,
-                Error{where("symmetry"), "symmetry", why, "a scene with this symmetry", "symmetry: auto takes what there is"});
+  throw Failure(Exit::config, Error{where("symmetry"), "symmetry", found.breaks(), "a scene with this symmetry",
+                                    "symmetry: auto takes what there is"});
 }
 
-void ReducedScene::take_contact(const RigidContact& contact) {
+void ReducedScene::take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
+                             const std::vector<std::vector<int>>& contacts) {
+  quotient_ = quotient(mesh, generators);
+  scene_.formulation = scene.formulation, scene_.materials = scene.materials, scene_.stops = scene.stops;
+  scene_.directions = scene.directions.of_cells(quotient_.cell);
+  take_supports(scene);
+  const std::vector<Symmetry> group = group_of(mesh, generators);
+  find_turned_families(mesh, scene, group);
+  for (const auto& images : contacts)
+    for (std::size_t c = 0; c < images.size(); ++c) swaps_indenters_ = swaps_indenters_ || images[c] != static_cast<int>(c);
+  // Of the pairs of an indenter and a node that are images of each other one is kept: at the node that is kept, the first indenter.
+  take_contacts(scene, [&](int contact, int node) {
+    Touch kept{static_cast<int>(scene.contacts.size()), quotient_.node_image[node].of, Mat3::Identity(), 0};
+    const int at = quotient_.node[kept.node];
+    for (std::size_t h = 0; h < group.size(); ++h)
+      if (group[h].node[node] == at && contacts[h][contact] < kept.contact)
+        kept.contact = contacts[h][contact], kept.T = group[h].signs.asDiagonal();
+    int in_place = 0;
+    Vec3 allowed = Vec3::Ones();  // what leaves the pair in place and changes a sign forbids that direction
+    for (std::size_t h = 0; h < group.size(); ++h)
+      if (group[h].node[at] == at && contacts[h][kept.contact] == kept.contact) {
+        ++in_place;
+        for (int k = 0; k < 3; ++k)
+          if (group[h].signs[k] < 0) allowed[k] = 0;
+      }
+    kept.T = kept.T * allowed.asDiagonal(), kept.share = static_cast<double>(group.size()) / in_place;
+    return kept;
+  });
+}
+
+void ReducedScene::take_supports(const Scene& scene) {
   const Quotient& q = quotient_;
-  RigidContact part{contact.name, contact.shape, contact.mu, {}, contact.motion};
-  std::map<int, int> index;  // of a kept node among the candidates
-  std::vector<Image> images;
-  std::vector<double> share;
-  for (int node : contact.nodes)
-    if (const int kept = q.node_image[node].of; q.node[kept] == node) {
-      index[kept] = static_cast<int>(part.nodes.size());
-      part.nodes.push_back(kept), share.push_back(q.node_share[kept]);
+  std::vector<Prescribed> prescribed;
+  for (const Prescribed& p : scene.dofs.prescribed) {
+    const Image& image = q.node_image[p.dof / 3];
+    if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
+      prescribed.push_back({3 * image.of + p.dof % 3, p.value});
+  }
+  scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
+}
+
+void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(int, int)>& stands_for) {
+  contacts_ = scene.contacts;
+  std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    const RigidContact& whole = contacts_[c];
+    RigidContact part{whole.name, whole.shape, whole.mu, {}, whole.motion};
+    std::vector<double> share;
+    std::vector<std::array<int, 2>> origin;
+    for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
+      const Touch kept = stands_for(c, whole.nodes[i]);
+      if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
+      index[{c, kept.node}] = {static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
+      part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
     }
-  for (int node : contact.nodes) images.push_back({index.at(q.node_image[node].of), q.node_image[node].T});
-  scene_.contacts.push_back(std::move(part));
-  candidate_.push_back(std::move(images)), candidate_share_.push_back(std::move(share));
+    if (part.nodes.empty() && !whole.nodes.empty()) continue;  // another indenter stands for it
+    scene_.contacts.push_back(std::move(part));
+    candidate_share_.push_back(std::move(share)), origin_.push_back(std::move(origin));
+  }
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    std::vector<CandidateImage>& images = candidate_.emplace_back();
+    for (int node : contacts_[c].nodes) {
+      const Touch kept = stands_for(c, node);
+      images.push_back(index.at({kept.contact, kept.node})), images.back().T = kept.T;
+    }
+  }
+}
+
+// Where families change places in a mirror, the first one of a cell is another in the cell that stands for it.
+void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& group) {
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto own = scene.directions.of(e), kept = scene_.directions.of(quotient_.cell_image[e]);
+    if (own.empty()) continue;
+    std::optional<Vec3> turned;
+    bool same = false;
+    for (const Symmetry& g : group) {
+      if (g.cell[e] != quotient_.cell[quotient_.cell_image[e]]) continue;
+      const Vec3 a = g.signs.cwiseProduct(own[0]);
+      if (!turned) turned = a;
+      same = same || std::min((a - kept[0]).norm(), (a + kept[0]).norm()) <= same_place;
+    }
+    if (!same && turned) turned_.push_back({e, quotient_.cell_image[e], *turned});
+  }
 }
 
 ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
@@ -155,7 +228,10 @@ ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
   for (const Prescribed& p : scene.dofs.prescribed)
     if (q.tie[p.dof / 3].T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back(p);
   r.scene_.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
-  for (const RigidContact& contact : scene.contacts) r.take_contact(contact);
+  r.take_contacts(scene, [&q](int contact, int node) {
+    const Image& image = q.node_image[node];
+    return Touch{contact, image.of, image.T, q.node_share[image.of]};
+  });
   r.kept_directions_ = mesh.section->of == SectionOf::axisymmetric ? Vec3(0, 1, 0) : Vec3(1, 1, 0);
   return r;
 }
@@ -174,23 +250,50 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
     values.clear();
     for (int cell : quotient_.cell_image) values.push_back(kept[cell]);
   }
-  for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
-    const ContactRecord& kept = reduced.contacts.at(scene_.contacts[c].name);
-    ContactRecord& contact = record.contacts.at(scene_.contacts[c].name) = {};
-    for (const Image& image : candidate_[c]) {
-      contact.r.push_back(image.T * kept.r[image.of] / candidate_share_[c][image.of]);
-      contact.status.push_back(kept.status[image.of]);
-      contact.gap.push_back(kept.gap[image.of]);
-    }
-    for (int k = 0; k < 3; ++k)
-      if (const auto found = record.scalars.find("force_" + scene_.contacts[c].name + "_" + "xyz"[k]);
-          found != record.scalars.end())
-        found->second *= kept_directions_[k];
-  }
-  record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
+  tell_fibres(reduced, record);
+  tell_contacts(reduced, record);
   if (const auto found = record.scalars.find("weakest_cell"); found != record.scalars.end() && found->second >= 0)
     found->second = quotient_.cell[static_cast<std::size_t>(found->second)];
   return record;
+}
+
+void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) const {
+  record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
+  if (!contacts_.empty()) record.u_ind = indenter_displacement(contacts_[0], record.t);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    ContactRecord& contact = record.contacts[contacts_[c].name] = {};
+    Vec3 force = Vec3::Zero();
+    for (const CandidateImage& image : candidate_[c]) {
+      const ContactRecord& kept = reduced.contacts.at(scene_.contacts[image.contact].name);
+      contact.r.push_back(image.T * kept.r[image.of] / candidate_share_[image.contact][image.of]);
+      contact.status.push_back(kept.status[image.of]);
+      contact.gap.push_back(kept.gap[image.of]);
+      force -= contact.r.back();
+    }
+    if (contacts_.size() < 2) continue;
+    for (int k = 0; k < 3; ++k) {
+      const std::string name = "force_" + contacts_[c].name + "_" + "xyz"[k];
+      // on a section radial forces of the whole circle add up to nothing
+      record.scalars[name] = quotient_.mesh.section ? kept_directions_[k] * reduced.scalars.at(name) : force[k];
+    }
+  }
+}
+
+void ReducedScene::tell_fibres(const StepRecord& reduced, StepRecord& record) const {
+  const auto I4_bar = record.cell_fields.find("I4_bar");
+  if (I4_bar == record.cell_fields.end()) return;
+  const Mesh& mesh = quotient_.mesh;
+  for (const TurnedFamily& family : turned_) {
+    const auto nodes = mesh.cell(family.of);
+    ElementNodes u(nodes.size(), 3);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const Image& tie = quotient_.tie[nodes[a]];
+      u.row(static_cast<Eigen::Index>(a)) = (tie.T * reduced.u[tie.of]).transpose();
+    }
+    const auto states = gauss_states(scene_.formulation, scene_.materials[mesh.body.empty() ? 0 : mesh.body[family.of]],
+                                     element_geometry(element_nodes(mesh, family.of)), scene_.directions.of(family.of), u);
+    I4_bar->second[family.cell] = mean_I4_bar(states, family.a);
+  }
 }
 
 BodyState ReducedScene::reduced(const StepRecord& whole) const {
@@ -200,12 +303,11 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
   for (std::size_t i = 0; i < quotient_.node.size(); ++i)
     if (quotient_.tie[i].of == static_cast<int>(i))
       state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[static_cast<std::size_t>(quotient_.node[i])];
-  for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
-    std::vector<Vec3>& r = state.r.emplace_back(scene_.contacts[c].nodes.size(), Vec3::Zero());
-    const std::vector<Vec3>& of_whole = whole.contacts.at(scene_.contacts[c].name).r;
-    for (std::size_t i = 0; i < candidate_[c].size(); ++i) {
-      const Image& image = candidate_[c][i];
-      if (image.T == quotient_.tie[scene_.contacts[c].nodes[image.of]].T) r[image.of] = candidate_share_[c][image.of] * of_whole[i];
+  for (std::size_t c = 0; c < origin_.size(); ++c) {
+    std::vector<Vec3>& r = state.r.emplace_back();
+    for (std::size_t i = 0; i < origin_[c].size(); ++i) {
+      const auto& [contact, candidate] = origin_[c][i];
+      r.push_back(candidate_share_[c][i] * whole.contacts.at(contacts_[contact].name).r[candidate]);
     }
   }
   return state;

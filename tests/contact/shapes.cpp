@@ -124,6 +124,57 @@ TEST_CASE("a shape is unchanged by an operation where its gap is, and says so") 
   CHECK(changed > 100);
 }
 
+TEST_CASE("a shape becomes another by a mirror or a turn exactly where the other is its image") {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-6, 6), part(0.5, 2);
+  const Isometry mirror{Vec3(-1, 1, 1).asDiagonal(), {0.5, 0, -1}}, turn{Vec3(-1, 1, -1).asDiagonal(), {0.5, 0, -1}};
+  int images = 0, others = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Isometry& op = n % 2 ? mirror : turn;
+    const Vec3 at(u(random), u(random), u(random)), to = op(at);
+    const auto place = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
+    const double r = part(random), q = part(random);
+    const Vec3 axis(u(random), u(random), u(random)), turned = op.turn * axis;
+    Indenter a, b;
+    switch (n % 4) {
+      case 0:
+        a = Sphere{r, place(at)}, b = Sphere{r, place(to)};
+        break;
+      case 1:
+        a = Plane{place(at), place(axis)}, b = Plane{place(to), place(2 * turned)};
+        break;
+      case 2:
+        a = Cylinder{r, 0.3 * r, place(at), place(axis)}, b = Cylinder{r, 0.3 * r, place(to), place(3 * turned)};
+        break;
+      case 3:
+        a = Ellipsoid{{r, q, 1}, place(at)}, b = Ellipsoid{{r, q, 1}, place(to)};
+        break;
+    }
+    const bool spoiled = n % 8 > 3;
+    if (spoiled)
+      std::visit(
+          []<class S>(S& s) {
+            if constexpr (requires { s.radius; }) s.radius *= 1.1;
+            if constexpr (requires { s.half_axes; }) s.half_axes[1] *= 1.1;
+            if constexpr (requires { s.outward; }) s.outward[0] += 0.5;
+          },
+          b);
+    CAPTURE(n);
+    CHECK(becomes(a, b, op) == !spoiled);
+    CHECK(becomes(b, a, op) == !spoiled);
+    CHECK_FALSE(becomes(a, Sphere{0.1, {50, 0, 0}}, op));
+    double largest = 0;
+    for (int k = 0; k < 40; ++k) {
+      const Vec3 x(u(random), u(random), u(random));
+      largest = std::max(largest, std::abs(shape_at(b, op(x)).gap - shape_at(a, x).gap));
+    }
+    if (!spoiled) CHECK(largest < 1e-8);
+    ++(spoiled ? others : images);
+  }
+  CHECK(images == 100);
+  CHECK(others == 100);
+}
+
 TEST_CASE("the outline of every shape lies on its surface and is seen from outside") {
   auto list = shapes();
   list.emplace_back("box", faceted_box({1, 0.6, 2}));

@@ -1,0 +1,22 @@
+// Whether a scene is its own image under a symmetry of its mesh.
+//   fibres      the set of (law, a a^T) of each cell goes over into that of its image: families may change places, as those at +theta
+//               and -theta do in a mirror; a family without direction (kappa: 1/3) has nothing to turn
+//   supports, imposed displacements    the image's, turned
+//   indenters   each goes over into itself or into another of the same shape and friction, that moves as its image does
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/symmetry.hpp"
+#include "scene/scene.hpp"
+
+namespace langer {
+
+struct SceneImage {
+  std::string broken;        // what is not its own image; empty where nothing
+  std::vector<int> contact;  // image of each
+};
+SceneImage image_of(const Symmetry& g, const Mesh& mesh, const Scene& scene);
+
+}  // namespace langer
