@@ -26,10 +26,14 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
   const double jump = say_scene(job.voice(), run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run) {
+    if (watch.of_mesh())
+      job.say("the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
+              run.reduction.mesh_of_point()->dofs().n_free());
     const double estimate = estimate_seconds(config, material, job.where);
     return {.summary = dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, job.quiet)};
   }
   need_memory(run.statics, config.threads);
+  if (watch.of_mesh()) need_memory(*watch.of_mesh(), config.threads);
   const std::string loose = held_by_contact(run, job.where);
   Recording recording(run, watch, config, job.identity, job.output);
   Progress progress(job.voice(), run);
@@ -60,7 +64,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const std::optional<Material> material =
       job.has("material") ? std::optional(material_of_body(job.input("material"))) : job.config.material;
   Accuracy accuracy(job.voice(), job.config, material, job.where, job.dry_run);
-  bool at_a_point = job.config.homogeneous == Homogeneous::automatic && job.config.stability == StabilityCheck::off;
+  bool at_a_point = job.config.homogeneous == Homogeneous::automatic;
   for (;;) {
     const Solved solved = solve_by(job, material, accuracy, at_a_point);
     if (solved.at == Solved::At::not_homogeneous) {

@@ -28,7 +28,8 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
   for (int e = 1; e < mesh.n_cells(); ++e) {
     const auto here = scene.directions.of(e);
     for (std::size_t k = 0; k < first.size(); ++k)
-      if (acts(families[k]) && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12) return false;
+      if ((k == 0 || has_direction(families[k])) && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12)
+        return false;
   }
   return true;
 }
@@ -61,7 +62,8 @@ std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dof
 
 }  // namespace
 
-HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config) : solver_(config.solver) {
+HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config)
+    : asked_(config.solver), solver_(config.solver) {
   if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
@@ -143,12 +145,28 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
     record.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
   }
   left = std::sqrt(left), reactions = std::sqrt(reactions);
-  if (!(left <= 1e-9 * reactions + 10 * whole_->rounding_floor())) return std::nullopt;
+  const double small = 1e-9 * reactions;
+  if (!(left <= small + 10 * whole_->rounding_floor())) return std::nullopt;                    // it deforms otherwise
+  if (!(left <= std::max(small, on_mesh(left, reactions, {}).tolerance))) return std::nullopt;  // a solution of the mesh is nearer
   record.residual = reactions > 0 ? left / reactions : left;
   for (auto& [name, values] : record.cell_fields)
     values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
   record.scalars["J_min"] = whole_->J_min(), record.scalars["energy"] = whole_->W();
   return record;
+}
+
+SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveReport report) const {
+  Assessment found;
+  found.residual = residual, found.reference = reactions, found.floor = 3 * whole_->rounding_floor();  // as of Statics
+  std::visit([&](const auto& asked) { compare(found, asked.absolute, asked.relative, report); }, asked_);
+  return report;
+}
+
+SolveReport HomogeneousScene::report(const SolveReport& of_point, const StepRecord& whole) const {
+  double reactions = 0;
+  for (const Vec3& r : whole.reaction) reactions += r.squaredNorm();
+  reactions = std::sqrt(reactions);
+  return on_mesh(std::max(of_point.residual, whole.residual * reactions), reactions, of_point);
 }
 
 BodyState HomogeneousScene::reduced(const StepRecord& whole) const {

@@ -3,7 +3,8 @@
 //   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support and load on
 //               whole faces of the box
 //   proved      each state, expanded to the mesh, balances there: what is left at free nodes is rounding and the solver's tolerance
-// The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: not for runs that look at stability.
+// The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: whoever looks at stability looks at
+// of_mesh(), which costs a factorization where a solution of the mesh takes several.
 #pragma once
 
 #include <memory>
@@ -28,18 +29,22 @@ class HomogeneousScene {
 
   std::optional<StepRecord> whole(const StepRecord& one) const;  // of the mesh; nothing where that does not balance
   BodyState reduced(const StepRecord& whole) const;              // to continue from
+  // what a solution on the mesh that ends in this state reports of its residual, by the config's own tolerance
+  SolveReport report(const SolveReport& of_point, const StepRecord& whole) const;
+  Equilibrium& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);
   bool recognise(const Mesh& mesh, const Scene& scene);
   bool first_increment_balances(const LoadPathOptions& path);
+  SolveReport on_mesh(double residual, double reactions, SolveReport report) const;  // [N]; with the mesh's tolerances
 
   Mesh mesh_;
   Scene scene_;
-  std::variant<NewtonOptions, KinsolOptions> solver_;
-  std::array<int, 8> corner_node_;        // of the mesh
-  std::vector<std::array<double, 8>> N_;  // by node of the mesh: weights of the corners
-  std::unique_ptr<Equilibrium> whole_;    // balance of the mesh
+  std::variant<NewtonOptions, KinsolOptions> asked_, solver_;  // the config's, and more exact
+  std::array<int, 8> corner_node_;                             // of the mesh
+  std::vector<std::array<double, 8>> N_;                       // by node of the mesh: weights of the corners
+  std::unique_ptr<Equilibrium> whole_;                         // balance of the mesh
 };
 
 }  // namespace langer

@@ -55,6 +55,12 @@ std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
   return part_ ? part_->whole(of_part) : of_part;
 }
 
+SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_whole) const {
+  return point_ ? point_->report(of_part, of_whole) : of_part;
+}
+
+Equilibrium* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
+
 BodyState Reduction::reduced(const StepRecord& of_whole) const {
   if (point_) return point_->reduced(of_whole);
   return part_ ? part_->reduced(of_whole) : state_of(of_whole, scene_);

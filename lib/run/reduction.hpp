@@ -39,7 +39,10 @@ class Reduction {
 
   // Of the whole body; nothing where that does not balance though its part does: it is not homogeneous.
   std::optional<StepRecord> whole(const StepRecord& of_part) const;
-  BodyState reduced(const StepRecord& of_whole) const;  // to continue from
+  SolveReport report(const SolveReport& of_part, const StepRecord& of_whole) const;  // as if the body had been solved
+  BodyState reduced(const StepRecord& of_whole) const;                               // to continue from
+  Equilibrium* mesh_of_point()
+      const;  // the mesh that a hexahedron stands for, at the state whole() was asked for last; else nullptr
 
  private:
   const Mesh& mesh_;

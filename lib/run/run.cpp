@@ -1,7 +1,5 @@
 #include "run/run.hpp"
 
-#include <algorithm>
-
 #include "base/interrupt.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/step_record.hpp"
@@ -67,10 +65,7 @@ RunEnd Run::follow(const RunListener& listener) {
       end.at = RunEnd::At::not_homogeneous;
       return false;
     }
-    SolveReport found = report;
-    if (reduction.kind() == Reduction::Kind::homogeneous)
-      found.residual = std::max(found.residual, whole->residual * report.reference);
-    if (listener.of_whole) listener.of_whole(*whole, found);
+    if (listener.of_whole) listener.of_whole(*whole, reduction.report(report, *whole));
     if (at_end) end.last = std::move(*whole);
     return !interrupted();
   };

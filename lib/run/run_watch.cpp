@@ -2,11 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "run/step_record.hpp"
+
 namespace langer {
 
 RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
     : run_(run), when_(config.stability), on_unstable_(config.on_unstable), stability_(std::move(tests)), result_(run.body) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
+  if (Equilibrium* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
+    StaticsOptions options;
+    options.threads = config.blas_threads;
+    mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);
+  }
 }
 
 void RunWatch::kept(const StepRecord& step) {
@@ -17,13 +24,22 @@ void RunWatch::kept(const StepRecord& step) {
         found->second < 0 ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second) : "";
 }
 
+std::optional<StabilityReport> RunWatch::looked(const StepRecord& record) {
+  if (!mesh_) return stability_.look(run_.body, run_.statics);
+  const std::optional<StepRecord> whole = run_.reduction.whole(record);
+  if (!whole) return std::nullopt;
+  mesh_->restore(state_of(*whole, run_.scene));
+  return stability_.look(*run_.reduction.mesh_of_point(), *mesh_);
+}
+
 bool RunWatch::of_part(StepRecord& record) {
   const bool at_end = at_end_of_path(record.t);
   if (when_ != StabilityCheck::each_step && !(when_ == StabilityCheck::last && at_end)) return true;
-  const StabilityReport report = stability_.look(run_.body, run_.statics);
-  stability_.keep(report);
-  if (when_ == StabilityCheck::each_step) stability_.add_to(record, report);
-  last_said_ = in_words(report);
+  const std::optional<StabilityReport> report = looked(record);
+  if (!report) return true;
+  stability_.keep(*report);
+  if (when_ == StabilityCheck::each_step) stability_.add_to(record, *report);
+  last_said_ = in_words(*report);
   if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
   return false;

@@ -23,6 +23,9 @@ class RunWatch {
   // the same, balanced; throws Failure(config) for a force that means nothing; what is returned says why it is not to be kept
   std::optional<Error> of_whole(StepRecord& record, const SolveReport& report);
 
+  // of a mesh that a hexahedron stands for, where its stability is looked at; else nullptr
+  const Statics* of_mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+
   const std::string& unstable() const { return unstable_; }    // why the path ended
   const std::string& last_said() const { return last_said_; }  // of the last state's stability; empty where it is stable
 
@@ -33,7 +36,10 @@ class RunWatch {
   std::vector<Summary> stability_summary() const;
 
  private:
+  std::optional<StabilityReport> looked(const StepRecord& record);  // nothing where the mesh does not balance
+
   Run& run_;
+  std::optional<Statics> mesh_;
   StabilityCheck when_;
   OnUnstable on_unstable_;
   StabilityWatch stability_;

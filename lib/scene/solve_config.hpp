@@ -182,8 +182,8 @@ struct SolveConfig {
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
-      "auto: where stability is off and one material between plane faces that are held or moved as wholes deforms alike everywhere, "
-      "one hexahedron is solved in place of the mesh; every state is put to the mesh, which has to balance");
+      "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
+      "solved in place of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",

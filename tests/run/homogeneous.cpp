@@ -3,7 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <random>
+#include <regex>
+
 #include "run/equilibrium_by.hpp"
+#include "run/run_watch.hpp"
 #include "run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
@@ -178,4 +182,81 @@ TEST_CASE("what does not deform alike everywhere is solved as it is") {
     bent.X[static_cast<std::size_t>(bent.node_sets.at("y_max").front())][1] += 0.01;
     CHECK_FALSE(is_homogeneous(bent, scene));
   }
+}
+
+namespace {
+
+struct Judged {
+  std::vector<StepRecord> steps;
+  std::vector<std::string> warnings;
+  std::vector<Summary> summary;
+  std::string unstable;
+  bool at_a_point = false;
+};
+
+Judged judged(const std::string& text, bool at_a_point) {
+  const SolveConfig config = test::config_of(text);
+  Run run(test::mesh_in(config), config, config.material, test::nowhere, at_a_point);
+  RunWatch watch(run, config, test::nowhere, {});
+  Judged out;
+  out.at_a_point = run.reduction.kind() == Reduction::Kind::homogeneous;
+  RunListener listener;
+  listener.of_part = [&](StepRecord& step) { return watch.of_part(step); };
+  listener.of_whole = [&](StepRecord& step, const SolveReport& report) {
+    CHECK(!watch.of_whole(step, report));
+    out.steps.push_back(step);
+  };
+  run.follow(listener);
+  // which of equal cells is the weakest is a matter of rounding
+  const std::regex place(R"( (near|in cell \d+ at) \([^)]*\) mm)");
+  for (const std::string& line : watch.warnings()) out.warnings.push_back(std::regex_replace(line, place, ""));
+  out.unstable = std::regex_replace(watch.unstable(), place, "");
+  out.summary = watch.stability_summary();
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a state at a point is judged as the mesh that it stands for: the same verdicts in words, steps and summary") {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> part(0, 1);
+  int unstable = 0, stopped = 0;
+  for (int n = 0; n < 12; ++n) {
+    CAPTURE(n);
+    const double c1 = -0.5 * part(random), pull = 0.5 + 1.5 * part(random);
+    const char* angles[] = {"{hgo: {c1: C, c2: 0.3}, alpha: 0}", "{hgo: {c1: C, c2: 0.3}, alpha: 90}",
+                            "{hgo: {c1: C, c2: 0.3}, alpha: 50}, {hgo: {c1: C, c2: 0.3}, alpha: -50}"};
+    const std::string fibres = std::regex_replace(angles[n % 3], std::regex("C"), std::to_string(c1));
+    const std::string text =
+        "mesh: {geometry: {block: {size: [4, 1, 2], divisions: [4, 2, 2]}}, cells: " + std::string(n % 4 == 3 ? "hex27" : "hex8") +
+        "}\nmaterial: {matrix: {yeoh: {a1: 0.269, a2: 0.1}}, fibres: [" + fibres +
+        "], volume: {quadratic: {d: 1.0e-3}}}\n"
+        "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
+        "loads: [{on: x_max, displacement: {x: " +
+        std::to_string(pull) +
+        "}}]\npath: {steps: 5}\nsolver: {newton: {relative: 1.0e-9}}\nstability: " + (n % 5 == 4 ? "last" : "each_step") +
+        "\non_unstable: " + (n % 6 == 5 ? "stop" : "warn") + "\n";
+    const Judged point = judged(text, true), mesh = judged(text, false);
+    REQUIRE(point.at_a_point);
+    REQUIRE(!mesh.at_a_point);
+    CHECK(point.unstable == mesh.unstable);
+    REQUIRE(point.warnings.size() == mesh.warnings.size());
+    for (std::size_t i = 0; i < mesh.warnings.size(); ++i) CHECK(point.warnings[i] == mesh.warnings[i]);
+    unstable += !mesh.warnings.empty(), stopped += !mesh.unstable.empty();
+    REQUIRE(point.summary.size() == mesh.summary.size());
+    for (std::size_t i = 0; i < mesh.summary.size(); ++i)
+      CHECK(point.summary[i].value == doctest::Approx(mesh.summary[i].value).epsilon(1e-6));
+    REQUIRE(point.steps.size() == mesh.steps.size());
+    for (std::size_t s = 0; s < mesh.steps.size(); ++s)
+      for (const char* name : {"negative_eigenvalues", "shear_stiffness_min", "unstable_volume", "driving_force",
+                               "isochoric_fibre_stretch_min", "isochoric_fibre_stretch_max"}) {
+        CAPTURE(name);
+        REQUIRE(point.steps[s].scalars.count(name) == mesh.steps[s].scalars.count(name));
+        if (mesh.steps[s].scalars.count(name))
+          CHECK(point.steps[s].scalars.at(name) == doctest::Approx(mesh.steps[s].scalars.at(name)).epsilon(1e-6));
+      }
+  }
+  CHECK(unstable > 2);
+  CHECK(unstable < 12);
+  MESSAGE(unstable, " with warnings, ", stopped, " stopped");
 }
