@@ -2,6 +2,7 @@
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
 #include "accuracy/accuracy.hpp"
 #include "accuracy/say_errors.hpp"
+#include "accuracy/section_in_place.hpp"
 #include "base/memory.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
@@ -13,14 +14,15 @@ namespace langer {
 namespace {
 
 struct Solved {
-  enum class At { the_end, not_homogeneous, too_coarse } at = At::the_end;
+  enum class At { the_end, not_homogeneous, too_coarse, other_section } at = At::the_end;
   std::vector<Summary> summary = {};
   std::vector<ErrorEstimate> errors = {};
 };
 
 // Not homogeneous: a body that was solved at a point ceases to deform alike everywhere; its steps before are kept, to continue from.
-// Too coarse: accuracy has another config now.
-Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& material, Accuracy& accuracy, bool at_a_point) {
+// Too coarse, other section: accuracy, or what may stand for the block, has another config now.
+Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& material, SectionInPlace& section, Accuracy& accuracy,
+                bool at_a_point) {
   const SolveConfig config = accuracy.config();
   Run run(body_mesh(config, job.has("mesh") ? job.input("mesh") : "", job.where), config, material, job.where, at_a_point);
   const double jump = say_scene(job.voice(), run);
@@ -50,8 +52,10 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
   recording.need_the_end(end, loose);
 
   std::vector<ErrorEstimate> errors = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
+  if (!section.accurate(errors)) return {Solved::At::other_section};
   if (accuracy.refine(errors)) return {Solved::At::too_coarse};
-  const std::vector<Summary> said = joined({summary_of(errors), accuracy.summary(errors), watch.contact_summary()});
+  const std::vector<Summary> said =
+      joined({summary_of(errors), section.summary(errors), accuracy.summary(errors), watch.contact_summary()});
   recording.finish(recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}),
                    said);
   progress.finished(end.path, run.statics, recording.seconds());
@@ -63,13 +67,21 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const std::optional<Material> material =
       job.has("material") ? std::optional(material_of_body(job.input("material"))) : job.config.material;
-  Accuracy accuracy(job.voice(), job.config, material, job.where, job.dry_run);
+  SolveConfig own = job.config;
+  if (job.has("mesh")) own.mesh.reset();  // another mesh is solved
+  SectionInPlace section(job.voice(), own, material, job.where, job.dry_run);
+  const auto accuracy_of = [&] {
+    return Accuracy(job.voice(), section.taken() ? section.config() : job.config, material, job.where, job.dry_run);
+  };
+  Accuracy accuracy = accuracy_of();
   bool at_a_point = job.config.homogeneous == Homogeneous::automatic;
   for (;;) {
-    const Solved solved = solve_by(job, material, accuracy, at_a_point);
+    const Solved solved = solve_by(job, material, section, accuracy, at_a_point);
     if (solved.at == Solved::At::not_homogeneous) {
       job.say("homogeneous: the mesh no longer balances, and is solved from there on");
       at_a_point = false;
+    } else if (solved.at == Solved::At::other_section) {
+      accuracy = accuracy_of();
     } else if (solved.at == Solved::At::the_end) {
       if (!job.dry_run) accuracy.need(solved.errors, job.output);
       return solved.summary;

@@ -89,8 +89,8 @@ std::vector<Complaint> SectionBox::complaints() const {
 }
 
 SectionBox IndentedDisc::section() const {
-  const IndentedBlock whole{
-      {-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer, {}, {}, {}};
+  IndentedBlock whole{{-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer, {}, {}, {}};
+  if (even) whole.even = {*even, *even};
   const Block b = whole.block();
   SectionBox half{SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}, {}, {}};
   if (b.instead) half.instead = {(*b.instead)[0] / 2, (*b.instead)[1]};

@@ -45,6 +45,7 @@ struct IndentedDisc {
   std::array<double, 2> size{};
   double base = 0, radius = 0, depth = 0, edge = 0.175;
   double longer = 1;            // all cells by this factor, as nearly as their numbers allow; not for files
+  std::optional<double> even;   // how far from the axis cells are even; none: 1.1 radii of the contact; not for files [mm]
   std::vector<double> borders;  // y of the faces between layers; not for files
   static void fields(auto& v) {
     v(&IndentedDisc::size, "size", unit::mm, "radius and thickness of the disc", required, between(1e-3, 1e6));

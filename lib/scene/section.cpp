@@ -19,8 +19,9 @@ bool has_symmetry_of(SectionOf of, const Indenter& shape) {
 
 // a direction that the section's own symmetry leaves alone
 bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
-  if (fibre.kappa >= 1.0 / 3 - 1e-12) return true;
-  return of == SectionOf::plane_strain && (std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same);
+  if (!has_direction(fibre)) return true;
+  if (of == SectionOf::axisymmetric) return std::abs(a[1]) >= 1 - same;
+  return std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same;
 }
 
 }  // namespace
@@ -63,11 +64,11 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     if (families.empty() || said[body]) continue;
     const auto a = scene.directions.of(e);
     for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
-      if (!acts(families[k]) || kept(families[k], a[k], mesh.section->of)) continue;
+      if (kept(families[k], a[k], mesh.section->of)) continue;
       said[body] = 1;
       const bool own = config.materials.count(mesh.bodies[body]) > 0;
       refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
-             is_round ? "no fibres (c1: 0), or fibres without direction (kappa: 1/3)"
+             is_round ? "no fibres (c1: 0), or fibres along y or without direction (kappa: 1/3)"
                       : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
              "fibres in one direction make a body that needs all three dimensions: a block");
     }

@@ -100,6 +100,10 @@ constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
 constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
 
+// Whether a block that is the same around an axis, but for its far sides, is solved as a section (accuracy/section_in_place.hpp).
+enum class Reduce { none, automatic };
+constexpr auto names(Reduce) { return std::array{"none", "auto"}; }
+
 // Whether a body that deforms alike everywhere is solved at a point (run/homogeneous.hpp).
 enum class Homogeneous { automatic, off };
 constexpr auto names(Homogeneous) { return std::array{"auto", "off"}; }
@@ -145,6 +149,7 @@ struct SolveConfig {
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
   SymmetryChoice symmetry = SymmetryChoice::none;
+  Reduce reduce = Reduce::none;
   Homogeneous homogeneous = Homogeneous::automatic;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
@@ -181,6 +186,10 @@ struct SolveConfig {
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
+    v(&SolveConfig::reduce, "reduce", unit::none,
+      "auto: an indented_block with free sides whose scene is the same around its axis is solved as an axisymmetric section, a disc "
+      "of its area, where the discs inside and around the block tell that its sides change the force by less than accuracy or "
+      "fidelity allow (1% without them); results are those of the section");
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
       "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
       "solved in place of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");

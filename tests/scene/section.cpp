@@ -2,8 +2,11 @@
 #include "scene/section.hpp"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <random>
 
@@ -385,4 +388,31 @@ TEST_CASE("a section continues from what was written of it") {
   for (std::size_t i = 0; i < state.r[0].size(); ++i) CHECK(state.r[0][i] == last.contacts.at("ball").r[i]);
   for (int i = 0; i < mesh.n_nodes(); ++i)
     CHECK(Vec3(state.u.segment<3>(3 * i)) == (i < n_front(mesh) ? last.u[i] : Vec3(Vec3::Zero())));
+}
+
+TEST_CASE("fibres along the axis of a cylinder pull as those of a bar do; a degree off it they are refused") {
+  const auto written = [](const std::string& name, double degrees) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("langer_section_" + std::to_string(getpid()) + name)).string();
+    std::ofstream(path) << "x,y,z,a_x,a_y,a_z\n0,0,0," << std::sin(degrees * pi / 180) << "," << std::cos(degrees * pi / 180)
+                        << ",0\n";
+    return path;
+  };
+  const std::string along = written("along.csv", 0), off = written("off.csv", 1);
+  const auto scene = [](const std::string& geometry, const std::string& file, const std::string& sides) {
+    return "mesh: {geometry: " + geometry + "}\nfibre_field: {points: {file: " + file +
+           "}}\nmaterial: {matrix: {neo_hooke: {a1: 0.1}}, fibres: [{hgo: {c1: 0.3, c2: 0.5}}], volume: {quadratic: {d: 1.0e-3}}}\n"
+           "supports: [{on: bottom, hold: [y]}" +
+           sides + "]\nloads: [{on: top, displacement: {y: 0.3}}]\npath: {steps: 2}\n" + tight;
+  };
+  const std::string cylinder = "{section: {of: axisymmetric, size: [1.5, 1], divisions: [3, 2]}}";
+  const double bar =
+      run(scene("{block: {size: [1, 1, 1], divisions: [1, 1, 1]}}", along, ", {on: x_min, hold: [x]}, {on: z_min, hold: [z]}"))
+          .reaction("top")[1];
+  const double round = run(scene(cylinder, along, "")).reaction("top")[1];
+  CHECK(bar > 0.1);
+  CHECK(round == doctest::Approx(pi * 1.5 * 1.5 * bar).epsilon(1e-8));
+  const SolveConfig config = config_of(scene(cylinder, off, ""));
+  CHECK(test::said_of_scene(scene(cylinder, off, ""), mesh_in(config)).find("fibres along y") != std::string::npos);
+  std::filesystem::remove(along), std::filesystem::remove(off);
 }

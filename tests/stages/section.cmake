@@ -59,3 +59,23 @@ run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o asked.h5 --set accu
 expect_said("force 10.7")
 run(2 ${BIN}/langer-post --solution whole/solution.h5 --export scene.inp)
 expect_said("a section; expected the same scene on a body in three")
+
+# a block whose scene is the same around its axis: in its place the section, where that is asked for, with what the sides may change
+file(WRITE ${folder}/block.yaml "mesh: {geometry: {indented_block: {size: [20, 2, 20], radius: 2.5, depth: 0.5, edge: 0.3}}}
+material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-3}}}
+supports: [{on: bottom, hold: [x, y, z]}]
+contacts: {ball: {rigid: {sphere: {radius: 2.5, centre: [10, 4.5, 10]}}, motion: [{t: 1, to: [0, -0.5, 0]}]}}
+symmetry: auto
+path: {steps: 2}
+")
+run(0 ${BIN}/langer-solve block.yaml -o block/solution.h5)
+expect_said("the same around an axis but for its sides: reduce: auto solves a section")
+expect_said("mirror x and mirror z")
+run(0 ${BIN}/langer-solve block.yaml -o in_place/solution.h5 --set reduce=auto --set accuracy=1%)
+expect_said("a section of a disc of 11.28 mm, of the block's area, takes its place")
+expect_said("axisymmetric section")
+run(0 ${BIN}/langer show in_place/solution.h5)
+expect_said("force_error_sides")
+expect_said("accuracy")
+run(0 ${BIN}/langer-solve block.yaml -o beside/solution.h5 --set reduce=auto --set "contacts.ball.rigid.sphere.centre[0]=10.5")
+expect_said("reduce: no indented_block here whose scene is the same around an axis")
