@@ -1,5 +1,6 @@
 // langer-tune trade.yaml --curves a/curves.h5 --curves b/curves.h5 -o trade.h5: errors against CPU seconds and memory of every
-// rung, also as trade.csv; the front of each quantity as picture and CSV; the cheapest rung for each error wanted.
+// rung, also as trade.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
+// rung for each error wanted that is not below that.
 #include <cmath>
 
 #include "hdf5/seal.hpp"
@@ -76,17 +77,32 @@ Reference reference_of(const Job<TuneConfig>& job, const Ladder& ladder, const s
 
 std::string name_of(const GatherInput& member) { return fmt::format("{}", fmt::join(member.at, " ")); }
 
+// errors of one quantity, in percent of its reference
+struct LevelErrors {
+  std::vector<double> found;    // of each member; no number for those that stand for the truth
+  double uncertain = 0;         // the reference
+  std::vector<int> front = {};  // of what is known of them
+  std::vector<double> known() const {
+    std::vector<double> all;
+    for (double e : found) all.push_back(known_error(e, uncertain));
+    return all;
+  }
+};
+
 void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Ladder& ladder,
-          const std::vector<double>& cpu, const std::vector<double>& error, const std::vector<int>& front) {
+          const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
-  std::string all = "rung,cpu_s,error_percent\n", best = all;
+  std::string all = "rung,cpu_s,error_percent,error_low,error_high\n", best = all;
   const auto line = [&](std::size_t i) {
-    return fmt::format("{},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], error[i]);
+    const double e = errors.found[i],
+                 low = std::max(e - errors.uncertain, 0.1 * e);  // an end of 0 has no place on a logarithmic axis
+    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], e, low,
+                       e + errors.uncertain);
   };
   for (std::size_t i = 0; i < cpu.size(); ++i)
-    if (std::isfinite(cpu[i]) && error[i] > 0) all += line(i);
-  for (int i : front)
-    if (error[static_cast<std::size_t>(i)] > 0) best += line(static_cast<std::size_t>(i));
+    if (std::isfinite(cpu[i]) && errors.found[i] > 0) all += line(i);
+  for (int i : errors.front)
+    if (errors.found[static_cast<std::size_t>(i)] > 0) best += line(static_cast<std::size_t>(i));
   write_text_file(job.beside(name + ".csv"), all);
   write_text_file(job.beside(name + "_front.csv"), best);
   Plot plot;
@@ -95,7 +111,39 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   plot.logarithmic = true;
   plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "levels"}};
   plot.lines[0].names = "rung", plot.lines[1].points = true;
+  if (errors.uncertain > 0) plot.lines[1].low = "error_low", plot.lines[1].high = "error_high";
   pictures.draw(name, gnuplot_script(plot, name));
+}
+
+// lines of cheapest.csv
+std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Ladder& ladder, const std::vector<double>& cpu,
+                   const std::vector<double>& memory, const LevelErrors& errors) {
+  std::string choice;
+  for (double wanted : job.config.wanted) {
+    const int i = cheapest(cpu, errors.known(), wanted);
+    if (i < 0) {
+      const bool unknown = wanted < errors.uncertain;
+      job.say("  {:g} %: {}", wanted, unknown ? "not told, the reference itself is not known to that" : "no level");
+      choice += fmt::format("{},{:g},,,,\n", quantity, wanted);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(i);
+    const double error = errors.known()[k];
+    job.say("  {:g} %: {} ({}{:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]),
+            errors.found[k] < errors.uncertain ? "at most " : "", error, cpu[k], memory[k]);
+    choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted, csv_cell(name_of(ladder.members[k])),
+                          error, cpu[k], memory[k]);
+  }
+  return choice;
+}
+
+LevelErrors errors_of(const std::vector<double>& values, const std::vector<double>& cpu, const Reference& reference) {
+  const double right = reference.limit.value;
+  LevelErrors errors{{}, 100 * reference.limit.uncertainty / std::abs(right)};
+  for (double v : values) errors.found.push_back(100 * std::abs(v - right) / std::abs(right));
+  for (std::size_t i : reference.no_rungs) errors.found[i] = NAN;
+  errors.front = pareto_front(cpu, errors.known());
+  return errors;
 }
 
 std::vector<Summary> tune(const Job<TuneConfig>& job) {
@@ -115,33 +163,19 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   for (const SweepColumn& column : values.columns) {
     const Reference reference = reference_of(job, ladder, column.values);
     const double right = reference.limit.value;
-    std::vector<double> error;
-    for (double v : column.values) error.push_back(100 * std::abs(v - right) / std::abs(right));
-    std::vector<double> as_rung = error;
-    for (std::size_t i : reference.no_rungs) as_rung[i] = NAN;
-    const std::vector<int> front = pareto_front(cpu, as_rung);
+    const LevelErrors errors = errors_of(column.values, cpu, reference);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
             job.config.reference.member.empty()
-                ? fmt::format(" +- {:.2g} %{}", 100 * reference.limit.uncertainty / std::abs(right),
+                ? fmt::format(" +- {:.2g} %{}", errors.uncertain,
                               reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order) : ", no order seen")
                 : "");
-    std::vector<double> on_front(cpu.size(), 0);
-    for (int i : front) on_front[static_cast<std::size_t>(i)] = 1;
+    std::vector<double> on_front(cpu.size(), 0), error;
+    for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
+    for (double v : column.values) error.push_back(100 * std::abs(v - right) / std::abs(right));
     sweep.columns.push_back({column.name + "_error", "percent", error});
     sweep.columns.push_back({column.name + "_front", "-", on_front});
-    for (double wanted : job.config.wanted) {
-      const int i = cheapest(cpu, as_rung, wanted);
-      if (i < 0) {
-        job.say("  {:g} %: no level", wanted);
-        choice += fmt::format("{},{:g},,,,\n", column.name, wanted);
-        continue;
-      }
-      const auto k = static_cast<std::size_t>(i);
-      job.say("  {:g} %: {} ({:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]), error[k], cpu[k], memory[k]);
-      choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(column.name), wanted,
-                            csv_cell(name_of(ladder.members[k])), error[k], cpu[k], memory[k]);
-    }
-    draw(job, pictures, column.name, ladder, cpu, as_rung, front);
+    choice += choose(job, column.name, ladder, cpu, memory, errors);
+    draw(job, pictures, column.name, ladder, cpu, errors);
     summary.push_back({column.name + "_reference", right, column.unit});
     summary.push_back({column.name + "_reference_uncertainty", reference.limit.uncertainty, column.unit});
   }

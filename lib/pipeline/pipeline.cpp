@@ -206,13 +206,16 @@ class Reading {
     } else if (const Tree* design = tree.find("design")) {
       known_keys(tree, path, {"design"});
       points_of(*design, path + ".design", a);
+    } else if (const Tree* grid = tree.find("grid")) {
+      known_keys(tree, path, {"grid"});
+      points_of_grid(*grid, path + ".grid", a);
     } else {
-      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design"});
+      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design", "grid"});
       if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
       std::vector<std::string> keys;
       for (const char* word : {"key", "keys"})
         if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
-      if (keys.empty()) f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, or design");
+      if (keys.empty()) f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, grid or design");
       for (const std::string& key : keys)
         if (split_path(key).empty())
           f.say(tree.place, path, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
@@ -222,8 +225,36 @@ class Reading {
     return a;
   }
 
+  static constexpr std::size_t most = 10'000;  // points of an axis
+
+  // all combinations of the values of some keys, the last key fastest
+  void points_of_grid(const Tree& tree, const std::string& path, Axis& a) {
+    if (!is_map(tree, path)) return;
+    a.points = {{"", {}, {}}};
+    for (const auto& [key, given] : tree.map) {
+      const std::string here = join(path, key);
+      if (split_path(key).empty())
+        f.say(given.place, here, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
+      if (given.kind != Tree::Kind::list || given.list.empty()) {
+        f.say(given.place, here, "found " + description(given), "a list of values");
+        continue;
+      }
+      if (a.points.size() * given.list.size() > most)
+        return f.say(tree.place, path, "more than 10000 combinations", "10000 at most", "fewer values");
+      std::vector<AxisPoint> points;
+      for (const AxisPoint& point : a.points)
+        for (std::size_t i = 0; i < given.list.size(); ++i) {
+          AxisPoint& next = points.emplace_back(point);
+          next.label += (next.label.empty() ? "" : "-") + label_text(given.list[i], item(here, i));
+          next.settings.push_back({key, given.list[i]});
+        }
+      a.points = std::move(points);
+    }
+    for (const AxisPoint& point : a.points)
+      if (!is_label(point.label)) bad_name(tree.place, path, point.label);
+  }
+
   void points_of(const Tree& tree, const std::string& path, Axis& a) {
-    constexpr std::size_t most = 10'000;
     Design design;
     const std::size_t before = f.errors.size();
     read_value(tree, path, Member{}, design, f);

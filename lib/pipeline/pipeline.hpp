@@ -10,7 +10,8 @@
 //     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
 //     table: {stage: gather, curves: post, over: [code, alpha]}
 //
-// An axis may also be a design of experiments: {design: {parameters: [{key, lower, upper}], morris: {trajectories: 6}}}; its
+// An axis may also be a grid: {grid: {<key>: [values], <key>: [values]}}, all combinations of them, labelled 0.25-10; or a design of
+// experiments: {design: {parameters: [{key, lower, upper}], morris: {trajectories: 6}}}; its
 // points are numbered, and the node that gathers over it tells effects (sweep/design.hpp).
 // A variant is a map of settings, or the path of a config in place of the node's. A port takes a node's name, one member of it
 // ({node: fit, law: HGO-Yeoh}) or a file; one that takes several files also a list of those.

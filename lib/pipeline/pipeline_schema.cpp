@@ -45,6 +45,11 @@ Tree axis(Definitions& definitions) {
                                                      object({{"type", word("object")},
                                                              {"additionalProperties", types({"object", "string", "null"})}}))}},
                           {"variants"}),
+              keys_of_map({{"grid", described_by("all combinations of values, by the path of their key",
+                                                 object({{"type", word("object")},
+                                                         {"additionalProperties",
+                                                          object({{"type", word("array")}, {"items", texts()}})}}))}},
+                          {"grid"}),
               keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}}, {"design"}),
               keys_of_map(
                   {{"key", described_by("path of the key that varies, such as fibre_angles[0]", one_or_several(type("string")))},

@@ -102,6 +102,9 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
       draw += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
                           markers[dash % markers.size()], every);
     draw += fmt::format(" title {}", printed(line.legend));
+    if (!line.low.empty())
+      draw += fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle", gnuplot_file(line.csv),
+                          gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.low), gnuplot_string(line.high), rgb);
     if (!line.names.empty())
       draw +=
           fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",

@@ -182,3 +182,37 @@ TEST_CASE("a recipe is one plain command with a launcher in front, programs are 
     CHECK(text.find(std::string("\n") + line) != std::string::npos);
   }
 }
+
+TEST_CASE("a grid is one axis of all combinations, named by their values") {
+  const auto steps = steps_of(
+      "pipeline: p\nnodes:\n  solve: {stage: solve, config: {path: {steps: 1}}, sweep: {level: {grid: {mesh.edge: [0.3, 0.25], path.steps: "
+      "[4, 10, 20]}}}}\n  post: {stage: post, solution: solve}\n  front: {stage: tune, curves: post, over: level}\n");
+  CHECK(folders(steps, "solve") == Words{"level_0.3-4/solve", "level_0.3-10/solve", "level_0.3-20/solve", "level_0.25-4/solve",
+                                         "level_0.25-10/solve", "level_0.25-20/solve"});
+  const Step& one = step(steps, "level_0.25-10/solve");
+  CHECK(one.config.find("mesh")->find("edge")->scalar == "0.25");
+  CHECK(one.config.find("path")->find("steps")->scalar == "10");
+  CHECK(folders(steps, "front") == Words{"front"});
+  CHECK(step(steps, "front").inputs.size() == 6);
+}
+
+TEST_CASE("a grid without keys, values or numbers of combinations that end is refused with its place") {
+  const auto said = [](const std::string& grid) -> std::string {
+    try {
+      steps_of("pipeline: p\nnodes:\n  solve: {stage: solve, config: {}, sweep: {level: {grid: " + grid + "}}}\n");
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+    return "accepted";
+  };
+  CHECK(said("{d: [1, 2]}") == "accepted");
+  CHECK(said("{}").find("p.yaml:3") != std::string::npos);
+  CHECK(said("{d: []}").find("a list of values") != std::string::npos);
+  CHECK(said("{d: 1}").find("nodes.solve.sweep.level.grid.d") != std::string::npos);
+  CHECK(said("{d: [{a: 1}]}") != "accepted");
+  CHECK(said("{d: [a/b]}") != "accepted");
+  CHECK(said("{d: [1, 1]}") != "accepted");
+  std::string many = "[0";
+  for (int i = 1; i < 200; ++i) many += ", " + std::to_string(i);
+  CHECK(said("{a: " + many + "], b: " + many + "]}").find("10000") != std::string::npos);
+}

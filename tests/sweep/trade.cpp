@@ -55,3 +55,16 @@ TEST_CASE("the front holds what nothing beats in both, failures left out, and th
   CHECK(cheapest(cost, error, 1) == 0);
   CHECK(cheapest(cost, error, 0.5) == -1);
 }
+
+TEST_CASE("an error smaller than the uncertainty of the reference counts as large as that: nothing is told for less") {
+  const std::vector<double> cost{1, 2, 3, 4, 5}, error{2, 0.4, 0.01, 0.2, NAN};
+  std::vector<double> known;
+  for (double e : error) known.push_back(known_error(e, 0.3));
+  CHECK(known[2] == 0.3);
+  CHECK(known[3] == 0.3);
+  CHECK(std::isnan(known[4]));
+  CHECK(pareto_front(cost, known) == std::vector<int>{0, 1, 2});  // what costs more and is not known to be better is none
+  CHECK(cheapest(cost, known, 0.3) == 2);
+  CHECK(cheapest(cost, known, 0.29) == -1);
+  CHECK(cheapest(cost, error, 0.29) == 2);
+}
