@@ -207,7 +207,8 @@ TEST_CASE("the next level follows from the error of the one before: cells by the
 
 TEST_CASE("cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {
   for (const auto& [x, z] : {std::pair{5., -3.}, {13., 13.}, {14.9, 0.}, {15., 15.}, {0., 2.}}) {
-    CAPTURE(x);
+    const auto at = x;
+    CAPTURE(at);
     IndentedBlock b{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175};
     b.under = {x, z};
     CHECK(b.complaints().empty());

@@ -133,8 +133,10 @@ TEST_CASE("the reaction of a clamped body has an error bar that holds, and tells
       for (const auto& [cells, n] : {std::pair{"hex8", 4}, {"hex8", 8}, {"hex27", 4}}) {
         CAPTURE(load);
         CAPTURE(law);
-        CAPTURE(cells);
-        CAPTURE(n);
+        const auto kind = cells;
+        CAPTURE(kind);
+        const auto per_mm = n;
+        CAPTURE(per_mm);
         const ErrorEstimate reaction = estimates_of(scene(cells, n))[0];
         CHECK(reaction.of.name == "reaction_x_max");
         const double error = std::abs(reaction.of.value - right);

@@ -78,7 +78,8 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
     Statics statics(body, {wedge}, {});
     REQUIRE(run(statics, 0.05, {0.1}).complete);
     const ContactDefect defect = statics.defects()[0];
-    CAPTURE(mu);
+    const double friction = mu;
+    CAPTURE(friction);
     CHECK(defect.stick == 0);
     CHECK(defect.slip == 10);
     CHECK(std::abs(defect.force[0]) / defect.force[1] == doctest::Approx(ratio).epsilon(1e-6));

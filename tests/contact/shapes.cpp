@@ -179,7 +179,8 @@ TEST_CASE("the outline of every shape lies on its surface and is seen from outsi
   auto list = shapes();
   list.emplace_back("box", faceted_box({1, 0.6, 2}));
   for (const auto& [name, shape] : list) {
-    CAPTURE(name);
+    const auto named = name;
+    CAPTURE(named);
     const Outline out = outline(shape, {Vec3(0, 2, 0), 10, 24});
     CHECK(out.faces.size() > 20);
     double farthest = 0;
@@ -226,7 +227,8 @@ TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
 
 TEST_CASE("outlines are closed, and what is cut off them leaves a face in the plane") {
   for (const auto& [name, shape] : closed_shapes()) {
-    CAPTURE(name);
+    const auto named = name;
+    CAPTURE(named);
     const Outline whole = outline(shape, {Vec3::Zero(), 10, 24});
     CHECK(area_vector(whole).norm() < 1e-9 * area(whole));
     for (int axis = 0; axis < 3; ++axis) {
@@ -251,7 +253,8 @@ TEST_CASE("normal and curvature are the first and second derivatives of the gap"
   std::mt19937 random(9);
   std::uniform_real_distribution<double> u(-6, 6);
   for (const auto& [name, shape] : shapes()) {
-    CAPTURE(name);
+    const auto named = name;
+    CAPTURE(named);
     int checked = 0;
     for (int k = 0; k < 400; ++k) {
       const Vec3 x(u(random), u(random), u(random));

@@ -68,7 +68,8 @@ TEST_CASE("CalculiX makes of its cards the stress of Langer's laws") {
                                                    {"idle", {{Yeoh{0.3, 0.05, 0.02}}, {{HgoFibre{0, 1}}}, volume}}};
   for (const auto& [name, m] : laws)
     for (double stretch : {1.5, 0.75}) {
-      CAPTURE(name);
+      const auto named = name;
+      CAPTURE(named);
       CAPTURE(stretch);
       const Card card = cards(m).back();
       REQUIRE(card.program == "CalculiX");

@@ -64,7 +64,8 @@ TEST_CASE("an angle is the same in every box of 180 degrees and more, with its e
   REQUIRE(expected.best.converged);
   const Profile known = profile_of(narrow, expected, 3);
   for (const auto& [lower, upper] : {std::pair{-90., 90.}, {0., 180.}, {61., 241.}, {-125., 60.}, {-180., 180.}}) {
-    CAPTURE(lower);
+    const auto from = lower;
+    CAPTURE(from);
     const FitProblem q = goh_fit(tests, std::clamp(50., lower, upper), lower, upper);
     const FitResult f = fit(q, {.starts = 1});
     REQUIRE(f.best.converged);
@@ -154,9 +155,11 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
                {"fibres[0].hgo.c1", 0.1, 0, 10}, {"fibres[0].hgo.c2", 1, 0, 100}, {"fibres[0].alpha", 80, -90, 90}};
   const FitResult c = fit(yeoh, {.starts = 2});
   for (const auto& [q, f] : {std::pair{&other, &b}, {&yeoh, &c}}) {
-    const Bootstrap samples = bootstrap([&] { return least_squares_problem(*q); }, f->best.p, f->noise, {.samples = 60});
+    const FitProblem& problem = *q;
+    const Bootstrap samples = bootstrap([&] { return least_squares_problem(problem); }, f->best.p, f->noise, {.samples = 60});
     for (Eigen::Index i = 0; i < f->best.p.size(); ++i) {
-      CAPTURE(q->free[static_cast<std::size_t>(i)].key);
+      const std::string& key = problem.free[static_cast<std::size_t>(i)].key;
+      CAPTURE(key);
       CHECK(samples.low[i] <= f->best.p[i]);
       CHECK(samples.high[i] >= f->best.p[i]);
     }

@@ -64,7 +64,8 @@ void check_same(const Mesh& a, const Mesh& b, double tolerance) {
   CHECK(a.node_sets == b.node_sets);
   REQUIRE(a.facet_sets.size() == b.facet_sets.size());
   for (const auto& [name, facets] : a.facet_sets) {
-    INFO(name);
+    const auto named = name;
+    INFO(named);
     REQUIRE(b.facet_sets.count(name));
     CHECK(as_nodes(a, facets) == as_nodes(b, b.facet_sets.at(name)));
   }

@@ -34,7 +34,8 @@ bool smooth(const Material& m, const PlaneState& s, double angle) {
 TEST_CASE("held uniaxial states are those of the uniaxial solver, for every law") {
   for (const auto& [name, m] : catalogue())
     for (double l : {0.8, 1.05, 1.3}) {
-      CAPTURE(name);
+      const auto named = name;
+      CAPTURE(named);
       const PlaneState s = state(m, TestKind::uniaxial, l);
       const Uniaxial u = uniaxial_incompressible(m, l);
       REQUIRE(s.converged);
@@ -44,9 +45,11 @@ TEST_CASE("held uniaxial states are those of the uniaxial solver, for every law"
 }
 
 TEST_CASE("the nominal stress is the derivative of the energy along the test, for every law and kind, held and free") {
-  for (const auto& [name, m] : catalogue())
+  for (const auto& law : catalogue())
     for (TestKind kind : all_kinds)
       for (OffAxisShear shear : {OffAxisShear::held, OffAxisShear::free}) {
+        const std::string& name = law.name;
+        const Material& m = law.material;
         CAPTURE(name);
         CAPTURE(names(kind)[static_cast<std::size_t>(kind)]);
         const double first = kind == TestKind::simple_shear ? 0.3 : 1.2, second = 1.15, h = 1e-3, angle = 12;

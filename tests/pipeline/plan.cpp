@@ -120,7 +120,8 @@ TEST_CASE("a data file is a prerequisite, and effective configs hold no absolute
   CHECK(makefile.find("fit/material.h5: fit/fit.yaml ../../curve.csv ") != std::string::npos);
   CHECK(read("runs/p/fit/fit.yaml").find("file: ../../../curve.csv\n") != std::string::npos);
   for (const auto& [path, time] : times("runs")) {
-    CAPTURE(path);
+    const auto which = path;
+    CAPTURE(which);
     CHECK(read(path).find(project.root.string()) == std::string::npos);
   }
 }

@@ -117,7 +117,8 @@ TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy
       CHECK(force < 1e-8 * most);
       REQUIRE(a.cell_fields.size() == b.cell_fields.size());
       for (const auto& [name, values] : b.cell_fields) {
-        CAPTURE(name);
+        const auto named = name;
+        CAPTURE(named);
         REQUIRE(a.cell_fields.at(name).size() == values.size());
         double scale = 0, worst = 0;
         for (std::size_t e = 0; e < values.size(); ++e) {

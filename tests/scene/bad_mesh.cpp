@@ -48,7 +48,8 @@ TEST_CASE("a mesh file with a folded, a flat or an inverted cell is refused with
   Mesh inverted = test::cube(1);
   for (Vec3& X : inverted.X) X[2] = -X[2];
   for (const auto& [mesh, cell] : {std::pair{folded, 5}, {flat, 0}, {inverted, 0}}) {
-    CAPTURE(cell);
+    const auto wrong = cell;
+    CAPTURE(wrong);
     const Run run = solve_on(mesh);
     INFO(run.said);
     CHECK(run.code == 3);

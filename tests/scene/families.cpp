@@ -83,7 +83,8 @@ TEST_CASE("A family with c1 = 0 keeps its place under a field: force and columns
       for (int k = 0; k < families; ++k) CHECK((a[k] - of_little[k]).norm() == 0);
     }
     for (const auto& [name, values] : little.last.cell_fields) {
-      CAPTURE(name);
+      const auto named = name;
+      CAPTURE(named);
       REQUIRE(none.last.cell_fields.count(name) == 1);
       for (std::size_t e = 0; e < values.size(); ++e)
         CHECK(none.last.cell_fields.at(name)[e] == doctest::Approx(values[e]).epsilon(1e-6));

@@ -41,7 +41,8 @@ TEST_CASE("a formula that cannot be read is refused with the place of its key an
   const Mesh mesh = test::block(test::even(0, 1, 1), test::even(0, 1, 1), test::even(0, 1, 1));
   for (const auto& [formula, part] :
        {std::pair{"30 + 2*q", "character 8"}, {"1/(x - 0.5)", "inf"}, {"1, 2", "2 values"}, {"", ""}}) {
-    CAPTURE(std::string(formula));
+    const auto text = std::string(formula);
+    CAPTURE(text);
     std::string said;
     try {
       laid(FormulaField{formula}, mesh);

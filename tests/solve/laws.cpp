@@ -66,7 +66,8 @@ TEST_CASE("Cells of second order take the same increments with any volume law, a
     found[volume.substr(0, volume.find(':'))] = force;
   }
   for (const auto& [law, force] : found) {
-    CAPTURE(law);
+    const auto of_law = law;
+    CAPTURE(of_law);
     CHECK(force == doctest::Approx(found.at("quadratic")).epsilon(1e-3));
   }
 }

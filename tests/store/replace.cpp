@@ -46,7 +46,8 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
                                                       {folder + "/link", "is a link to " + folder + "/target.h5"},
                                                       {folder + "/dangling", "is a link to"}};
   for (const auto& [path, found] : cases) {
-    CAPTURE(path);
+    const auto which = path;
+    CAPTURE(which);
     CHECK(holds(refusal([&] { need_own_output(path); }), found));
     CHECK(holds(refusal([&] { write_text_file(path, "a\n"); }), found));
     CHECK(holds(refusal([&] { h5::File::create(path); }), found));
