@@ -18,9 +18,7 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // from e_x towards e_z, which is about -e_y
-Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) {
-  return Eigen::AngleAxisd(-radians(angle_deg), frame.col(1)) * a;
-}
+Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) { return Eigen::AngleAxisd(-radians(angle_deg), frame.col(1)) * a; }
 
 }  // namespace
 

@@ -49,10 +49,11 @@ TEST_CASE("extremes: a block free to glide and spin on its base is pressed by a 
         Equilibrium body = test::equilibrium(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation,
                                              number_dofs(mesh.n_nodes(), held).dofs);
         Statics statics(body, {sphere}, {});
-        const auto [path, iterations] = test::run(statics, 0.1);
+        const test::Run followed = test::run(statics, 0.1);
+        const PathReport& path = followed.path;
         REQUIRE_MESSAGE(path.complete, path.why);
         CHECK(path.cuts == 0);
-        for (int n_iterations : iterations) CHECK(n_iterations <= 9);
+        for (int n_iterations : followed.iterations) CHECK(n_iterations <= 9);
         Vec3 turn = Vec3::Zero(), glide = Vec3::Zero();
         double inertia = 0;
         for (int i = 0; i < mesh.n_nodes(); ++i) {

@@ -45,9 +45,9 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
                                                       {folder, "is a folder"},
                                                       {folder + "/link", "is a link to " + folder + "/target.h5"},
                                                       {folder + "/dangling", "is a link to"}};
-  for (const auto& [path, found] : cases) {
-    const auto which = path;
-    CAPTURE(which);
+  for (const auto& refused : cases) {
+    const std::string &path = refused[0], &found = refused[1];
+    CAPTURE(path);
     CHECK(holds(refusal([&] { need_own_output(path); }), found));
     CHECK(holds(refusal([&] { write_text_file(path, "a\n"); }), found));
     CHECK(holds(refusal([&] { h5::File::create(path); }), found));
