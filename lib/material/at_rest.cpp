@@ -15,6 +15,7 @@ AtRest at_rest(const Material& material) {
   for (const MaterialParameter& p : parameters(copy))
     if (p.unit == std::string(unit::MPa)) largest = std::max(largest, std::abs(*p.value));
   const double mu = shear_modulus(material);
+  if (std::isnan(mu)) return AtRest::unstable;  // moduli that are too large to add up
   if (std::abs(mu) <= 1e-12 * largest || mu == 0) return AtRest::without_stiffness;
   return mu > 0 ? AtRest::stiff : AtRest::unstable;
 }
