@@ -23,7 +23,10 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 constexpr AccuracyRung coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
 constexpr AccuracyRung of_disc{CellType::hex8, 0.07, 0.25, 0};
 constexpr double finest_of_block = 0.04, finest_of_disc = 0.01, shortest_step = 0.01;  // finer ones were never tried
-constexpr double most_hex8 = 2e5;  // of meshes whose cells are no lengths in contact radii
+constexpr double most_hex8 = 6e4;  // of meshes whose cells are no lengths in contact radii
+// An estimate of more than this [%] may be too large by the factor: then cells that it calls too long may do, and are not shortened at
+// once by all that it asks for.
+constexpr double rough = 5, too_large = 4, at_once = 0.4;
 
 double longest_increment(const LoadPathOptions& path) { return path.steps ? 1.0 / *path.steps : path.largest; }
 
@@ -240,8 +243,9 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
   const double least = chosen.finest / chosen.rung.edge;
   for (const ErrorEstimate& e : estimates) {
     if (!counts(e, estimates)) continue;
-    if (percent_with(e, least, step) > chosen.wanted) return std::nullopt;
-    while (percent_with(e, edge, step) > enough && edge > least) edge *= 0.97;
+    const bool is_rough = e.in_percent(e.total()) > rough;
+    if (percent_with(e, least, step) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
+    while (percent_with(e, edge, step) > enough && edge > (is_rough ? std::max(least, at_once) : least)) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
   finer.step = std::max(finer.step, std::min(shortest_step, chosen.rung.step)), finer.edge = std::max(finer.edge, chosen.finest);

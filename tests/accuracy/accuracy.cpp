@@ -201,6 +201,9 @@ TEST_CASE("the next level follows from the error of the one before: cells by the
   REQUIRE(by_step.has_value());
   CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.1)).epsilon(0.01));
   CHECK(by_step->edge > 0.15);
+  // of much, which is rough, not all at once, and where it may be too large
+  CHECK(finer_rung(chosen, {of(10, 0, 0, 1)})->edge == doctest::Approx(0.4 * 0.16).epsilon(0.05));
+  CHECK(!finer_rung(chosen, {of(20, 0, 0, 1)}));
   chosen.rung.edge = 0.04;
   CHECK(!finer_rung(chosen, {of(3.2, 0)}));  // the finest there is
 }
