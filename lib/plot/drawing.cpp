@@ -85,8 +85,9 @@ struct SvgWriter {
   }
   void operator()(const Label& t) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
-    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", t.at[0], t.at[1], t.size,
-                     anchors[static_cast<int>(t.anchor)], t.enhanced ? with_subscripts(t) : escaped(t.text));
+    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", t.at[0], t.at[1], t.size,
+                     anchors[static_cast<int>(t.anchor)], t.white ? " fill=\"#ffffff\"" : "",
+                     t.enhanced ? with_subscripts(t) : escaped(t.text));
   }
 };
 
@@ -126,9 +127,9 @@ struct GnuplotWriter {
   void operator()(const Label& t) {
     constexpr const char* anchors[] = {"left", "center", "right"};
     // SVG places the base line, gnuplot the middle of the letters
-    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front {}enhanced font ',{}'\n", gnuplot_string(t.text), t.at[0],
+    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front {}enhanced font ',{}'{}\n", gnuplot_string(t.text), t.at[0],
                           drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? "" : "no",
-                          0.75 * t.size);
+                          0.75 * t.size, t.white ? " textcolor rgb '#ffffff'" : "");
   }
 };
 

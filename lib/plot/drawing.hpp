@@ -32,6 +32,7 @@ struct Label {
   double size = 14;
   enum class Anchor { start, middle, end } anchor = Anchor::start;
   bool enhanced = false;  // with gnuplot's marks, as σ_{xx}: shown as subscripts
+  bool white = false;     // instead of black: on dark ground
 };
 
 struct Drawing {

@@ -48,7 +48,10 @@ void add_numbers(Drawing& d, const Grid& g) {
     for (Eigen::Index j = 0; j < g.columns; ++j) {
       const double value = g.map.values(i, j);
       const std::string text = std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isinf(value) ? "none" : "–";
-      d.marks.push_back(label(g.x_of(j) + g.w / 2, g.y_of(i) + g.h / 2 + 4, text, g.w > 55 ? 13 : 11));
+      Label number = label(g.x_of(j) + g.w / 2, g.y_of(i) + g.h / 2 + 4, text, g.w > 55 ? 13 : 11);
+      const Colour ground = g.colour(value);
+      number.white = 0.21 * ground.r + 0.72 * ground.g + 0.07 * ground.b < 0.4;  // luminance
+      d.marks.push_back(number);
     }
 }
 

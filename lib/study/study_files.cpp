@@ -86,6 +86,7 @@ std::vector<std::string> draw_fit(const std::string& measured_column, const std:
   Plot plot;
   plot.x_label = "strain", plot.y_label = "stress (MPa)", plot.title = "measured and fitted";
   plot.lines = {{"fit.csv", "strain", measured_column, "measured"}, {"fit.csv", "strain", "model_MPa", "model"}};
+  plot.lines[0].points = true;  // seen where the model lies on it
   pictures.draw("figure_4", gnuplot_script(plot, "figure_4"));
   plot.y_label = "error (% of the largest stress)", plot.title = "model less measured";
   plot.lines = {{"fit.csv", "strain", "error_percent", "error"}};
