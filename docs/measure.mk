@@ -88,5 +88,5 @@ ASKED ?= 1
 accuracy-random: configure
 	@cmake --build $(build) --parallel $(JOBS) --target langer-random-scenes
 	@mkdir -p runs/random
-	@$(build)/bin/langer-random-scenes runs/random seed=$(SEED) scenes=$(SCENES) asked=$(ASKED) | tee runs/random/table.md
+	@$(build)/tests/langer-random-scenes runs/random seed=$(SEED) scenes=$(SCENES) asked=$(ASKED) | tee runs/random/table.md
 	@tests/soak/page docs/work_precision.md random runs/random/table.md

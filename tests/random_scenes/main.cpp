@@ -33,7 +33,7 @@ Options options_of(int argc, char** argv) {
     const std::string text = argv[i];
     const auto at = text.find('=');
     const std::string key = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
-    if (value.empty())
+    if (value.empty() && !text.starts_with("-"))
       o.folder = text;
     else if (key == "seed")
       o.seed = std::stoull(value);
@@ -129,7 +129,7 @@ void judge(const Options& o, const std::string& name, const Answer& answer, cons
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Options o = options_of(argc, argv);
   std::filesystem::create_directories(o.folder);
   Counts counts;
@@ -163,4 +163,7 @@ int main(int argc, char** argv) {
   fmt::print("Their bars: {} of {} hold, {} more than five times the error. Stresses and displacements: {} of {} bars hold.\n",
              counts.hold, counts.bars, counts.wide, counts.others_hold, counts.others);
   return 0;
+} catch (const std::logic_error& wrong) {
+  fmt::print(stderr, "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120]; found {}\n", wrong.what());
+  return 2;
 }
