@@ -13,7 +13,7 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
-using test::nowhere;
+using test::largest_difference, test::nowhere;
 
 namespace {
 
@@ -74,13 +74,6 @@ Indenter moved(Indenter shape, const Vec3& signs) {
   return shape;
 }
 
-double largest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
-
 // forces within 1e-9 N, displacements within 1e-9 mm; returns how many times fewer unknowns
 double compare(const Mesh& mesh, const Scene& scene, const std::string& words) {
   const auto part = ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere);
@@ -93,11 +86,11 @@ double compare(const Mesh& mesh, const Scene& scene, const std::string& words) {
   REQUIRE(whole.steps.size() == few.steps.size());
   for (std::size_t s = 0; s < whole.steps.size(); ++s) {
     const StepRecord &a = whole.steps[s], &b = few.steps[s];
-    CHECK(largest(a.u, b.u) < 1e-9);
-    CHECK(largest(a.reaction, b.reaction) < 1e-9);
+    CHECK(largest_difference(a.u, b.u) < 1e-9);
+    CHECK(largest_difference(a.reaction, b.reaction) < 1e-9);
     REQUIRE(a.contacts.size() == b.contacts.size());
     for (const auto& [name, contact] : a.contacts) {
-      CHECK(largest(contact.r, b.contacts.at(name).r) < 1e-9);
+      CHECK(largest_difference(contact.r, b.contacts.at(name).r) < 1e-9);
       CHECK(contact.status == b.contacts.at(name).status);
       if (a.contacts.size() < 2) continue;
       double force = 0;

@@ -11,7 +11,7 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
-using test::nowhere;
+using test::largest_difference, test::nowhere;
 
 namespace {
 
@@ -56,13 +56,6 @@ test::HowToSolve in_four_steps() {
   return how;
 }
 
-double largest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
-
 // u within 1e-8 mm, forces within 1e-8 N; returns how many times fewer unknowns
 double compare(const Case& c) {
   CAPTURE(c.nx);
@@ -76,9 +69,9 @@ double compare(const Case& c) {
   REQUIRE(whole.steps.size() == few.steps.size());
   for (std::size_t s = 0; s < whole.steps.size(); ++s) {
     const StepRecord &a = whole.steps[s], &b = few.steps[s];
-    CHECK(largest(a.u, b.u) < 1e-8);
-    CHECK(largest(a.reaction, b.reaction) < 1e-8);
-    CHECK(largest(a.contacts.at("ball").r, b.contacts.at("ball").r) < 1e-8);
+    CHECK(largest_difference(a.u, b.u) < 1e-8);
+    CHECK(largest_difference(a.reaction, b.reaction) < 1e-8);
+    CHECK(largest_difference(a.contacts.at("ball").r, b.contacts.at("ball").r) < 1e-8);
     CHECK((a.force_ind - b.force_ind).norm() < 1e-8);
     CHECK(a.scalars.at("energy") == doctest::Approx(b.scalars.at("energy")).epsilon(1e-9));
     for (const auto& [name, values] : a.cell_fields)
@@ -136,8 +129,8 @@ TEST_CASE("both ends pulled apart: the part takes the displacements of its own n
       for (const Prescribed& p : dofs.prescribed)
         if (p.dof % 3 == 0 && p.value != 0) CHECK(p.value * part->mesh().X[p.dof / 3][0] > 0);
       const auto whole = solved(mesh, scene, std::nullopt, in_four_steps()), few = solved(mesh, scene, part, in_four_steps());
-      CHECK(largest(whole.last().u, few.last().u) < 1e-8);
-      CHECK(largest(whole.last().reaction, few.last().reaction) < 1e-8);
+      CHECK(largest_difference(whole.last().u, few.last().u) < 1e-8);
+      CHECK(largest_difference(whole.last().reaction, few.last().reaction) < 1e-8);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,14 @@ inline Solved solved(const Mesh& mesh, const Scene& scene, const std::optional<R
   CAPTURE(end.path.why);
   REQUIRE(end.path.complete);
   return out;
+}
+
+// of two fields of the same nodes
+inline double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  REQUIRE(a.size() == b.size());
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
 }
 
 }  // namespace langer::test
