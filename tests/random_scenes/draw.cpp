@@ -196,15 +196,6 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
 
 }  // namespace
 
-const std::vector<std::string>& kinds_of_scenes() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> found;
-    for (const auto& maker : makers()) found.push_back(maker.first);
-    return found;
-  }();
-  return names;
-}
-
 DrawnScene drawn_scene(std::uint64_t seed, int number) {
   const auto& [kind, make] = makers()[static_cast<std::size_t>(number) % makers().size()];
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));

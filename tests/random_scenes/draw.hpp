@@ -3,11 +3,8 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace langer::test {
-
-const std::vector<std::string>& kinds_of_scenes();
 
 struct DrawnScene {
   std::string name;  // <number>_<kind>
