@@ -259,8 +259,8 @@ class DeckComposer {
 
   void take_increments() {
     const LoadPathOptions& increments = config_.path;
-    deck_.first = increments.steps ? 1.0 / *increments.steps : increments.first;
-    deck_.largest = increments.steps ? deck_.first : increments.largest, deck_.smallest = increments.smallest;
+    deck_.first = increments.first_increment();
+    deck_.largest = increments.largest_increment(), deck_.smallest = increments.smallest;
     std::set<double> stops(scene().stops.begin(), scene().stops.end());
     stops.insert(1.0);
     deck_.stops.assign(stops.begin(), stops.end());

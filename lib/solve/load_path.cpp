@@ -11,8 +11,8 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
   constexpr double tiny = 1e-10;
   PathReport report;
   report.t = t;
-  const double largest = options.steps ? 1.0 / *options.steps : options.largest;
-  double dt = increment ? *increment : options.steps ? largest : options.first;
+  const double largest = options.largest_increment();
+  double dt = increment.value_or(options.first_increment());
   while (t < 1 - tiny) {
     double stop = 1;
     for (double s : stops)

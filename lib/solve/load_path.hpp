@@ -15,6 +15,11 @@ struct LoadPathOptions {
   std::optional<int> steps;
   double first = 0.1, largest = 0.1, smallest = 1e-4;
   int easy = 6;
+
+  double first_increment() const { return steps ? 1.0 / *steps : first; }
+  double largest_increment() const { return steps ? 1.0 / *steps : largest; }
+  void use_increment(double increment) { steps.reset(), first = largest = increment; }  // for all of the path
+
   static void fields(auto& v) {
     v(&LoadPathOptions::steps, "steps", unit::none, "number of equal increments; first and largest follow from it", at_least(1));
     v(&LoadPathOptions::first, "first", unit::none, "first increment, as a fraction of the path", positive, between(0, 1));
@@ -25,8 +30,7 @@ struct LoadPathOptions {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (!steps && first > largest) found.push_back({"first", "larger than largest", "first <= largest", ""});
-    if (smallest > (steps ? 1.0 / *steps : first))
-      found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
+    if (smallest > first_increment()) found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
     return found;
   }
 };

@@ -80,9 +80,7 @@ Answer asked_for(const SolveConfig& config) {
 
 std::vector<ErrorEstimate> truth_of(SolveConfig config, double seconds) {
   scale_cells(config.mesh->geometry, 0.8);
-  const double step = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
-  config.path.steps.reset();
-  config.path.first = config.path.largest = 0.5 * step;
+  config.path.use_increment(0.5 * config.path.largest_increment());
   {
     Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
     if (forecast_of(config, run.body, run.statics, run.scene.stops).seconds() > seconds) return {};

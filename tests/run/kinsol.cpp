@@ -46,8 +46,7 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
     const auto part = ReducedScene::find(config.symmetry, mesh, scene, test::nowhere);
     test::HowToSolve how;
     how.path = config.path;
-    how.path.steps.reset();  // equal increments, few: else iterations decide on them, and friction remembers its way
-    how.path.first = how.path.largest = name == "scratch" ? 0.05 : 0.2;
+    how.path.use_increment(name == "scratch" ? 0.05 : 0.2);  // few: else iterations decide on them, and friction remembers its way
     how.solver = NewtonOptions{.relative = 1e-10};
     const std::vector<StepRecord> expected = solved(mesh, scene, part, how).steps;
     double size = 0;
