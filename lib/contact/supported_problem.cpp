@@ -50,13 +50,11 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
     constexpr double decided = 1e-8;
     const Eigen::PartialPivLU<MatX> lu(Jacobian);
     VecX step;
-    bool singular;
     {
       const NoTraps a_pivot_may_be_zero;
       step = lu.solve(-now.F);
-      singular = lu.rcond() < decided;
     }
-    if (singular || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
+    if (rcond(lu) < decided || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
       Eigen::CompleteOrthogonalDecomposition<MatX> least;
       least.setThreshold(decided);
       step = least.compute(Jacobian).solve(-now.F);

@@ -101,11 +101,6 @@ Answer solve_fixed(const Condensed& c) {
   return answer;
 }
 
-bool invertible(const Eigen::PartialPivLU<MatX>& lu, double decided) {
-  const NoTraps a_pivot_may_be_zero;
-  return lu.rcond() > decided;
-}
-
 Answer solve_following(const Condensed& c) {
   const auto n = c.move.size();
   MatX A = MatX::Identity(n, n);  // r = b + A s
@@ -117,7 +112,7 @@ Answer solve_following(const Condensed& c) {
     }
   Answer answer{VecX(n), c.present};
   const Eigen::PartialPivLU<MatX> lu(A);
-  if (invertible(lu, 1e-9)) {  // s = A^-1 (r - b)
+  if (rcond(lu) > 1e-9) {  // s = A^-1 (r - b)
     const MatX W_t = c.W.transpose(), W_r_t = lu.transpose().solve(W_t), W_r = W_r_t.transpose();
     take(solve_local({c.slipping(W_r), c.q + c.slipping(c.move - W_r * b), c.mu}, answer.r), answer);
     if (answer.solved) answer.s = lu.solve(answer.r - b);

@@ -46,10 +46,7 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
     for (int j = 0; j < q; ++j) share(i, j) -= s.spring_moves(s.springs[i], j);
   }
   s.spring_share.compute(share);
-  {
-    const NoTraps a_pivot_may_be_zero;
-    if (s.spring_share.rcond() > 1e-14) return true;
-  }
+  if (rcond(s.spring_share) > 1e-14) return true;
   s.springs.clear();
   return false;
 }
