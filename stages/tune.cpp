@@ -79,13 +79,14 @@ std::string name_of(const GatherInput& member) { return fmt::format("{}", fmt::j
 
 // errors of one quantity, in percent of its reference
 struct LevelErrors {
-  std::vector<double> found;    // of each member; no number for those that stand for the truth
-  double uncertain = 0;         // the reference
-  std::vector<int> front = {};  // of what is known of them
+  std::vector<double> all = {};    // of each member
+  std::vector<double> found = {};  // no number for those that stand for the truth
+  double uncertain = 0;            // the reference
+  std::vector<int> front = {};     // of what is known of them
   std::vector<double> known() const {
-    std::vector<double> all;
-    for (double e : found) all.push_back(known_error(e, uncertain));
-    return all;
+    std::vector<double> known;
+    for (double e : found) known.push_back(known_error(e, uncertain));
+    return known;
   }
 };
 
@@ -139,8 +140,9 @@ std::string choose(const Job<TuneConfig>& job, const std::string& quantity, cons
 
 LevelErrors errors_of(const std::vector<double>& values, const std::vector<double>& cpu, const Reference& reference) {
   const double right = reference.limit.value;
-  LevelErrors errors{{}, 100 * reference.limit.uncertainty / std::abs(right)};
-  for (double v : values) errors.found.push_back(100 * std::abs(v - right) / std::abs(right));
+  LevelErrors errors{.uncertain = 100 * reference.limit.uncertainty / std::abs(right)};
+  for (double v : values) errors.all.push_back(100 * std::abs(v - right) / std::abs(right));
+  errors.found = errors.all;
   for (std::size_t i : reference.no_rungs) errors.found[i] = NAN;
   errors.front = pareto_front(cpu, errors.known());
   return errors;
@@ -169,10 +171,9 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
                 ? fmt::format(" +- {:.2g} %{}", errors.uncertain,
                               reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order) : ", no order seen")
                 : "");
-    std::vector<double> on_front(cpu.size(), 0), error;
+    std::vector<double> on_front(cpu.size(), 0);
     for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
-    for (double v : column.values) error.push_back(100 * std::abs(v - right) / std::abs(right));
-    sweep.columns.push_back({column.name + "_error", "percent", error});
+    sweep.columns.push_back({column.name + "_error", "percent", errors.all});
     sweep.columns.push_back({column.name + "_front", "-", on_front});
     choice += choose(job, column.name, ladder, cpu, memory, errors);
     draw(job, pictures, column.name, ladder, cpu, errors);
