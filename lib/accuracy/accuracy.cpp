@@ -28,8 +28,6 @@ constexpr double most_hex8 = 6e4;  // of meshes whose cells are no lengths in co
 // once by all that it asks for.
 constexpr double rough = 5, too_large = 4, at_once = 0.4;
 
-double longest_increment(const LoadPathOptions& path) { return path.steps ? 1.0 / *path.steps : path.largest; }
-
 // Other numbers of cells may not fit the lengths of graded ones: then somewhat shorter ones do.
 Geometry with_cells(const Geometry& written, double factor) {
   for (int i = 0;; ++i, factor *= 0.97) {
@@ -37,21 +35,6 @@ Geometry with_cells(const Geometry& written, double factor) {
     scale_cells(geometry, factor);
     if (i == 10 || std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry)) return geometry;
   }
-}
-
-void put(const ChosenRung& chosen, SolveConfig& config) {
-  const AccuracyRung& rung = chosen.rung;
-  Geometry& geometry = config.mesh->geometry;
-  if (double* edge = edge_in_contact_radii(geometry))
-    *edge = rung.edge;
-  else
-    geometry = rung.edge == 1 ? chosen.written : with_cells(chosen.written, rung.edge);
-  if (rung.step != longest_increment(config.path)) {
-    config.path.steps.reset();
-    config.path.first = std::min(rung.step, 1.0);
-    config.path.largest = rung.step;
-  }
-  config.mesh->cells = rung.cells;
 }
 
 // cells to where the indenters are, unless the config says where
@@ -80,7 +63,7 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
 
 // With the config's own cells, shorter where there are too few of them to make coarser ones.
 AccuracyRung the_configs_own(const SolveConfig& config) {
-  AccuracyRung rung{config.mesh->cells, 1, longest_increment(config.path), 0, false};
+  AccuracyRung rung{config.mesh->cells, 1, config.path.largest_increment(), 0, false};
   for (int n : numbers_of_cells(config.mesh->geometry))
     if (n > 1) rung.edge = std::min(rung.edge, n / 4.0);
   return rung;
@@ -93,7 +76,9 @@ AccuracyRung where_to_begin(const SolveConfig& config, double finest) {
   if (!edge) return the_configs_own(config);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
   AccuracyRung rung = is_section(geometry) ? of_disc : has_friction(config) ? coarsest_with_friction : coarsest;
-  for (*edge = rung.edge; numbers_of_cells(geometry)[1]<fewest_layers&& * edge> finest; *edge *= 0.95) rung.edge = 0.95 * *edge;
+  *edge = rung.edge;
+  while (*edge > finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
+  rung.edge = *edge;
   return rung;
 }
 
@@ -122,7 +107,7 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyRung& rung) {
   }
   if (const CellType cells = written.mesh->cells; cells != CellType::hex8 && cells != rung.cells)
     replace(names(cells)[static_cast<int>(cells)]);
-  const double step = longest_increment(written.path);
+  const double step = written.path.largest_increment();
   if (!written.path.steps && step == usual.path.largest) return replaced;
   if (step < rung.step)
     rung.step = step;
@@ -137,17 +122,18 @@ double percent_with(ErrorEstimate e, double edge, double step) {
   return e.in_percent(e.total());
 }
 
-// Forces on indenters, of several their own, since a sum may be none; without indenters the reactions.
-bool counts(const ErrorEstimate& e, const std::vector<ErrorEstimate>& all) {
-  const auto is = [](const ErrorEstimate& of, const char* begins) { return of.of.name.rfind(begins, 0) == 0; };
-  const auto any = [&](const char* begins) {
-    return std::any_of(all.begin(), all.end(), [&](const auto& e) { return is(e, begins); });
-  };
-  if (any("force_")) return is(e, "force_");
-  return any("force") ? is(e, "force") : is(e, "reaction_");
-}
-
 }  // namespace
+
+void put(const ChosenRung& chosen, SolveConfig& config) {
+  const AccuracyRung& rung = chosen.rung;
+  Geometry& geometry = config.mesh->geometry;
+  if (double* edge = edge_in_contact_radii(geometry))
+    *edge = rung.edge;
+  else
+    geometry = rung.edge == 1 ? chosen.written : with_cells(chosen.written, rung.edge);
+  if (rung.step != config.path.largest_increment()) config.path.use_increment(rung.step);
+  config.mesh->cells = rung.cells;
+}
 
 std::optional<double> percent_of(const std::string& text) {
   double value = 0;
@@ -211,13 +197,10 @@ std::string in_words(const AccuracyRung& rung) {
 
 ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
   ReachedAccuracy found{chosen.rung.error, chosen.met, ""};
-  bool estimated = false;
-  for (const ErrorEstimate& e : estimates) {
-    if (!counts(e, estimates)) continue;
-    const double percent = e.in_percent(e.total());
-    found.percent = estimated ? std::max(found.percent, percent) : percent;
-    estimated = true;
-  }
+  const std::vector<ErrorEstimate> forces = forces_judged(estimates);
+  const bool estimated = !forces.empty();
+  if (estimated) found.percent = 0;
+  for (const ErrorEstimate& e : forces) found.percent = std::max(found.percent, e.in_percent(e.total()));
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
   if (estimated)
@@ -235,14 +218,13 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
   AccuracyRung finer = chosen.rung;
   const double enough = 0.8 * chosen.wanted;
   double step = 1, edge = 1;  // factors
-  for (const ErrorEstimate& e : estimates)
-    if (counts(e, estimates)) {
-      const double increments = e.in_percent(std::abs(e.increments));
-      if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
-    }
+  const std::vector<ErrorEstimate> forces = forces_judged(estimates);
+  for (const ErrorEstimate& e : forces) {
+    const double increments = e.in_percent(std::abs(e.increments));
+    if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
+  }
   const double least = chosen.finest / chosen.rung.edge;
-  for (const ErrorEstimate& e : estimates) {
-    if (!counts(e, estimates)) continue;
+  for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
     if (percent_with(e, least, step) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
     while (percent_with(e, edge, step) > enough && edge > (is_rough ? std::max(least, at_once) : least)) edge *= 0.97;
@@ -251,6 +233,12 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
   finer.step = std::max(finer.step, std::min(shortest_step, chosen.rung.step)), finer.edge = std::max(finer.edge, chosen.finest);
   if (finer.edge > 0.99 * chosen.rung.edge && finer.step > 0.99 * chosen.rung.step) return std::nullopt;
   return finer;
+}
+
+std::optional<AccuracyRung> shorter_rung(const ChosenRung& chosen) {
+  AccuracyRung shorter = chosen.rung;
+  shorter.edge *= 0.7;
+  return shorter.edge < chosen.finest ? std::nullopt : std::optional(shorter);
 }
 
 Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
@@ -284,12 +272,10 @@ bool Accuracy::piloted(const std::optional<Material>& material) {
 
 // once, where no error is known that would say which
 bool Accuracy::shorter_cells() {
-  constexpr double factor = 0.7;
-  if (++without_estimate_ > 1 || chosen_->rung.edge * factor < chosen_->finest) return false;
-  AccuracyRung rung = chosen_->rung;
-  rung.edge *= factor;
-  take(rung);
-  voice_.say("accuracy: {}", in_words(rung));
+  const auto shorter = ++without_estimate_ > 1 ? std::nullopt : shorter_rung(*chosen_);
+  if (!shorter) return false;
+  take(*shorter);
+  voice_.say("accuracy: {}", in_words(*shorter));
   return true;
 }
 

@@ -54,6 +54,10 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
 // cells to their order, increments' with the square of their length. Nothing where it is the finest that there is, or not even that would do.
 std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
 
+// without an error that would say which: cells of 0.7 times the length; nothing where these would be shorter than the finest
+std::optional<AccuracyRung> shorter_rung(const ChosenRung& chosen);
+void put(const ChosenRung& chosen, SolveConfig& config);  // its cells and increments
+
 // The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and again with shorter cells or
 // increments until that is within what was asked for or there are no shorter ones.
 class Accuracy {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -33,11 +34,6 @@ constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 constexpr double few = 0.125;                // increments that are longer do not follow their law
 constexpr double apart = 1.08, longest = 3;  // lengths of two meshes' cells, at least; the coarsest, at most
 using Find = std::function<Place(const std::string&)>;
-
-void set_increment(LoadPathOptions& path, double increment) {
-  path.steps.reset();
-  path.first = path.largest = increment;
-}
 
 // the mean of those axes that have more than one
 double cells_along(const Geometry& geometry) {
@@ -168,12 +164,12 @@ Refinements refinements(const SolveConfig& config, const Find& where) {
   }
   if (quadratic) add_longer_hex27(refined, config);
   if (!has_friction(config)) return refined;
-  const double increment = config.path.steps ? 1.0 / *config.path.steps : config.path.largest;
+  const double increment = config.path.largest_increment();
   const bool shorter = increment >= 0.1;
   const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment, ratio = increment / another;
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
   refined.other_increments = refined.hex8.back();
-  set_increment(refined.other_increments.path, another);
+  refined.other_increments.path.use_increment(another);
   return refined;
 }
 
@@ -216,7 +212,24 @@ Vec3 force_of(const StepRecord& state, const std::string& contact) {
   return force;
 }
 
+const Valued& quantity(const Valued& found) { return found; }
+const Valued& quantity(const ErrorEstimate& estimate) { return estimate.of; }
+
+template <class Item>
+std::vector<Item> forces_among(const std::vector<Item>& all) {
+  for (const char* begins : {"force_", "force", "reaction_"}) {
+    std::vector<Item> found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found),
+                 [&](const Item& item) { return quantity(item).name.starts_with(begins); });
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
 }  // namespace
+
+std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
+std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) { return forces_among(estimates); }
 
 std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
                                 const std::function<RunListener(const Run&)>& listener) {

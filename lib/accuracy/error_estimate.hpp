@@ -60,6 +60,11 @@ struct ErrorEstimate {
   double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };
 
+// The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
+// reactions.
+std::vector<Valued> forces_judged(const std::vector<Valued>& found);
+std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
+
 // Of any mesh, by what its stress lacks to be smooth (post/recovery.hpp): force and greatest von Mises stress, no limit. The error of
 // sticking on coarse cells and that of increments are not among them.
 std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "accuracy/accuracy.hpp"
 #include "scene/scene.hpp"
 
 namespace langer {
@@ -15,7 +14,7 @@ namespace langer {
 namespace {
 
 // what cells of a section are worth: docs/sections.md. Cells linear in both directions need more of them
-constexpr double edge_hex27 = 0.125, edge_hex8 = 0.0442, shorter = 0.7, finest = 0.04;
+constexpr double edge_hex27 = 0.125, edge_hex8 = 0.0442, finest = 0.04;
 
 Vec3 middle_of(const IndentedBlock& block) {
   return {block.origin[0] + 0.5 * block.size[0], 0, block.origin[2] + 0.5 * block.size[2]};
@@ -92,14 +91,6 @@ void move_to_axis(SolveConfig& config, const Vec3& axis) {
         contact.rigid);
 }
 
-std::vector<Valued> forces_of(const std::vector<Valued>& found) {
-  std::vector<Valued> forces;
-  for (const Valued& v : found)
-    if (v.of_force()) forces.push_back(v);
-  if (forces.size() > 1) std::erase_if(forces, [](const Valued& v) { return v.name == "force"; });  // a sum may be none
-  return forces;
-}
-
 }  // namespace
 
 RadiiOfBlock radii_of(const IndentedBlock& block) {
@@ -144,16 +135,17 @@ SectionInPlace::SectionInPlace(const Voice& voice, const SolveConfig& config, co
 
 void SectionInPlace::decide(const std::optional<Material>& material, const Where& where, bool dry) {
   SolveConfig chosen = asked_;
-  const auto accuracy = choose_accuracy(chosen, material);
-  if (accuracy) wanted_ = accuracy->wanted;
+  accuracy_ = choose_accuracy(chosen, material);
   auto section = on_a_disc(chosen, material, radii_.alike);
   if (!section)
     return voice_.say("reduce: no indented_block here whose scene is the same around an axis; the body is solved as it is");
   if (dry) return voice_.say("reduce: a section may take the block's place (not with --dry-run)");
-  if (accuracy) {
+  if (accuracy_) {
     const bool bilinear = asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
-    section->mesh->cells = bilinear ? CellType::hex8 : CellType::hex27;
-    *edge_in_contact_radii(section->mesh->geometry) = bilinear ? edge_hex8 : edge_hex27;
+    accuracy_->rung.cells = bilinear ? CellType::hex8 : CellType::hex27;
+    accuracy_->rung.edge = bilinear ? edge_hex8 : edge_hex27;
+    accuracy_->finest = finest;
+    put(*accuracy_, *section);
   }
   try {
     measure_sides(*section, material, where);
@@ -164,7 +156,7 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   const std::string sides = fmt::format(
       "discs of {:.4g} and {:.4g} mm inside and around the block tell that its sides change the force by up to {:.2g} %",
       radii_.inside, radii_.around, sides_percent_);
-  if (!(sides_percent_ < wanted_)) return voice_.say("reduce: {}, and {:g} % is allowed: the block is solved", sides, wanted_);
+  if (!(sides_percent_ < wanted())) return voice_.say("reduce: {}, and {:g} % is allowed: the block is solved", sides, wanted());
   voice_.say("reduce: a section of a disc of {:.4g} mm, of the block's area, takes its place; {}", radii_.alike, sides);
   section_ = std::move(section);
 }
@@ -175,7 +167,7 @@ void SectionInPlace::measure_sides(const SolveConfig& section, const std::option
     SolveConfig disc = section;
     std::get<IndentedDisc>(disc.mesh->geometry).size[0] = radius;
     disc.mesh->points.clear();
-    return forces_of(end_of_path(disc, material, where));
+    return forces_judged(end_of_path(disc, material, where));
   };
   const auto alike = forces(radii_.alike), inside = forces(radii_.inside), around = forces(radii_.around);
   for (std::size_t i = 0; i < alike.size(); ++i) {
@@ -194,19 +186,19 @@ double SectionInPlace::percent(const std::vector<ErrorEstimate>& errors) const {
 }
 
 bool SectionInPlace::accurate(const std::vector<ErrorEstimate>& errors) {
-  const bool asked = asked_.accuracy || asked_.fidelity;
-  if (!section_ || !asked || (errors.empty() && section_->estimate != EstimateBy::refinement)) return true;
-  if (!errors.empty() && percent(errors) <= wanted_) return true;
-  double& edge = *edge_in_contact_radii(section_->mesh->geometry);
+  if (!section_ || !accuracy_ || (errors.empty() && section_->estimate != EstimateBy::refinement)) return true;
+  if (!errors.empty() && percent(errors) <= wanted()) return true;
   if (errors.empty())
     voice_.say("reduce: no estimate of the section's errors");
   else
-    voice_.say("reduce: {:.2g} % with the sides, and {:g} % is asked for", percent(errors), wanted_);
-  if (sides_percent_ < 0.8 * wanted_ && shorter * edge >= finest) {
-    edge *= shorter;
-    section_->path.steps.reset();
-    section_->path.first *= shorter, section_->path.largest *= shorter;
-    voice_.say("reduce: again with cells of {:.3g} contact radii", edge);
+    voice_.say("reduce: {:.2g} % with the sides, and {:g} % is asked for", percent(errors), wanted());
+  ChosenRung left = *accuracy_;  // what the sides leave of what is asked for
+  left.wanted -= sides_percent_;
+  const auto finer = errors.empty() ? shorter_rung(left) : finer_rung(left, errors);
+  if (finer) {
+    accuracy_->rung = *finer;
+    put(*accuracy_, *section_);
+    voice_.say("reduce: again with {}", in_words(*finer));
   } else {
     voice_.say("reduce: the block is solved");
     section_.reset();
@@ -218,7 +210,7 @@ std::vector<Summary> SectionInPlace::summary(const std::vector<ErrorEstimate>& e
   if (!section_) return {};
   std::vector<Summary> summary;
   for (const Valued& side : sides_) summary.push_back({side.name + "_error_sides", side.value, side.unit});
-  if ((asked_.accuracy || asked_.fidelity) && !errors.empty()) summary.push_back({"accuracy", percent(errors), "percent"});
+  if (accuracy_ && !errors.empty()) summary.push_back({"accuracy", percent(errors), "percent"});
   return summary;
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/error_estimate.hpp"
+#include "accuracy/accuracy.hpp"
 #include "base/voice.hpp"
 #include "scene/solve_config.hpp"
 
@@ -36,18 +36,19 @@ class SectionInPlace {
   bool taken() const { return section_.has_value(); }
   const SolveConfig& config() const { return section_ ? *section_ : asked_; }  // to be solved
   // With these errors of the section beside those of the sides: whether an accuracy that was asked for is kept. Where it is not,
-  // config() is another one now: shorter cells, then the block.
+  // config() is another one now: what finer_rung says for the rest that the sides leave, then the block.
   bool accurate(const std::vector<ErrorEstimate>& errors);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
 
  private:
   void decide(const std::optional<Material>& material, const Where& where, bool dry);
   void measure_sides(const SolveConfig& section, const std::optional<Material>& material, const Where& where);
-  double percent(const std::vector<ErrorEstimate>& errors) const;  // largest of a force, sides included
+  double wanted() const { return accuracy_ ? accuracy_->wanted : 1; }  // [%]
+  double percent(const std::vector<ErrorEstimate>& errors) const;      // largest of a force, sides included
 
   Voice voice_;
   SolveConfig asked_;
-  double wanted_ = 1;  // [%]
+  std::optional<ChosenRung> accuracy_;  // of the section, where one is asked for
   std::optional<SolveConfig> section_;
   RadiiOfBlock radii_;
   std::vector<Valued> sides_;  // by force: what the sides may change [N]

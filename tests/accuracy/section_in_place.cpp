@@ -209,9 +209,33 @@ TEST_CASE("an accuracy counts the sides with the estimate: shorter cells first, 
   CHECK_FALSE(section.accurate(errors(0.02)));
   REQUIRE(section.taken());
   CHECK(edge() < first);
+  const double after = edge(), step = section.config().path.largest_increment();
+  CHECK(after == doctest::Approx(first * std::sqrt(0.8 * (1 - percent) / 2)).epsilon(0.3));  // by what the sides leave
+  // what increments cost is taken from them
+  CHECK_FALSE(section.accurate({{{"force", "N", 2}, 0.004, 0.04, 0, 0, 2}}));
+  CHECK(section.config().path.largest_increment() < 0.6 * step);
+  CHECK(edge() > 0.7 * after);
   int times = 0;
   while (section.taken() && times < 20) section.accurate(errors(0.02)), ++times;
   CHECK(times < 10);
   CHECK_FALSE(section.taken());
   CHECK(std::holds_alternative<IndentedBlock>(section.config().mesh->geometry));
+}
+
+TEST_CASE("an accuracy is asked of forces on indenters, of several their own, else of reactions") {
+  const auto names = [](std::vector<std::string> found) {
+    std::vector<Valued> all;
+    std::vector<ErrorEstimate> estimates;
+    for (const std::string& name : found) all.push_back({name, "N", 1}), estimates.push_back({all.back()});
+    std::string chosen;
+    for (const Valued& v : forces_judged(all)) chosen += v.name + " ";
+    std::string again;
+    for (const ErrorEstimate& e : forces_judged(estimates)) again += e.of.name + " ";
+    CHECK(chosen == again);
+    return chosen;
+  };
+  CHECK(names({"force", "force_left", "reaction_top", "force_right", "von_mises_max"}) == "force_left force_right ");
+  CHECK(names({"reaction_top", "von_mises_max", "force"}) == "force ");
+  CHECK(names({"reaction_top", "displacement_A", "reaction_side"}) == "reaction_top reaction_side ");
+  CHECK(names({"von_mises_max"}) == "");
 }
