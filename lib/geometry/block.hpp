@@ -128,12 +128,14 @@ struct FromFile {
   double scale = 1;
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
-      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) or .inp of Abaqus or CalculiX; or a solid "
+      "mesh of 8-node hexahedra: .msh of Gmsh (physical groups are kept as sets and bodies; with cells: tet15 also of tetrahedra) or .inp "
+      "of Abaqus or CalculiX (with cells: hex27 of 20 or 27 nodes, with cells: tet15 of tetrahedra of 4 or 10); or a solid "
       "of CAD, .step, or what triangles enclose, .stl, whose faces are the sets face_1, face_2, ...",
       required);
     v(&FromFile::edge, "edge", unit::mm, "length of the cells that a .step or .stl is meshed with, about", positive);
     v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
   }
+  bool is_inp() const;
   std::vector<Complaint> complaints() const;
 };
 

@@ -36,6 +36,8 @@ void tame_names(Sets& sets, std::vector<std::string>& notes) {
 
 }  // namespace
 
+bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
+
 std::vector<Complaint> FromFile::complaints() const {
   const std::string kind = kind_of(file.path);
   if (kind == "msh" || kind == "inp") {
@@ -46,8 +48,7 @@ std::vector<Complaint> FromFile::complaints() const {
     if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
     return {};
   }
-  return {{"path", "found \"" + file.path + "\"",
-           "a mesh of 8-node hexahedra, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
+  return {{"path", "found \"" + file.path + "\"", "a mesh, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 

@@ -11,15 +11,15 @@
 #include <fmt/ranges.h>
 
 #include "base/error.hpp"
+#include "base/split.hpp"
 #include "geometry/exchange.hpp"
+#include "geometry/inp_cells.hpp"
+#include "mesh/raise.hpp"
 #include "mesh/reference.hpp"
 
 namespace langer {
 
 namespace {
-
-// S1 ... S6 of a C3D8 as our local facets; its nodes are numbered as ours
-constexpr int facet_of_side[6] = {4, 5, 2, 1, 3, 0};
 
 std::string trimmed(const std::string& s) {
   const std::size_t from = s.find_first_not_of(" \t\r\""), to = s.find_last_not_of(" \t\r\"");
@@ -31,8 +31,7 @@ std::string upper(std::string s) {
 }
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  std::stringstream s(line);
-  for (std::string cell; std::getline(s, cell, ',');) cells.push_back(trimmed(cell));
+  for (const std::string& cell : split(line, ',')) cells.push_back(trimmed(cell));
   return cells;
 }
 
@@ -58,7 +57,7 @@ class Reader {
         data(line);
     }
     end_element();
-    if (cells_.empty()) refuse(0, "no 8-node hexahedra", "*ELEMENT, TYPE=C3D8 and its like");
+    if (cells_.empty()) refuse(0, "no hexahedra or tetrahedra", "*ELEMENT, TYPE=, " + known_inp_cells());
     return mesh();
   }
 
@@ -69,8 +68,10 @@ class Reader {
   int line_ = 0;
   Card card_;
   std::map<long long, Vec3> nodes_;
-  std::map<long long, std::pair<std::array<long long, 8>, int>> cells_;  // with the line
-  std::vector<long long> element_;                                       // as far as it is read
+  InpCell kind_;                                                       // of all cells
+  std::string type_;                                                   // as the file calls it first
+  std::map<long long, std::pair<std::vector<long long>, int>> cells_;  // nodes in their order, with the line
+  std::vector<long long> element_;                                     // as far as it is read
   int element_line_ = 0;
   struct Range {
     long long first, last, step;
@@ -83,8 +84,8 @@ class Reader {
   };
   std::map<std::string, Named> node_sets_, element_sets_;
   struct Side {
-    std::string what;
-    int side, line;
+    std::string what, side;
+    int line;
   };
   std::map<std::string, std::pair<std::string, std::vector<Side>>> surfaces_;
   std::vector<std::string> bodies_, element_bodies_;  // keys of element sets
@@ -147,16 +148,7 @@ class Reader {
     if (card_.word == "PART" && ++parts_ > 1) refuse(first, "found a second *PART", "one");
     if (card_.word == "INSTANCE" && ++instances_ > 1) refuse(first, "found a second *INSTANCE", "one");
     if (card_.word == "ELEMENT") {
-      const std::string type = upper(card_.value("TYPE"));
-      static const std::set<std::string> hexahedra{"C3D8", "C3D8R", "C3D8H", "C3D8I", "C3D8RH", "C3D8IH"};
-      if (!hexahedra.count(type)) {
-        if (type.starts_with("C3D")) refuse(first, "found elements " + type, "8-node hexahedra: C3D8 and its like");
-        left_out_.insert("elements " + type);
-        card_.word = "";
-      } else if (const std::string set = card_.value("ELSET"); !set.empty())
-        if (const std::string key = named(element_sets_, set);
-            std::find(element_bodies_.begin(), element_bodies_.end(), key) == element_bodies_.end())
-          element_bodies_.push_back(key);
+      begin_elements(first);
     } else if (card_.word == "NSET" || card_.word == "ELSET") {
       if (card_.value(card_.word).empty()) refuse(first, "*" + card_.word + " without a name", card_.word + "=name");
       named(card_.word == "NSET" ? node_sets_ : element_sets_, card_.value(card_.word));
@@ -171,6 +163,25 @@ class Reader {
                                                  "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
       if (!nothing.count(card_.word)) left_out_.insert("*" + card_.word);
     }
+  }
+
+  void begin_elements(int line) {
+    const std::string type = upper(card_.value("TYPE"));
+    const auto kind = inp_cell(type);
+    if (!kind) {
+      if (type.starts_with("C3D")) refuse(line, "found elements " + type, known_inp_cells());
+      left_out_.insert("elements " + type);
+      card_.word = "";
+      return;
+    }
+    if (kind_.theirs && kind->theirs != kind_.theirs)
+      refuse(line, fmt::format("found elements {} beside {}", type, type_), "cells of one kind");
+    kind_ = *kind;
+    if (type_.empty()) type_ = type;
+    if (const std::string set = card_.value("ELSET"); !set.empty())
+      if (const std::string key = named(element_sets_, set);
+          std::find(element_bodies_.begin(), element_bodies_.end(), key) == element_bodies_.end())
+        element_bodies_.push_back(key);
   }
 
   static std::string named(std::map<std::string, Named>& sets, const std::string& name) {
@@ -192,7 +203,7 @@ class Reader {
       if (element_.empty()) element_line_ = line_;
       for (const std::string& cell : cells)
         if (!cell.empty()) element_.push_back(whole(cell));
-      if (element_.size() >= 9) end_element();
+      if (element_.size() > kind_.theirs->order.size()) end_element();
     } else if (card_.word == "NSET")
       members(cells, node_sets_, card_.value("NSET"));
     else if (card_.word == "ELSET")
@@ -205,12 +216,12 @@ class Reader {
 
   void end_element() {
     if (element_.empty()) return;
-    if (element_.size() != 9)
+    const std::size_t n = kind_.theirs->order.size();
+    if (element_.size() != n + 1)
       refuse(element_line_, fmt::format("an element of {} nodes", element_.size() - 1),
-             "8 nodes, on one line or on lines ending with a comma");
-    std::array<long long, 8> nodes;
-    std::copy(element_.begin() + 1, element_.end(), nodes.begin());
-    if (!cells_.try_emplace(element_[0], std::pair(nodes, element_line_)).second)
+             fmt::format("{} nodes, on one line or on lines ending with a comma", n));
+    std::vector<long long> nodes(element_.begin() + 1, element_.end());
+    if (!cells_.try_emplace(element_[0], std::pair(std::move(nodes), element_line_)).second)
       refuse(element_line_, fmt::format("element {} is there twice", element_[0]));
     if (const std::string set = card_.value("ELSET"); !set.empty()) element_sets_[named(element_sets_, set)].add(element_[0]);
     element_.clear();
@@ -260,26 +271,33 @@ class Reader {
       members({cells.at(0)}, node_sets_, card_.value("NAME"));
       return;
     }
-    const std::string side = cells.size() > 1 ? upper(cells[1]) : "";
-    if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6')
-      refuse(line_, "found the side \"" + side + "\"", "S1 to S6");
-    surfaces_[key].second.push_back({cells[0], side[1] - '1', line_});
+    surfaces_[key].second.push_back({cells[0], cells.size() > 1 ? upper(cells[1]) : "", line_});
   }
 
   using Numbers = std::map<long long, int>;  // the file's number of a node or cell: ours, without gaps
 
-  void add_cells(Mesh& mesh, Numbers& cell_at, Numbers& node_at) {
+  Mesh made_of_cells(Numbers& cell_at, Numbers& node_at) {
+    std::vector<Vec3> X;
+    std::vector<int> connectivity;  // in our order
+    const std::vector<int>& order = kind_.theirs->order;
     for (const auto& [id, cell] : cells_)
       for (long long n : cell.first) node_at[n] = -1;
     for (const auto& [id, x] : nodes_)
-      if (const auto node = node_at.find(id); node != node_at.end()) node->second = mesh.n_nodes(), mesh.X.push_back(x);
+      if (const auto node = node_at.find(id); node != node_at.end()) node->second = static_cast<int>(X.size()), X.push_back(x);
     for (const auto& [id, cell] : cells_) {
-      cell_at[id] = mesh.n_cells();
-      for (long long n : cell.first) {
+      cell_at[id] = static_cast<int>(connectivity.size() / order.size());
+      connectivity.resize(connectivity.size() + order.size());
+      for (std::size_t a = 0; a < order.size(); ++a) {
+        const long long n = cell.first[a];
         if (node_at[n] < 0) refuse(cell.second, fmt::format("element {} has the node {}, which is not there", id, n));
-        mesh.connectivity.push_back(node_at[n]);
+        connectivity[connectivity.size() - order.size() + static_cast<std::size_t>(order[a])] = node_at[n];
       }
     }
+    if (static_cast<int>(order.size()) == kind_.cell->n_corners) return raised(X, connectivity, kind_.cell->type);
+    if (static_cast<int>(order.size()) < kind_.cell->n_nodes) return raised_with_edges(X, connectivity, kind_.cell->type);
+    Mesh mesh;
+    mesh.type = kind_.cell->type, mesh.X = X, mesh.connectivity = connectivity;
+    return mesh;
   }
 
   void add_bodies(Mesh& mesh, const Numbers& cell_at) {
@@ -308,7 +326,7 @@ class Reader {
   std::vector<int> cells_of_side(const Side& side, const Numbers& cell_at) {
     if (is_number(side.what)) {
       const auto cell = cell_at.find(side.what.size() < 18 ? std::stoll(side.what) : -1);
-      if (cell == cell_at.end()) refuse(side.line, "there is no hexahedron " + side.what);
+      if (cell == cell_at.end()) refuse(side.line, "there is no element " + side.what);
       return {cell->second};
     }
     const auto set = element_sets_.find(upper(side.what));
@@ -316,24 +334,32 @@ class Reader {
     return there(set->second, cell_at);
   }
 
+  int facet_of(const Side& side) const {
+    const std::vector<int>& facets = kind_.cell->names.abaqus.sides;
+    for (std::size_t s = 0; s < facets.size(); ++s)
+      if (side.side == fmt::format("S{}", s + 1)) return facets[s];
+    refuse(side.line, "found the side \"" + side.side + "\"", fmt::format("S1 to S{}", facets.size()));
+  }
+
   void add_sets(Mesh& mesh, const Numbers& cell_at, const Numbers& node_at) {
     for (const auto& [key, surface] : surfaces_) {
       const auto& [name, sides] = surface;
       std::vector<Facet> facets;
       for (const Side& side : sides)
-        for (int cell : cells_of_side(side, cell_at)) facets.push_back({cell, facet_of_side[side.side]});
+        for (int cell : cells_of_side(side, cell_at)) facets.push_back({cell, facet_of(side)});
       if (!facets.empty()) name_facets(mesh, name, facets);
     }
     for (const auto& [key, set] : node_sets_) {
       const std::vector<int> nodes = there(set, node_at);
       if (!nodes.empty()) mesh.node_sets[set.name] = nodes;
     }
+    const auto n_given = static_cast<int>(node_at.size());
+    if (n_given < mesh.n_nodes()) add_new_middles(mesh, n_given);
   }
 
   Mesh mesh() {
-    Mesh mesh;
     Numbers cell_at, node_at;
-    add_cells(mesh, cell_at, node_at);
+    Mesh mesh = made_of_cells(cell_at, node_at);
     add_bodies(mesh, cell_at);
     add_sets(mesh, cell_at, node_at);
     std::vector<std::string> others;
@@ -344,13 +370,6 @@ class Reader {
     return mesh;
   }
 };
-
-std::string quoted_name(const std::string& name) {
-  if (name.find_first_of("\",\n\r*=") != std::string::npos)
-    throw Failure(Exit::config,
-                  Error{{}, "export", "the name \"" + name + "\" cannot stand in an .inp file", "names without , \" * and =", ""});
-  return name.find(' ') == std::string::npos ? name : "\"" + name + "\"";
-}
 
 }  // namespace
 
@@ -364,31 +383,6 @@ Mesh read_inp(const std::string& path, std::vector<std::string>& notes) {
   text << file.rdbuf();
   if (!file) throw Failure(Exit::input, Error{{path}, "", "cannot be read", "", ""});
   return parse_inp(text.str(), path, notes);
-}
-
-std::string inp_text(const Mesh& mesh) {
-  std::string s = "** a mesh of Langer; mm\n*NODE\n";
-  for (int n = 0; n < mesh.n_nodes(); ++n) s += fmt::format("{}, {}, {}, {}\n", n + 1, mesh.X[n][0], mesh.X[n][1], mesh.X[n][2]);
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    s += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", mesh.cell().names.abaqus, quoted_name(mesh.bodies[b]));
-    for (int e = 0; e < mesh.n_cells(); ++e) {
-      if (mesh.body[e] != static_cast<int>(b)) continue;
-      s += std::to_string(e + 1);
-      for (int n : mesh.cell(e)) s += ", " + std::to_string(n + 1);
-      s += "\n";
-    }
-  }
-  for (const auto& [name, nodes] : mesh.node_sets) {
-    s += fmt::format("*NSET, NSET={}\n", quoted_name(name));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      s += fmt::format("{},{}", nodes[i] + 1, i % 16 == 15 || i + 1 == nodes.size() ? "\n" : " ");
-  }
-  for (const auto& [name, facets] : mesh.facet_sets) {
-    s += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted_name(name));
-    for (const Facet& facet : facets)
-      s += fmt::format("{}, S{}\n", facet.cell + 1, std::find(facet_of_side, facet_of_side + 6, facet.local) - facet_of_side + 1);
-  }
-  return s;
 }
 
 }  // namespace langer

@@ -201,6 +201,20 @@ std::vector<int> in_order(int n, std::initializer_list<int> further = {}) {
   return nodes;
 }
 
+std::vector<ReferenceCell> rows() {
+  const std::vector<int> sides{4, 5, 2, 1, 3, 0};
+  const InAbaqus hex8{"C3D8", {{"C3D8", in_order(8)}}, sides};
+  const InAbaqus hex27{nullptr, {{"C3D20", in_order(20)}, {"C3D27", in_order(20, {26, 24, 25, 22, 21, 23, 20})}}, sides};
+  const InAbaqus tet15{nullptr, {{"C3D4", in_order(4)}, {"C3D10", in_order(10)}}, in_order(4)};
+  return {
+      hexahedron<Hex8>(Hex8::corner, 1, {"hexahedra", "quadrangles", 12, "hexahedron", 5, 3, hex8, "hex8", "quad4", in_order(8)}),
+      hexahedron<Hex27>(Hex27::node, 5. / 9,
+                        {"hexahedra", "quadrangles", 29, "triquadratic hexahedron", 5, 3, hex27, "hex27", "quad9",
+                         in_order(20, {22, 21, 23, 20, 24, 25, 26})}),
+      tetrahedron({"tetrahedra", "triangles", 71, "Lagrange tetrahedron", 4, 2, tet15, nullptr, nullptr, {}}),
+  };
+}
+
 }  // namespace
 
 Tet15::Shape Tet15::shape(const Vec3& xi) {
@@ -243,14 +257,8 @@ Hex27::Gradient Hex27::gradient(const Vec3& xi) {
 }
 
 const std::vector<ReferenceCell>& reference_cells() {
-  static const std::vector<ReferenceCell> rows{
-      hexahedron<Hex8>(Hex8::corner, 1, {"hexahedra", "quadrangles", 12, "hexahedron", 5, 3, "C3D8", "hex8", "quad4", in_order(8)}),
-      hexahedron<Hex27>(Hex27::node, 5. / 9,
-                        {"hexahedra", "quadrangles", 29, "triquadratic hexahedron", 5, 3, nullptr, "hex27", "quad9",
-                         in_order(20, {22, 21, 23, 20, 24, 25, 26})}),
-      tetrahedron({"tetrahedra", "triangles", 71, "Lagrange tetrahedron", 4, 2, nullptr, nullptr, nullptr, {}}),
-  };
-  return rows;
+  static const std::vector<ReferenceCell> all = rows();
+  return all;
 }
 
 const ReferenceCell& reference(CellType type) {

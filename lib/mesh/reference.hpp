@@ -106,13 +106,25 @@ struct FacetPoint {
   Vec3 along_1, along_2;
 };
 
+// A cell of Abaqus and CalculiX that becomes one of ours; letters behind the name (C3D8R, C3D10MH) say nothing of its nodes.
+struct AbaqusCell {
+  const char* name;
+  std::vector<int> order;  // our node by theirs: all, the corners, or these and the middles of edges
+};
+
+struct InAbaqus {
+  const char* written;           // none: not written there
+  std::vector<AbaqusCell> read;  // what becomes this cell
+  std::vector<int> sides;        // our facets by theirs, S1 first
+};
+
 // What a cell, the one of first order with its corners, and its facets are called elsewhere; none: not written there.
 struct CellNames {
   const char *shape, *facet_shape;  // "hexahedra", "quadrangles"
   int vtk;
   const char* vtk_word;
   int gmsh, gmsh_facet;  // of first order, as meshes from files are
-  const char* abaqus;
+  InAbaqus abaqus;
   const char *febio, *febio_facet;
   std::vector<int> febio_order;  // our node by theirs
 };

@@ -62,7 +62,8 @@ struct MeshConfig {
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
     v(&MeshConfig::cells, "cells", unit::none,
       "hex8, or hex27: quadratic displacements with nodes in the middles of edges, facets and cells too; about 8 times the work of "
-      "a hex8, and far fewer are needed; tet15, where geometry is a file: tetrahedra with quadratic displacements and bubbles");
+      "a hex8, and far fewer are needed; tet15, where geometry is a file: tetrahedra with quadratic displacements and bubbles; of an "
+      ".inp what it has: hex27 of 20 or 27 nodes, tet15 of 4 or 10");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
@@ -91,8 +92,8 @@ struct MeshConfig {
       if (!bodies.empty())
         found.push_back(
             {"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
-      if (cell.hexahedron() && cell.second_order())
-        found.push_back({"cells", std::string("found ") + name, "hex8 or tet15, where geometry is a file", ""});
+      if (cell.hexahedron() && cell.second_order() && !std::get<FromFile>(geometry).is_inp())
+        found.push_back({"cells", std::string("found ") + name, "hex8 or tet15, where geometry is no .inp", ""});
       if (!cell.hexahedron() && frames != Frames::global)
         found.push_back({"frames", std::string("found element_edges beside cells: ") + name,
                          "global: no edge of a tetrahedron stands for a direction", ""});
@@ -106,7 +107,7 @@ struct MeshConfig {
     }
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
-    else if (!exports.empty() && !cell.names.abaqus)
+    else if (!exports.empty() && !cell.names.abaqus.written)
       found.push_back({"export", std::string("found beside cells: ") + name, "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
