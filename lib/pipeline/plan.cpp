@@ -42,11 +42,7 @@ class Planning {
   std::vector<std::string> doubts;
 
   void look_at_data() {
-    for (const auto& look : looks_)
-      collect([&] {
-        for (std::string& doubt : look())
-          if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(std::move(doubt));
-      });
+    for (const auto& look : looks_) collect([&] { add_doubts(look()); });
   }
 
   void add(const Step& step) {
@@ -63,6 +59,7 @@ class Planning {
       for (const StepInput& input : step.inputs) ports.push_back(input.port);
       need_one_source(*step.stage, step.config, ports);
       const Effective effective = effective_config(*step.stage, step.config, here);
+      add_doubts(effective.notices);
       for (const Effective::File& file : effective.files) {
         need_file(file.path, file.place, file.key);
         rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
@@ -85,6 +82,11 @@ class Planning {
   std::vector<std::function<std::vector<std::string>()>> looks_;
   std::vector<Error> errors_;
   Exit code_ = Exit::input;
+
+  void add_doubts(const std::vector<std::string>& more) {
+    for (const std::string& doubt : more)
+      if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(doubt);
+  }
 
   // Members of a sweep share most of their config: each error is kept once.
   void collect(auto&& work) {
@@ -123,7 +125,9 @@ class Planning {
         throw Failure(Exit::config, Error{input.place, key, "found " + input.path, expected, ""});
       }
       path = fmt::format("{}/{}.yaml", step.folder, input.port);
-      files.push_back({path, effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string()).text});
+      const Effective effective = effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string());
+      add_doubts(effective.notices);
+      files.push_back({path, effective.text});
     });
     return path;
   }

@@ -11,7 +11,8 @@ namespace langer {
 struct PlanReport {
   std::string folder;
   std::size_t nodes = 0, steps = 0, changed = 0;  // changed: files written because their text is new
-  std::vector<std::string> doubts;                // what looks wrong in measured data; check_pipeline() alone reads them
+  // keys and words by their former names, each once; what looks wrong in measured data, which check_pipeline() alone reads
+  std::vector<std::string> doubts;
 };
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.

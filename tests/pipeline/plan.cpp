@@ -84,6 +84,22 @@ TEST_CASE("a plan is effective configs and a Makefile, planning again touches no
   CHECK(times("runs") == before);
 }
 
+TEST_CASE("a key and a word by their former names are told once, at their line, and the configs of the run have the new ones") {
+  Project project;
+  std::ofstream("configs/fit.yaml", std::ios::app) << "check: nlopt\n";
+  std::ofstream("configs/solve.yaml", std::ios::app)
+      << "mesh: {geometry: {block: {size: [1, 1, 1], divisions: [4, 4, 4]}}}\nestimate: second_rung\n";
+  write("p.yaml",
+        "pipeline: p\nnodes:\n  fit: {stage: fit, config: configs/fit.yaml}\n  solve: {stage: solve, config: configs/solve.yaml, "
+        "material: law.yaml, sweep: {x: {key: \"loads[0].displacement.x\", values: [0.1, 0.2]}}}\n");
+  const std::vector<std::string> said = plan("p.yaml", "", "bin").doubts;
+  REQUIRE(said.size() == 2);  // though the sweep reads solve.yaml twice
+  CHECK(said[0].find("configs/fit.yaml:4:1: check is now called cross_check") != std::string::npos);
+  CHECK(said[1].find("configs/solve.yaml:5:1: estimate: second_rung is now called refinement") != std::string::npos);
+  CHECK(read("runs/p/fit/fit.yaml").find("cross_check: nlopt") != std::string::npos);
+  CHECK(read("runs/p/x_000.2/solve/solve.yaml").find("estimate: refinement") != std::string::npos);
+}
+
 TEST_CASE("a changed value rewrites the configs that it is part of, a comment or the order of keys none") {
   Project project;
   plan("p.yaml", "", "bin");
