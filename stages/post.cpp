@@ -213,7 +213,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [name, keyed] : renders)
     pictures.draw(name, drawing_of(solution, indenters, state_of(solution.record(pictured.at(name))), keyed.second, config.stress));
   for (const std::string& name : renders.empty() ? std::vector<std::string>{} : missing)
-    job.say("not drawn: the indenter \"{}\", whose shape is no part of the solution", name);
+    job.say("not drawn: the indenter \"{}\", whose triangles the solution does not hold", name);
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace langer {
 
@@ -123,14 +124,61 @@ double Facets::half_width() const {
   return width[1] + rounding;
 }
 
+namespace {
+
+Vec3 twice_the_area(const Triangles& t, const std::array<int, 3>& c) {
+  return (t.points[c[1]] - t.points[c[0]]).cross(t.points[c[2]] - t.points[c[0]]);
+}
+
+// for each box of a grid, so many along the longest side, the mean of the points in it; triangles that this leaves without area, or
+// turned over, are gone
+Triangles coarser(const Triangles& t, int boxes) {
+  Eigen::AlignedBox3d all;
+  for (const Vec3& x : t.points) all.extend(x);
+  const double length = all.sizes().maxCoeff() / boxes;
+  if (!(length > 0)) return t;
+  Triangles out;
+  std::map<std::array<int, 3>, int> point_of;
+  std::vector<int> place, count;
+  for (const Vec3& x : t.points) {
+    std::array<int, 3> box;
+    for (int k = 0; k < 3; ++k) box[static_cast<std::size_t>(k)] = static_cast<int>(std::floor((x[k] - all.min()[k]) / length));
+    const auto [entry, is_new] = point_of.try_emplace(box, static_cast<int>(out.points.size()));
+    if (is_new) out.points.push_back(Vec3::Zero()), count.push_back(0);
+    place.push_back(entry->second);
+    out.points[place.back()] += x, ++count[place.back()];
+  }
+  for (std::size_t p = 0; p < count.size(); ++p) out.points[p] /= count[p];
+  std::set<std::array<int, 3>> known;
+  for (const auto& c : t.corners) {
+    const std::array<int, 3> moved{place[c[0]], place[c[1]], place[c[2]]};
+    auto key = moved;
+    std::sort(key.begin(), key.end());
+    if (key[0] == key[1] || key[1] == key[2] || !(twice_the_area(out, moved).dot(twice_the_area(t, c)) > 0)) continue;
+    if (known.insert(key).second) out.corners.push_back(moved);
+  }
+  return out;
+}
+
+// its points moved out along the mean normals
+Outline swollen(const Triangles& t, double by) {
+  Outline out;
+  std::vector<Vec3> normal(t.points.size(), Vec3::Zero());
+  for (const auto& c : t.corners) {
+    for (int p : c) normal[static_cast<std::size_t>(p)] += twice_the_area(t, c);
+    out.faces.push_back({c[0], c[1], c[2]});
+  }
+  for (std::size_t p = 0; p < t.points.size(); ++p) out.points.push_back(t.points[p] + by * normal[p].stableNormalized());
+  return out;
+}
+
 // Triangles moved out by the rounding, between them strips along edges and polygons at corners, all with their corners on the surface.
-Outline Facets::outline(const Shown&) const {
-  const Triangles& t = tree->triangles();
+Outline with_rounded_edges(const Triangles& t, double rounding) {
   Outline out;
   std::map<std::array<int, 2>, std::array<int, 2>> ends_of;  // of a side, as its triangle goes round: the moved ends
   std::vector<std::vector<int>> at_corner(t.points.size());
   for (const auto& c : t.corners) {
-    const Vec3 n = (t.points[c[1]] - t.points[c[0]]).cross(t.points[c[2]] - t.points[c[0]]).normalized();
+    const Vec3 n = twice_the_area(t, c).normalized();
     const int first = static_cast<int>(out.points.size());
     for (int k = 0; k < 3; ++k) {
       out.points.push_back(t.points[c[k]] + rounding * n), at_corner[c[k]].push_back(first + k);
@@ -152,6 +200,15 @@ Outline Facets::outline(const Shown&) const {
     out.faces.push_back(moved);
   }
   return out;
+}
+
+}  // namespace
+
+Outline Facets::outline(const Shown& shown) const {
+  const Triangles& t = tree->triangles();
+  const auto parts = static_cast<std::size_t>(shown.parts);
+  if (t.corners.size() <= 2 * parts * parts) return with_rounded_edges(t, rounding);
+  return swollen(t.corners.size() <= 8 * parts * parts ? t : coarser(t, shown.parts), rounding);
 }
 
 }  // namespace langer

@@ -9,13 +9,9 @@
 #include "base/fields.hpp"
 #include "base/input_path.hpp"
 #include "contact/shape.hpp"
+#include "mesh/triangles.hpp"
 
 namespace langer {
-
-struct Triangles {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 3>> corners;  // counter-clockwise seen from outside
-};
 
 // Finds the nearest triangle quickly: a tree of boxes.
 class TriangleTree {
@@ -56,7 +52,7 @@ struct Facets {
   }
   ShapePoint at(const Vec3& x) const;
   bool becomes(const Facets&, const Isometry&) const { return false; }  // triangles are not compared
-  Outline outline(const Shown& shown) const;
+  Outline outline(const Shown& shown) const;  // of many triangles a coarser picture: as many as one of a sphere has, about
   double half_width() const;
   std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }
 };

@@ -1,4 +1,4 @@
-// The surface of a rigid shape as polygons, for pictures: its corners lie on the surface of gap 0.
+// The surface of a rigid shape as polygons, for pictures: its corners lie on the surface of gap 0 (of very many triangles nearly).
 #pragma once
 
 #include <array>

@@ -93,7 +93,7 @@ class Points {
 
 }  // namespace
 
-SurfaceFile parse_surface(const std::string& bytes, const std::string& shown_name) {
+Triangles parse_surface(const std::string& bytes, const std::string& shown_name) {
   const auto refuse = [&](int line, const std::string& found) {
     throw Failure(Exit::input,
                   Error{{shown_name, line, line > 0 ? 1 : 0}, "", found, "an STL file with triangles, normals outwards", ""});
@@ -108,7 +108,7 @@ SurfaceFile parse_surface(const std::string& bytes, const std::string& shown_nam
   const double size = (high - low).norm();
   if (!(size > 1e-100)) refuse(0, "triangle 1 has no area");
   Points unique(0.5e-8 * size);
-  SurfaceFile surface;
+  Triangles surface;
   for (std::size_t t = 0; 3 * t < corners.size(); ++t) {
     std::array<int, 3> c;
     for (std::size_t k = 0; k < 3; ++k) c[k] = unique.at(corners[3 * t + k]);
@@ -120,7 +120,7 @@ SurfaceFile parse_surface(const std::string& bytes, const std::string& shown_nam
   return surface;
 }
 
-SurfaceFile read_surface(const std::string& path) {
+Triangles read_surface(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream bytes;
   bytes << file.rdbuf();

@@ -142,8 +142,12 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const auto& [name, contact] : solve.contacts) {
       if (!header.contact_nodes.count(name)) return {};
-      if (std::holds_alternative<Facets>(contact.rigid)) continue;
       RigidContact indenter{name, contact.rigid, contact.friction, header.contact_nodes.at(name), {}};
+      if (auto* facets = std::get_if<Facets>(&indenter.shape)) {
+        const auto surface = header.indenter_surfaces.find(name);
+        if (surface == header.indenter_surfaces.end()) continue;
+        facets->tree = std::make_shared<TriangleTree>(surface->second);
+      }
       for (const WaypointConfig& w : contact.motion) indenter.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
     }

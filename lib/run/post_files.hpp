@@ -25,7 +25,7 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at);
 
 // The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read. Those of
-// triangles are missing: their file is no part of the solution.
+// triangles are missing where a version wrote it that did not keep them.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters);  // names
 // Supports and imposed displacements as that config tells, on some nodes of each set; u (n) [mm] moves them.

@@ -34,7 +34,11 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
   if (scene.materials.size() > 1) header.materials = scene.materials;
   header.directions = scene.directions;
   header.formulation = names(formulation)[static_cast<int>(formulation)];
-  for (const RigidContact& contact : scene.contacts) header.contact_nodes[contact.name] = contact.nodes;
+  for (const RigidContact& contact : scene.contacts) {
+    header.contact_nodes[contact.name] = contact.nodes;
+    if (const auto* facets = std::get_if<Facets>(&contact.shape))
+      header.indenter_surfaces[contact.name] = facets->tree->triangles();
+  }
   header.identity = identity;
   return header;
 }

@@ -163,9 +163,9 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config) {
 RigidContact indenter_of(const std::string& name, const ContactConfig& contact) {
   RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
   if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
-    SurfaceFile file = read_surface(facets->file.path);
-    for (Vec3& p : file.points) p = facets->scale * p + vec(facets->move);
-    facets->tree = std::make_shared<TriangleTree>(Triangles{std::move(file.points), std::move(file.corners)});
+    Triangles triangles = read_surface(facets->file.path);
+    for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
+    facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
   }
   for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
   return rigid;

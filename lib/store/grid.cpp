@@ -172,4 +172,21 @@ Mesh read_grid(const h5::Group& root) {
   return mesh;
 }
 
+void write_triangles(const h5::Group& group, const Triangles& triangles) {
+  group.write<double>("points", {triangles.points.size(), 3}, flat(triangles.points), "mm");
+  Integers corners;
+  for (const auto& triangle : triangles.corners) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  write_integers(group, "triangles", {triangles.corners.size(), 3}, corners);
+}
+
+Triangles read_triangles(const h5::Group& group) {
+  Triangles triangles;
+  need_unit(group, "points", "mm");
+  triangles.points = vectors(group.read_finite("points", {h5::any, 3}));
+  const std::vector<int> corners = indices(group, "triangles", {h5::any, 3}, static_cast<std::int64_t>(triangles.points.size()));
+  if (corners.empty()) group.refuse("triangles", "none", "the triangles of a surface");
+  for (std::size_t i = 0; i < corners.size(); i += 3) triangles.corners.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  return triangles;
+}
+
 }  // namespace langer

@@ -7,6 +7,7 @@
 
 #include "hdf5/h5.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/triangles.hpp"
 #include "store/provenance.hpp"
 
 namespace langer {
@@ -18,6 +19,9 @@ void write_section(const h5::Group& root, const Mesh& mesh);  // of a section on
 Schema schema_of(const Schema& schema, const Mesh& mesh);     // readers that know no sections refuse them by their version
 
 Mesh read_grid(const h5::Group& root);  // with sets and frames
+
+void write_triangles(const h5::Group& group, const Triangles& triangles);
+Triangles read_triangles(const h5::Group& group);
 
 // flat row-major copies
 std::vector<double> flat(const std::vector<Vec3>& vectors);

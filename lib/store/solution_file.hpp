@@ -12,6 +12,7 @@
 #include "material/material.hpp"
 #include "mesh/directions.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/triangles.hpp"
 #include "store/identity.hpp"
 #include "store/provenance.hpp"
 #include "tensor/types.hpp"
@@ -46,6 +47,7 @@ struct SolutionHeader {
   Directions directions{};                                // of the fibres in all cells; the file has those of a field
   std::string formulation;                                // element/solid.hpp
   std::map<std::string, std::vector<int>> contact_nodes;  // candidates by contact name; empty without contact
+  std::map<std::string, Triangles> indenter_surfaces{};   // of those read from files, where they begin
   Identity identity;
 
   // one for all cells, or one for each body

@@ -96,6 +96,8 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
           contacts.group(name).refuse("nodes", fmt::format("node {}", node), "a node of the mesh");
         nodes.push_back(static_cast<int>(node));
       }
+      if (contacts.group(name).has("surface"))
+        header.indenter_surfaces[name] = read_triangles(contacts.group(name).group("surface"));
     }
   }
   check_units(root);

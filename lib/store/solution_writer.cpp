@@ -128,6 +128,8 @@ void SolutionWriter::State::begin() {
   for (const auto& [name, nodes] : header.contact_nodes)
     root.make_group("contact").make_group(name).write<std::int64_t>("nodes", {nodes.size()},
                                                                     std::vector<std::int64_t>(nodes.begin(), nodes.end()));
+  for (const auto& [name, triangles] : header.indenter_surfaces)
+    write_triangles(root.group("contact").group(name).make_group("surface"), triangles);
   file.flush();
 }
 

@@ -335,3 +335,34 @@ TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted s
   facets.tree = std::make_shared<TriangleTree>(std::move(t));
   CHECK(press("faceted sphere", facets) == doctest::Approx(ball).epsilon(0.01));
 }
+
+TEST_CASE("a surface of very many triangles is shown by a few thousand polygons, as large and seen from outside") {
+  for (int rings : {20, 60, 250}) {
+    CAPTURE(rings);
+    Triangles whole = half_sphere(2, rings, 2 * rings);
+    const auto points = whole.points;
+    const auto corners = whole.corners;
+    const int n = static_cast<int>(points.size()), below = n - 2 * rings;  // its rim belongs to both halves
+    for (int i = 0; i < below; ++i) whole.points.emplace_back(points[i][0], -points[i][1], points[i][2]);
+    const auto above = [&](int i) { return i < below ? n + i : i; };
+    for (const auto& c : corners) whole.corners.push_back({above(c[0]), above(c[2]), above(c[1])});
+    const std::size_t triangles = whole.corners.size();
+    Facets facets;
+    facets.rounding = 0.05;
+    facets.tree = std::make_shared<TriangleTree>(std::move(whole));
+    const Outline out = outline(facets, {Vec3::Zero(), 10, 24}), ball = outline(Sphere{2, {0, 0, 0}}, {Vec3::Zero(), 10, 24});
+    CHECK(out.faces.size() <= triangles);
+    CHECK(out.faces.size() < 6 * ball.faces.size());
+    CHECK(out.faces.size() > ball.faces.size() / 2);
+    CHECK(area(out) == doctest::Approx(4 * M_PI * 2.05 * 2.05).epsilon(0.02));
+    int inwards = 0;
+    for (const auto& face : out.faces) {
+      const Outline one{out.points, {face}, {}};
+      inwards += area_vector(one).dot(out.points[face[0]]) < 0;
+    }
+    CHECK(inwards == 0);
+    double farthest = 0;
+    for (const Vec3& x : out.points) farthest = std::max(farthest, std::abs(shape_at(facets, x).gap));
+    CHECK(farthest < 0.1 * facets.rounding);
+  }
+}

@@ -6,7 +6,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;
   fuzz::reads_or_refuses("input.stl", [&] {
-    const SurfaceFile surface = parse_surface(std::string(reinterpret_cast<const char*>(data), size), "input.stl");
+    const Triangles surface = parse_surface(std::string(reinterpret_cast<const char*>(data), size), "input.stl");
     const int n = static_cast<int>(surface.points.size());
     fuzz::need(!surface.corners.empty());
     for (const Vec3& x : surface.points) fuzz::need(x.allFinite());

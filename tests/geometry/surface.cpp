@@ -51,14 +51,14 @@ std::string binary(const std::vector<std::array<float, 9>>& triangles) {
 }  // namespace
 
 TEST_CASE("a text of triangles is a surface whose triangles share their corners") {
-  const SurfaceFile surface = parse_surface(tetrahedron, "t.stl");
+  const Triangles surface = parse_surface(tetrahedron, "t.stl");
   CHECK(surface.points == std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
   CHECK(surface.corners == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}});
 }
 
 TEST_CASE("a binary file of triangles is the same surface") {
-  const SurfaceFile text = parse_surface(tetrahedron, "t.stl");
-  const SurfaceFile surface = parse_surface(
+  const Triangles text = parse_surface(tetrahedron, "t.stl");
+  const Triangles surface = parse_surface(
       binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}, {0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}),
       "t.stl");
   CHECK(surface.points == text.points);
@@ -95,7 +95,7 @@ TEST_CASE("what gmsh writes as STL is read as gmsh reads it") {
       REQUIRE(types == std::vector<int>{2});
       n_triangles = elements[0].size();
     }
-    const SurfaceFile surface = read_surface(path);
+    const Triangles surface = read_surface(path);
     CHECK(surface.corners.size() == n_triangles);
     CHECK(surface.points.size() == n_points);
     CHECK(2 * (surface.points.size() - 2) == surface.corners.size());  // closed, like a sphere (Euler)

@@ -32,6 +32,12 @@ TEST_CASE("a solution comes back as written, with and without contact") {
     for (int i : {3, 0, 2, 1}) CHECK(example::same(reader.step(i), step(i, contact)));
     CHECK(example::same(reader.header().mesh, example::bar()));
     CHECK(reader.header().contact_nodes == header(contact).contact_nodes);
+    CHECK(reader.header().indenter_surfaces.size() == (contact ? 1 : 0));
+    for (const auto& [name, surface] : reader.header().indenter_surfaces) {
+      const Triangles written = header(contact).indenter_surfaces.at(name);
+      CHECK(surface.points == written.points);
+      CHECK(surface.corners == written.corners);
+    }
     CHECK(reader.header().formulation == "mean_dilatation");
     CHECK(std::get<Yeoh>(reader.header().material.matrix[0]).a2 == 0.376);
     CHECK(reader.content_id() == content_id(header(contact).identity, 1));

@@ -14,6 +14,7 @@ inline SolutionHeader header(bool contact) {
   h.material.volume = QuadraticVolume{1e-3};
   h.formulation = "mean_dilatation";
   if (contact) h.contact_nodes = {{"indenter", {3, 4, 5}}};
+  if (contact) h.indenter_surfaces["indenter"] = {{{0, 1, 0}, {0, 1, 0.1}, {1, 1.5, 1.0 / 3}, {0.5, 2, 0}}, {{0, 1, 2}, {2, 1, 3}}};
   h.identity = identity();
   h.identity.stage = "solve";
   return h;
