@@ -46,9 +46,9 @@ paper:
 # the section "Extreme cases" of docs/reliability.md from a run of pipelines/extremes.yaml; `ladder` is its former name
 extremes ladder:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
-	@awk -v run=runs/extremes -f docs/extremes.awk docs/extremes.csv > runs/extremes/ladder.md; passed=$$?; \
-	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- ladder:/ { print; printf "\n%s\n", table; skip = 1 } \
-	  /<!-- end of ladder/ { skip = 0 } !skip' runs/extremes/ladder.md docs/reliability.md > runs/extremes/reliability.md && \
+	@awk -v run=runs/extremes -f docs/extremes.awk docs/extremes.csv > runs/extremes/cases.md; passed=$$?; \
+	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- extremes:/ { print; printf "\n%s\n", table; skip = 1 } \
+	  /<!-- end of extremes/ { skip = 0 } !skip' runs/extremes/cases.md docs/reliability.md > runs/extremes/reliability.md && \
 	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
 
 # work-precision diagrams of three indentations, alone on the machine, and docs/work_precision.md from them; about 20 minutes.

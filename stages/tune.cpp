@@ -1,6 +1,6 @@
 // langer-tune trade.yaml --curves a/curves.h5 --curves b/curves.h5 -o trade.h5: errors against CPU seconds and memory of every
-// rung, also as trade.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
-// rung for each error wanted that is not below that.
+// level, also as trade.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
+// level for each error wanted that is not below that.
 #include <cmath>
 
 #include "hdf5/seal.hpp"
@@ -9,13 +9,13 @@
 #include "stage.hpp"
 #include "sweep/gather.hpp"
 #include "sweep/sweep_file.hpp"
-#include "sweep/trade.hpp"
 #include "sweep/tune_config.hpp"
+#include "sweep/work_precision.hpp"
 
 namespace langer {
 namespace {
 
-struct Ladder {
+struct Levels {
   std::vector<GatherInput> members;
   std::vector<Cost> cost;
 
@@ -30,48 +30,48 @@ struct Ladder {
   }
 };
 
-Ladder ladder_of(const Job<TuneConfig>& job) {
+Levels levels_of(const Job<TuneConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const TuneConfig& config = job.config;
   if (!config.members.empty() && config.members.size() != files.size())
     throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
                                       fmt::format("one for each of the {} files given", files.size()), ""});
-  Ladder ladder;
+  Levels levels;
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {files[i]}, read_summary(files[i])};
     if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
     const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
     if (!cost) job.say("{}: its solution was made in several runs, or by an older version: what it took is not known", member.path);
-    ladder.members.push_back(std::move(member));
-    ladder.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
+    levels.members.push_back(std::move(member));
+    levels.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
   }
-  return ladder;
+  return levels;
 }
 
 struct Reference {
   Limit limit;
-  std::vector<std::size_t> no_rungs;  // members that stand for the truth
+  std::vector<std::size_t> of_truth;  // members that stand for the truth
 };
 
-Reference reference_of(const Job<TuneConfig>& job, const Ladder& ladder, const std::vector<double>& values) {
+Reference reference_of(const Job<TuneConfig>& job, const Levels& levels, const std::vector<double>& values) {
   const TuneReference& wanted = job.config.reference;
   if (wanted.fitted) {
     std::vector<double> lengths, of_members;
     for (std::size_t i = 0; i < wanted.fitted->members.size(); ++i) {
       const MemberOfLength& m = wanted.fitted->members[i];
       lengths.push_back(m.length);
-      of_members.push_back(values[ladder.at(job, fmt::format("reference.fitted.members[{}].member", i), m.member)]);
+      of_members.push_back(values[levels.at(job, fmt::format("reference.fitted.members[{}].member", i), m.member)]);
     }
     return {fitted_limit(lengths, of_members, wanted.fitted->order), {}};
   }
   if (!wanted.richardson) {
-    const std::size_t i = ladder.at(job, "reference.member", wanted.member);
+    const std::size_t i = levels.at(job, "reference.member", wanted.member);
     return {{values[i], 0, 0}, {i}};
   }
   const RichardsonConfig& r = *wanted.richardson;
-  const std::size_t coarse = ladder.at(job, "reference.richardson.coarse", r.coarse),
-                    middle = ladder.at(job, "reference.richardson.middle", r.middle),
-                    fine = ladder.at(job, "reference.richardson.fine", r.fine);
+  const std::size_t coarse = levels.at(job, "reference.richardson.coarse", r.coarse),
+                    middle = levels.at(job, "reference.richardson.middle", r.middle),
+                    fine = levels.at(job, "reference.richardson.fine", r.fine);
   return {richardson(values[coarse], values[middle], values[fine], r.ratio), {fine}};
 }
 
@@ -90,14 +90,14 @@ struct LevelErrors {
   }
 };
 
-void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Ladder& ladder,
+void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Levels& levels,
           const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
-  std::string all = "rung,cpu_s,error_percent,error_low,error_high\n", best = all;
+  std::string all = "level,cpu_s,error_percent,error_low,error_high\n", best = all;
   const auto line = [&](std::size_t i) {
     const double e = errors.found[i],
                  low = std::max(e - errors.uncertain, 0.1 * e);  // an end of 0 has no place on a logarithmic axis
-    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_cell(name_of(ladder.members[i])), cpu[i], e, low,
+    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_cell(name_of(levels.members[i])), cpu[i], e, low,
                        e + errors.uncertain);
   };
   for (std::size_t i = 0; i < cpu.size(); ++i)
@@ -111,13 +111,13 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   plot.x_label = "CPU time [s]", plot.y_label = "error of " + literal(quantity) + " [%]";
   plot.logarithmic = true;
   plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "levels"}};
-  plot.lines[0].names = "rung", plot.lines[1].points = true;
+  plot.lines[0].names = "level", plot.lines[1].points = true;
   if (errors.uncertain > 0) plot.lines[1].low = "error_low", plot.lines[1].high = "error_high";
   pictures.draw(name, gnuplot_script(plot, name));
 }
 
 // lines of cheapest.csv
-std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Ladder& ladder, const std::vector<double>& cpu,
+std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Levels& levels, const std::vector<double>& cpu,
                    const std::vector<double>& memory, const LevelErrors& errors) {
   std::string choice;
   for (double wanted : job.config.wanted) {
@@ -130,9 +130,9 @@ std::string choose(const Job<TuneConfig>& job, const std::string& quantity, cons
     }
     const auto k = static_cast<std::size_t>(i);
     const double error = errors.known()[k];
-    job.say("  {:g} %: {} ({}{:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(ladder.members[k]),
+    job.say("  {:g} %: {} ({}{:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(levels.members[k]),
             errors.found[k] < errors.uncertain ? "at most " : "", error, cpu[k], memory[k]);
-    choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted, csv_cell(name_of(ladder.members[k])),
+    choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted, csv_cell(name_of(levels.members[k])),
                           error, cpu[k], memory[k]);
   }
   return choice;
@@ -143,27 +143,27 @@ LevelErrors errors_of(const std::vector<double>& values, const std::vector<doubl
   LevelErrors errors{.uncertain = 100 * reference.limit.uncertainty / std::abs(right)};
   for (double v : values) errors.all.push_back(100 * std::abs(v - right) / std::abs(right));
   errors.found = errors.all;
-  for (std::size_t i : reference.no_rungs) errors.found[i] = NAN;
+  for (std::size_t i : reference.of_truth) errors.found[i] = NAN;
   errors.front = pareto_front(cpu, errors.known());
   return errors;
 }
 
 std::vector<Summary> tune(const Job<TuneConfig>& job) {
-  const Ladder ladder = ladder_of(job);
+  const Levels levels = levels_of(job);
   std::vector<SweepAxis> axes;
   for (const GatherAxis& a : job.config.axes) axes.push_back({a.name, a.unit, {}});
-  const Sweep values = gather(job.config.quantities, axes, ladder.members, job.where("quantities"));
+  const Sweep values = gather(job.config.quantities, axes, levels.members, job.where("quantities"));
   Sweep sweep = values;
   std::vector<double> cpu, wall, memory;
-  for (const Cost& c : ladder.cost) cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
+  for (const Cost& c : levels.cost) cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
   sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
   Pictures pictures(std::filesystem::path(job.output).parent_path().string());
-  std::string choice = "quantity,wanted_percent,rung,error_percent,cpu_s,memory_MB\n";
+  std::string choice = "quantity,wanted_percent,level,error_percent,cpu_s,memory_MB\n";
   std::vector<Summary> summary;
   for (const SweepColumn& column : values.columns) {
-    const Reference reference = reference_of(job, ladder, column.values);
+    const Reference reference = reference_of(job, levels, column.values);
     const double right = reference.limit.value;
     const LevelErrors errors = errors_of(column.values, cpu, reference);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
@@ -175,8 +175,8 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
     sweep.columns.push_back({column.name + "_error", "percent", errors.all});
     sweep.columns.push_back({column.name + "_front", "-", on_front});
-    choice += choose(job, column.name, ladder, cpu, memory, errors);
-    draw(job, pictures, column.name, ladder, cpu, errors);
+    choice += choose(job, column.name, levels, cpu, memory, errors);
+    draw(job, pictures, column.name, levels, cpu, errors);
     summary.push_back({column.name + "_reference", right, column.unit});
     summary.push_back({column.name + "_reference_uncertainty", reference.limit.uncertainty, column.unit});
   }

@@ -20,8 +20,8 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 }
 
 // where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
-constexpr AccuracyRung coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
-constexpr AccuracyRung of_disc{CellType::hex8, 0.07, 0.25, 0};
+constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
 constexpr double finest_of_block = 0.04, finest_of_disc = 0.01, shortest_step = 0.01;  // finer ones were never tried
 constexpr double most_hex8 = 6e4;  // of meshes whose cells are no lengths in contact radii
 // An estimate of more than this [%] may be too large by the factor: then cells that it calls too long may do, and are not shortened at
@@ -62,24 +62,24 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
 }
 
 // With the config's own cells, shorter where there are too few of them to make coarser ones.
-AccuracyRung the_configs_own(const SolveConfig& config) {
-  AccuracyRung rung{config.mesh->cells, 1, config.path.largest_increment(), 0, false};
+AccuracyLevel the_configs_own(const SolveConfig& config) {
+  AccuracyLevel level{config.mesh->cells, 1, config.path.largest_increment(), 0, false};
   for (int n : numbers_of_cells(config.mesh->geometry))
-    if (n > 1) rung.edge = std::min(rung.edge, n / 4.0);
-  return rung;
+    if (n > 1) level.edge = std::min(level.edge, n / 4.0);
+  return level;
 }
 
 // in thin layers with cells that are short enough for some layers of them
-AccuracyRung where_to_begin(const SolveConfig& config, double finest) {
+AccuracyLevel where_to_begin(const SolveConfig& config, double finest) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyRung rung = is_section(geometry) ? of_disc : has_friction(config) ? coarsest_with_friction : coarsest;
-  *edge = rung.edge;
+  AccuracyLevel level = is_section(geometry) ? of_disc : has_friction(config) ? coarsest_with_friction : coarsest;
+  *edge = level.edge;
   while (*edge > finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
-  rung.edge = *edge;
-  return rung;
+  level.edge = *edge;
+  return level;
 }
 
 double finest_edge(const MeshConfig& mesh) {
@@ -92,7 +92,7 @@ double finest_edge(const MeshConfig& mesh) {
 }
 
 // What the config says stays where it is finer; what does not is told. `written`: before anything was chosen.
-std::string kept_and_replaced(const SolveConfig& written, AccuracyRung& rung) {
+std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) {
   std::string replaced;
   const auto replace = [&](const std::string& what) {
     replaced += (replaced.empty() ? "; in place of the config's " : ", ") + what;
@@ -100,18 +100,18 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyRung& rung) {
   Geometry geometry = written.mesh->geometry;
   const SolveConfig usual;
   if (const double* edge = edge_in_contact_radii(geometry); edge && *edge != IndentedBlock{}.edge) {
-    if (*edge < rung.edge && written.mesh->cells == rung.cells)
-      rung.edge = *edge;
-    else if (*edge != rung.edge)
+    if (*edge < level.edge && written.mesh->cells == level.cells)
+      level.edge = *edge;
+    else if (*edge != level.edge)
       replace(fmt::format("edge of {:g}", *edge));
   }
-  if (const CellType cells = written.mesh->cells; cells != CellType::hex8 && cells != rung.cells)
+  if (const CellType cells = written.mesh->cells; cells != CellType::hex8 && cells != level.cells)
     replace(names(cells)[static_cast<int>(cells)]);
   const double step = written.path.largest_increment();
   if (!written.path.steps && step == usual.path.largest) return replaced;
-  if (step < rung.step)
-    rung.step = step;
-  else if (step > rung.step)
+  if (step < level.step)
+    level.step = step;
+  else if (step > level.step)
     replace(fmt::format("increments of {:g}", step));
   return replaced;
 }
@@ -124,15 +124,15 @@ double percent_with(ErrorEstimate e, double edge, double step) {
 
 }  // namespace
 
-void put(const ChosenRung& chosen, SolveConfig& config) {
-  const AccuracyRung& rung = chosen.rung;
+void put(const ChosenLevel& chosen, SolveConfig& config) {
+  const AccuracyLevel& level = chosen.level;
   Geometry& geometry = config.mesh->geometry;
   if (double* edge = edge_in_contact_radii(geometry))
-    *edge = rung.edge;
+    *edge = level.edge;
   else
-    geometry = rung.edge == 1 ? chosen.written : with_cells(chosen.written, rung.edge);
-  if (rung.step != config.path.largest_increment()) config.path.use_increment(rung.step);
-  config.mesh->cells = rung.cells;
+    geometry = level.edge == 1 ? chosen.written : with_cells(chosen.written, level.edge);
+  if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
+  config.mesh->cells = level.cells;
 }
 
 std::optional<double> percent_of(const std::string& text) {
@@ -144,24 +144,24 @@ std::optional<double> percent_of(const std::string& text) {
   return value;
 }
 
-const std::vector<AccuracyRung>& accuracy_rungs(bool plain) {
+const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
   // make trade; force_error of <scene>/trade.csv: q50-4steps, q35-4steps and q25-5steps in the isotropic scene, rounded up;
   // the first is better there than its neighbours and its estimate: by chance
-  static const std::vector<AccuracyRung> smooth{
+  static const std::vector<AccuracyLevel> smooth{
       {CellType::hex27, 0.5, 0.25, 2}, {CellType::hex27, 0.3536, 0.25, 0.5}, {CellType::hex27, 0.25, 0.2, 0.2}};
   // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and a quarter
   // more for scenes unlike them (pipelines/accuracy.yaml). Shorter increments cost more and are no nearer: what cells add, longer
   // increments take away
-  static const std::vector<AccuracyRung> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
-                                                {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.1125, 0.25, 1},
-                                                {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
+  static const std::vector<AccuracyLevel> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
+                                                 {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.1125, 0.25, 1},
+                                                 {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
   return plain ? smooth : others;
 }
 
-std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material) {
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material) {
   if (!config.accuracy && !config.fidelity) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
-  ChosenRung chosen;
+  ChosenLevel chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
   const SolveConfig written = config;
   Geometry& geometry = config.mesh->geometry;
@@ -172,31 +172,31 @@ std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::option
   chosen.shown = of_the_studys_kind(config, print);
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
-  const auto& rungs = accuracy_rungs(plain);
-  auto rung = std::find_if(rungs.begin(), rungs.end(), [&](const AccuracyRung& r) { return r.error <= chosen.wanted; });
-  chosen.met = chosen.shown && rung != rungs.end();
-  chosen.rung = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *rung : rungs.back();
-  const std::string replaced = kept_and_replaced(written, chosen.rung);
+  const auto& levels = accuracy_levels(plain);
+  auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
+  chosen.met = chosen.shown && level != levels.end();
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *level : levels.back();
+  const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
   if (!config.estimate) config.estimate = EstimateBy::refinement;
   if (config.symmetry == SymmetryChoice::none && !is_section(geometry)) config.symmetry = SymmetryChoice::automatic;
-  chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.rung), replaced);
+  chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)
     chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
-                                plain ? "without fibres and friction" : "with friction", chosen.rung.error,
+                                plain ? "without fibres and friction" : "with friction", chosen.level.error,
                                 chosen.met ? "" : ", the finest level measured");
   return chosen;
 }
 
-std::string in_words(const AccuracyRung& rung) {
-  const char* cells = names(CellType{})[static_cast<int>(rung.cells)];
-  if (rung.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, rung.edge, rung.step);
-  if (rung.edge == 1) return fmt::format("the config's {}, increments of {:.3g}", cells, rung.step);
-  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, rung.edge, rung.step);
+std::string in_words(const AccuracyLevel& level) {
+  const char* cells = names(CellType{})[static_cast<int>(level.cells)];
+  if (level.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, level.edge, level.step);
+  if (level.edge == 1) return fmt::format("the config's {}, increments of {:.3g}", cells, level.step);
+  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, level.edge, level.step);
 }
 
-ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
-  ReachedAccuracy found{chosen.rung.error, chosen.met, ""};
+ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates) {
+  ReachedAccuracy found{chosen.level.error, chosen.met, ""};
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
   const bool estimated = !forces.empty();
   if (estimated) found.percent = 0;
@@ -214,8 +214,8 @@ ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimat
   return found;
 }
 
-std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates) {
-  AccuracyRung finer = chosen.rung;
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates) {
+  AccuracyLevel finer = chosen.level;
   const double enough = 0.8 * chosen.wanted;
   double step = 1, edge = 1;  // factors
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
@@ -223,20 +223,20 @@ std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vect
     const double increments = e.in_percent(std::abs(e.increments));
     if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
   }
-  const double least = chosen.finest / chosen.rung.edge;
+  const double least = chosen.finest / chosen.level.edge;
   for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
     if (percent_with(e, least, step) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
     while (percent_with(e, edge, step) > enough && edge > (is_rough ? std::max(least, at_once) : least)) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
-  finer.step = std::max(finer.step, std::min(shortest_step, chosen.rung.step)), finer.edge = std::max(finer.edge, chosen.finest);
-  if (finer.edge > 0.99 * chosen.rung.edge && finer.step > 0.99 * chosen.rung.step) return std::nullopt;
+  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)), finer.edge = std::max(finer.edge, chosen.finest);
+  if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step) return std::nullopt;
   return finer;
 }
 
-std::optional<AccuracyRung> shorter_rung(const ChosenRung& chosen) {
-  AccuracyRung shorter = chosen.rung;
+std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen) {
+  AccuracyLevel shorter = chosen.level;
   shorter.edge *= 0.7;
   return shorter.edge < chosen.finest ? std::nullopt : std::optional(shorter);
 }
@@ -245,7 +245,7 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
     : voice_(voice), config_(config), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
-  if (chosen_->shown || !chosen_->rung.in_contact_radii || config_.estimate != EstimateBy::refinement) return;
+  if (chosen_->shown || !chosen_->level.in_contact_radii || config_.estimate != EstimateBy::refinement) return;
   voice_.say("accuracy: the study has no scene of this kind; these cells tell which ones it needs{}",
              dry ? " (not with --dry-run)" : "");
   if (dry) return;
@@ -259,9 +259,9 @@ bool Accuracy::piloted(const std::optional<Material>& material) {
     const auto found = end_of_path(config_, material, where_, [&](const Run& run) { return listener(run, 0, 0); });
     const auto errors = estimate_errors(config_, material, where_, found, 0, listener);
     const ReachedAccuracy there = reached(*chosen_, errors);
-    const auto finer = there.met ? std::nullopt : finer_rung(*chosen_, errors);
+    const auto finer = there.met ? std::nullopt : finer_level(*chosen_, errors);
     if (finer) take(*finer);
-    voice_.say("accuracy: {:.2g} % there; {}", there.percent, in_words(chosen_->rung));
+    voice_.say("accuracy: {:.2g} % there; {}", there.percent, in_words(chosen_->level));
     return true;
   } catch (const Failure& failure) {
     if (failure.code() != Exit::not_converged) throw;
@@ -272,15 +272,15 @@ bool Accuracy::piloted(const std::optional<Material>& material) {
 
 // once, where no error is known that would say which
 bool Accuracy::shorter_cells() {
-  const auto shorter = ++without_estimate_ > 1 ? std::nullopt : shorter_rung(*chosen_);
+  const auto shorter = ++without_estimate_ > 1 ? std::nullopt : with_shorter_cells(*chosen_);
   if (!shorter) return false;
   take(*shorter);
   voice_.say("accuracy: {}", in_words(*shorter));
   return true;
 }
 
-void Accuracy::take(const AccuracyRung& rung) {
-  chosen_->rung = rung, chosen_->rung.error = 0;
+void Accuracy::take(const AccuracyLevel& level) {
+  chosen_->level = level, chosen_->level.error = 0;
   chosen_->met = chosen_->shown = false;  // no study stands for it
   put(*chosen_, config_);
 }
@@ -289,7 +289,7 @@ bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
   if (!chosen_ || config_.estimate != EstimateBy::refinement) return false;
   if (estimates.empty()) return shorter_cells();
   const ReachedAccuracy found = reached(*chosen_, estimates);
-  const auto finer = found.met ? std::nullopt : finer_rung(*chosen_, estimates);
+  const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates);
   if (!finer) return false;
   take(*finer);
   voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
@@ -313,7 +313,7 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
                 Error{where_(key), key, found.words, fmt::format("at most {:g} %", chosen_->wanted),
                       fmt::format("kept: {}, solved with {}; ask for what was reached, or say where cells are to be short: "
                                   "mesh.geometry with estimate, in place of {}",
-                                  output, in_words(chosen_->rung), key)});
+                                  output, in_words(chosen_->level), key)});
 }
 
 }  // namespace langer

@@ -1,8 +1,8 @@
-// What a wanted accuracy takes: a rung of the ladder that pipelines/trade.yaml measures on three indentations of a block
+// What a wanted accuracy takes: a level of the refinement study that pipelines/trade.yaml measures on three indentations of a block
 // (isotropic without friction; Table 1 at 60 degrees and c1 = +0.317 at 30 degrees with friction). Isotropic bodies without friction
 // get hex27, whose error falls fastest there; all others hex8: with friction nodes stick too early by a share of their distance, and
 // hex8 have more of them in contact for the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4
-// (make accuracy). A rung's error is that of the force in the scenes of its kind.
+// (make accuracy). A level's error is that of the force in the scenes of its kind.
 #pragma once
 
 #include <string>
@@ -14,18 +14,18 @@
 
 namespace langer {
 
-struct AccuracyRung {
+struct AccuracyLevel {
   CellType cells;
   double edge;  // of the cells, in contact radii (IndentedBlock, IndentedDisc); in their own lengths where a config has no such key
   double step;  // largest increment, as a share of the path to the first waypoint's end
   double error;  // [%]
   bool in_contact_radii = true;
 };
-std::string in_words(const AccuracyRung& rung);
-const std::vector<AccuracyRung>& accuracy_rungs(bool plain);  // by falling error; plain: isotropic, without friction
+std::string in_words(const AccuracyLevel& level);
+const std::vector<AccuracyLevel>& accuracy_levels(bool plain);  // by falling error; plain: isotropic, without friction
 
-struct ChosenRung {
-  AccuracyRung rung;
+struct ChosenLevel {
+  AccuracyLevel level;
   double wanted = 0;  // [%]
   // the study's kind of scene: one sphere above the middle of one layer that is thicker than the contact is wide
   bool shown = true;
@@ -35,28 +35,28 @@ struct ChosenRung {
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
 };
-// Puts the rung's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
+// Puts the level's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
 // is wanted. Scenes that are not of the study's kind get the coarsest hex8, or the config's own cells and increments where these are
-// no lengths in contact radii: their own error decides (Accuracy). Shorter cells and increments than the rung's stay, if the config
+// no lengths in contact radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if the config
 // has them; what does not is named in `words`.
 // material: of the bodies that the config names none for
-std::optional<ChosenRung> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
 
-// What was reached of it: the largest estimated error of a force; what the rung promises where nothing was estimated.
+// What was reached of it: the largest estimated error of a force; what the level promises where nothing was estimated.
 struct ReachedAccuracy {
   double percent = 0;
   bool met = false;
   std::string words;  // where it is not: what was asked for, what was found, what to do
 };
-ReachedAccuracy reached(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
+ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates);
 
 // The level at which these errors, of one that was solved, fall below four fifths of what is wanted: cells' with the length of the
 // cells to their order, increments' with the square of their length. Nothing where it is the finest that there is, or not even that would do.
-std::optional<AccuracyRung> finer_rung(const ChosenRung& chosen, const std::vector<ErrorEstimate>& estimates);
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates);
 
 // without an error that would say which: cells of 0.7 times the length; nothing where these would be shorter than the finest
-std::optional<AccuracyRung> shorter_rung(const ChosenRung& chosen);
-void put(const ChosenRung& chosen, SolveConfig& config);  // its cells and increments
+std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen);
+void put(const ChosenLevel& chosen, SolveConfig& config);  // its cells and increments
 
 // The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and again with shorter cells or
 // increments until that is within what was asked for or there are no shorter ones.
@@ -75,14 +75,14 @@ class Accuracy {
   void need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const;
 
  private:
-  void take(const AccuracyRung& rung);
+  void take(const AccuracyLevel& level);
   bool piloted(const std::optional<Material>& material);  // false: to be tried again, with config() as it is now
   bool shorter_cells();
 
   Voice voice_;
   SolveConfig config_;
   Where where_;
-  std::optional<ChosenRung> chosen_;
+  std::optional<ChosenLevel> chosen_;
   int without_estimate_ = 0;
 };
 

@@ -142,8 +142,8 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   if (dry) return voice_.say("reduce: a section may take the block's place (not with --dry-run)");
   if (accuracy_) {
     const bool bilinear = asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
-    accuracy_->rung.cells = bilinear ? CellType::hex8 : CellType::hex27;
-    accuracy_->rung.edge = bilinear ? edge_hex8 : edge_hex27;
+    accuracy_->level.cells = bilinear ? CellType::hex8 : CellType::hex27;
+    accuracy_->level.edge = bilinear ? edge_hex8 : edge_hex27;
     accuracy_->finest = finest;
     put(*accuracy_, *section);
   }
@@ -192,11 +192,11 @@ bool SectionInPlace::accurate(const std::vector<ErrorEstimate>& errors) {
     voice_.say("reduce: no estimate of the section's errors");
   else
     voice_.say("reduce: {:.2g} % with the sides, and {:g} % is asked for", percent(errors), wanted());
-  ChosenRung left = *accuracy_;  // what the sides leave of what is asked for
+  ChosenLevel left = *accuracy_;  // what the sides leave of what is asked for
   left.wanted -= sides_percent_;
-  const auto finer = errors.empty() ? shorter_rung(left) : finer_rung(left, errors);
+  const auto finer = errors.empty() ? with_shorter_cells(left) : finer_level(left, errors);
   if (finer) {
-    accuracy_->rung = *finer;
+    accuracy_->level = *finer;
     put(*accuracy_, *section_);
     voice_.say("reduce: again with {}", in_words(*finer));
   } else {

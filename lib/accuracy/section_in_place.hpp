@@ -36,7 +36,7 @@ class SectionInPlace {
   bool taken() const { return section_.has_value(); }
   const SolveConfig& config() const { return section_ ? *section_ : asked_; }  // to be solved
   // With these errors of the section beside those of the sides: whether an accuracy that was asked for is kept. Where it is not,
-  // config() is another one now: what finer_rung says for the rest that the sides leave, then the block.
+  // config() is another one now: what finer_level says for the rest that the sides leave, then the block.
   bool accurate(const std::vector<ErrorEstimate>& errors);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
 
@@ -48,7 +48,7 @@ class SectionInPlace {
 
   Voice voice_;
   SolveConfig asked_;
-  std::optional<ChosenRung> accuracy_;  // of the section, where one is asked for
+  std::optional<ChosenLevel> accuracy_;  // of the section, where one is asked for
   std::optional<SolveConfig> section_;
   RadiiOfBlock radii_;
   std::vector<Valued> sides_;  // by force: what the sides may change [N]

@@ -125,7 +125,7 @@ void Progress::failed(double t, const SolveReport& report) const {
 
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   const Statics::Cost cost = statics.cost();
-  voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cuts,
+  voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cut_backs,
              1e-6 * peak_bytes());
   voice_.say(
       "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "

@@ -28,7 +28,7 @@ std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) 
   const Statics::Cost cost = run.statics.cost();
   std::vector<Summary> summary{{"steps", static_cast<double>(n_steps), "-"},
                                {"iterations", static_cast<double>(end.path.iterations), "-"},
-                               {"cuts", static_cast<double>(end.path.cuts), "-"},
+                               {"cuts", static_cast<double>(end.path.cut_backs), "-"},
                                {"indefinite", static_cast<double>(run.statics.n_indefinite()), "-"},
                                {"cpu_assembly", cost.assembly, "s"},
                                {"cpu_factor", cost.factor, "s"},

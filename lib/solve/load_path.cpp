@@ -27,7 +27,7 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       next = std::round(next * *options.steps) / *options.steps;
     const SolveReport solved = attempt(next);
     if (!solved.converged()) {
-      ++report.cuts;
+      ++report.cut_backs;
       report.why = solved.why;
       dt = 0.5 * (next - t);
       if (dt < options.smallest) return report;

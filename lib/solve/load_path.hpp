@@ -41,7 +41,7 @@ struct PathReport {
   int steps = 0;       // accepted
   int iterations = 0;  // of accepted steps
   int again = 0;       // corrections with their tangents
-  int cuts = 0;
+  int cut_backs = 0;
   std::string why;  // of the last failure, when not complete
 };
 

@@ -140,7 +140,7 @@ struct FitConfig {
     v(&FitConfig::starts, "starts", unit::none, "searches: one from the start values, the others from random places in the box",
       between(1, 100000));
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
-    v(&FitConfig::cross_check, "cross_check", unit::none, "a second answer by another method; disagreement is a warning",
+    v(&FitConfig::cross_check, "cross_check", unit::none, "a cross-check by another method; disagreement is a warning",
       Formerly{"check"});
     v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
   }

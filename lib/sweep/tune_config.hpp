@@ -46,7 +46,7 @@ struct TuneReference {
   std::optional<FittedLimit> fitted;
   std::optional<RichardsonConfig> richardson;
   static void fields(auto& v) {
-    v(&TuneReference::member, "member", unit::none, "values on the axes of the member that counts as right; it is no rung itself");
+    v(&TuneReference::member, "member", unit::none, "values on the axes of the member that counts as right; it is no level itself");
     v(&TuneReference::fitted, "fitted", unit::none,
       "instead: what is left at length 0 of q = f + A length^order, fitted to members");
     v(&TuneReference::richardson, "richardson", unit::none, "instead: the limit of three members, of the order that they show");
@@ -68,9 +68,9 @@ struct TuneConfig {
   static void fields(auto& v) {
     v(&TuneConfig::quantities, "quantities", unit::none, "names of the members' summaries whose errors matter", required);
     v(&TuneConfig::reference, "reference", unit::none, "what counts as right", required);
-    v(&TuneConfig::wanted, "wanted", unit::none, "errors in percent for which the cheapest rung is told");
+    v(&TuneConfig::wanted, "wanted", unit::none, "errors in percent for which the cheapest level is told");
     v(&TuneConfig::title, "title", unit::none, "above the pictures");
-    v(&TuneConfig::axes, "axes", unit::none, "what tells the rungs apart; written by plan");
+    v(&TuneConfig::axes, "axes", unit::none, "what tells the levels apart; written by plan");
     v(&TuneConfig::members, "members", unit::none, "one per file, in the same order; written by plan");
   }
   std::vector<Complaint> complaints() const {

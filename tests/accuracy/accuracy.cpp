@@ -30,11 +30,11 @@ TEST_CASE("a percentage is a number above 0 with its sign") {
 
 TEST_CASE("the levels come with falling errors, and none costs less cells than the one before") {
   for (bool plain : {false, true}) {
-    const auto& rungs = accuracy_rungs(plain);
-    REQUIRE(rungs.size() >= 3);
-    for (std::size_t i = 1; i < rungs.size(); ++i) {
-      CHECK(rungs[i].error < rungs[i - 1].error);
-      CHECK(rungs[i].edge <= rungs[i - 1].edge);
+    const auto& levels = accuracy_levels(plain);
+    REQUIRE(levels.size() >= 3);
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+      CHECK(levels[i].error < levels[i - 1].error);
+      CHECK(levels[i].edge <= levels[i - 1].edge);
     }
   }
 }
@@ -47,13 +47,13 @@ TEST_CASE("the first level that promises the wanted error is taken, its cells, i
     const auto chosen = choose_accuracy(config, std::nullopt);
     REQUIRE(chosen.has_value());
     CHECK(chosen->met);
-    CHECK(chosen->rung.error <= wanted);
-    CHECK(edge_of(config) == chosen->rung.edge);
-    CHECK(config.path.largest == chosen->rung.step);
+    CHECK(chosen->level.error <= wanted);
+    CHECK(edge_of(config) == chosen->level.edge);
+    CHECK(config.path.largest == chosen->level.step);
     CHECK(config.symmetry == SymmetryChoice::automatic);
-    CHECK(config.mesh->cells == chosen->rung.cells);
-    for (const AccuracyRung& r : accuracy_rungs(mu == 0))
-      if (r.error <= wanted) CHECK(r.edge <= chosen->rung.edge);
+    CHECK(config.mesh->cells == chosen->level.cells);
+    for (const AccuracyLevel& r : accuracy_levels(mu == 0))
+      if (r.error <= wanted) CHECK(r.edge <= chosen->level.edge);
   }
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("more than the study can promise gives its finest level and says so; n
   REQUIRE(finest.has_value());
   CHECK(!finest->met);
   CHECK(finest->words.find("finest") != std::string::npos);
-  CHECK(edge_of(config) == accuracy_rungs(true).back().edge);
+  CHECK(edge_of(config) == accuracy_levels(true).back().edge);
 
   SolveConfig plain = indentation();
   CHECK(!choose_accuracy(plain, std::nullopt));
@@ -78,7 +78,7 @@ TEST_CASE("more than the study can promise gives its finest level and says so; n
 TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the study promised") {
   SolveConfig config = indentation();
   config.accuracy = "1%";
-  const ChosenRung chosen = *choose_accuracy(config, std::nullopt);
+  const ChosenLevel chosen = *choose_accuracy(config, std::nullopt);
   REQUIRE(chosen.met);
   const auto of = [](const char* name, const char* unit, double value, double cells) {
     ErrorEstimate e;
@@ -87,7 +87,7 @@ TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the 
   };
   CHECK(chosen.shown);
   CHECK(reached(chosen, {}).met);  // nothing was estimated: the promise stands
-  CHECK(reached(chosen, {}).percent == chosen.rung.error);
+  CHECK(reached(chosen, {}).percent == chosen.level.error);
   const ReachedAccuracy good = reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
   CHECK(good.met);
   CHECK(good.percent == doctest::Approx(0.5));
@@ -118,7 +118,7 @@ TEST_CASE("scenes unlike the study's are known as such, and begin coarse without
     SolveConfig config = indentation();
     config.accuracy = "1%";
     change(config);
-    const ChosenRung chosen = *choose_accuracy(config, std::nullopt);
+    const ChosenLevel chosen = *choose_accuracy(config, std::nullopt);
     CHECK(chosen.met == chosen.shown);
     if (!chosen.shown) {
       CHECK(edge_of(config) <= 0.175);
@@ -188,24 +188,24 @@ TEST_CASE("cells go where the indenters are, unless the config says where") {
 }
 
 TEST_CASE("the next level follows from the error of the one before: cells by their order, increments by its square") {
-  ChosenRung chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, "", 0.04};
+  ChosenLevel chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, "", 0.04};
   const auto of = [](double cells, double increments, double scatter = 0, double order = 2) {
     return ErrorEstimate{{"force", "N", 100}, cells, increments, scatter, 0, order};
   };
-  const auto by_cells = finer_rung(chosen, {of(3.2, 0)});
+  const auto by_cells = finer_level(chosen, {of(3.2, 0)});
   REQUIRE(by_cells.has_value());
   CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 3.2)).epsilon(0.05));
   CHECK(by_cells->step == 0.25);
-  CHECK(finer_rung(chosen, {of(3.2, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 3.2).epsilon(0.05));
-  const auto by_step = finer_rung(chosen, {of(0.3, 3)});
+  CHECK(finer_level(chosen, {of(3.2, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 3.2).epsilon(0.05));
+  const auto by_step = finer_level(chosen, {of(0.3, 3)});
   REQUIRE(by_step.has_value());
   CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.1)).epsilon(0.01));
   CHECK(by_step->edge > 0.15);
   // of much, which is rough, not all at once, and where it may be too large
-  CHECK(finer_rung(chosen, {of(10, 0, 0, 1)})->edge == doctest::Approx(0.4 * 0.16).epsilon(0.05));
-  CHECK(!finer_rung(chosen, {of(20, 0, 0, 1)}));
-  chosen.rung.edge = 0.04;
-  CHECK(!finer_rung(chosen, {of(3.2, 0)}));  // the finest there is
+  CHECK(finer_level(chosen, {of(10, 0, 0, 1)})->edge == doctest::Approx(0.4 * 0.16).epsilon(0.05));
+  CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));
+  chosen.level.edge = 0.04;
+  CHECK(!finer_level(chosen, {of(3.2, 0)}));  // the finest there is
 }
 
 TEST_CASE("cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {

@@ -19,10 +19,10 @@ namespace {
 
 const auto nowhere = [](const std::string&) { return Place{}; };
 
-SolveConfig rung(const std::string& scene, CellType cells, double edge, double step) {
+SolveConfig level(const std::string& scene, CellType cells, double edge, double step) {
   const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
   const std::string text = "include: trade_" + scene + ".yaml\nmesh: {include: ../mesh/trade.yaml}\n";
-  SolveConfig config = read_config<SolveConfig>(parse_yaml(text, folder + "/rung.yaml", folder)).config;
+  SolveConfig config = read_config<SolveConfig>(parse_yaml(text, folder + "/level.yaml", folder)).config;
   config.mesh->cells = cells;
   std::get<IndentedBlock>(config.mesh->geometry).edge = edge;
   config.path.first = config.path.largest = step;
@@ -52,7 +52,7 @@ TEST_CASE("the estimated error of the force is within a factor of three of the t
     CAPTURE(c.scene);
     CAPTURE(static_cast<int>(c.cells));
     CAPTURE(c.edge);
-    const SolveConfig config = rung(c.scene, c.cells, c.edge, 0.25);
+    const SolveConfig config = level(c.scene, c.cells, c.edge, 0.25);
     const std::vector<ErrorEstimate> estimates = estimates_of(config);
     REQUIRE(estimates.size() == 3);  // greatest von Mises stress, displacement of S
     const ErrorEstimate& force = estimates[0];
@@ -83,7 +83,7 @@ TEST_CASE("on a disc, too, what few nodes in contact get wrong is known") {
 }
 
 TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
-  SolveConfig config = rung("isotropic", CellType::hex8, 0.175, 0.25);
+  SolveConfig config = level("isotropic", CellType::hex8, 0.175, 0.25);
   config.formulation = Formulation::displacement;
   const ErrorEstimate force = estimates_of(config)[0];
   CHECK(force.of.value > 2 * 10.763);
@@ -92,19 +92,19 @@ TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
 
 TEST_CASE("two meshes that agree by chance do not pass for right") {
   const ErrorEstimate force =
-      estimates_of(rung("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
+      estimates_of(level("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
   CHECK(force.total() > std::abs(force.of.value - 10.763));
 }
 
 TEST_CASE("with friction the increments have an error, which falls with them, without it none") {
   double last = 1e300;
   for (double step : {1.0, 0.5, 0.25}) {
-    const double increments = std::abs(estimates_of(rung("table1", CellType::hex8, 0.15, step))[0].increments);
+    const double increments = std::abs(estimates_of(level("table1", CellType::hex8, 0.15, step))[0].increments);
     CAPTURE(step);
     CHECK(increments > 0);
     CHECK(increments < last);
     last = increments;
-    CHECK(estimates_of(rung("isotropic", CellType::hex8, 0.18, step))[0].increments == 0);
+    CHECK(estimates_of(level("isotropic", CellType::hex8, 0.18, step))[0].increments == 0);
   }
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("a homogeneous body has no error of its cells, and few cells are no es
 }
 
 TEST_CASE("a mesh whose cells follow from no numbers has no refinement to estimate by") {
-  SolveConfig config = rung("isotropic", CellType::hex27, 0.8, 1);
+  SolveConfig config = level("isotropic", CellType::hex27, 0.8, 1);
   config.mesh->geometry = GradedBlock{};
   CHECK_THROWS_AS(estimate_errors(config, config.material, nowhere, {}, 0), Failure);
 }

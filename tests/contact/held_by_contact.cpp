@@ -22,7 +22,7 @@ TEST_CASE("a cube between two rough plates, held by nothing else") {
   Statics statics(body, {below, above}, {});
   const Run result = run(statics, 0.1);
   REQUIRE(result.path.complete);
-  CHECK(result.path.cuts == 0);
+  CHECK(result.path.cut_backs == 0);
   for (int n : result.iterations) CHECK(n <= 7);
   const auto defects = statics.defects();
   CHECK(defects[0].force[1] > 0.01);
@@ -70,7 +70,7 @@ TEST_CASE("deep indentation goes on where friction alone keeps the contact stabl
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 1.8, scene.reach = 4;
   const auto result = scene.run(test::table1(0, 1e-6, 0));
   REQUIRE(result.path.complete);
-  CHECK(result.path.cuts == 0);
+  CHECK(result.path.cut_backs == 0);
   for (const auto& step : result.steps) {
     CHECK(step.iterations <= 5);
     CHECK(step.defect.penetration <= 1e-9);

@@ -124,7 +124,7 @@ TEST_CASE("Newton's method keeps its order where the contact turns: a small sphe
     scene.motion = {{0.4, Vec3(0, -0.5, 0)}, {1, Vec3(-0.7, -0.5, 0.2)}};
     const auto result = scene.run(test::table1(60, 1e-3));
     REQUIRE(result.path.complete);
-    CHECK(result.path.cuts == 0);
+    CHECK(result.path.cut_backs == 0);
     CHECK(result.steps.size() == 10);
     CHECK(result.path.iterations <=
           43);  // 39 and 40; reactions that do not turn: 47 and 48; without their part of the tangent: 118

@@ -315,7 +315,7 @@ TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted s
     const auto result = scene.run(test::table1(60, 1e-6));
     CAPTURE(name);
     CHECK(result.path.complete);
-    CHECK(result.path.cuts == 0);
+    CHECK(result.path.cut_backs == 0);
     for (const auto& step : result.steps) {
       CHECK(step.defect.penetration <= 1e-9);
       CHECK(step.defect.cone <= 1e-8);

@@ -91,8 +91,8 @@ Fitted fitted(const std::string& along, const std::string& across) {
 // the starter's scene with such a law: what stands at the end of its path
 double force_of(const Material& material) {
   SolveConfig config = read_config<SolveConfig>(load_yaml(starter + "solve.yaml")).config;
-  const auto rung = choose_accuracy(config, material);
-  REQUIRE(rung);
+  const auto level = choose_accuracy(config, material);
+  REQUIRE(level);
   config.stability = StabilityCheck::off;
   for (const Valued& v : end_of_path(config, material, test::nowhere))
     if (v.name == "force") return v.value;

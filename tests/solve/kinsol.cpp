@@ -129,7 +129,7 @@ TEST_CASE("indentation with friction: every strategy agrees with newton to 1e-8 
     CAPTURE(static_cast<int>(strategy));
     REQUIRE(result.path.complete);
     MESSAGE("strategy " << static_cast<int>(strategy) << ": " << result.path.iterations << " iterations, "
-                        << result.cost.factorizations << " factorizations, " << result.path.cuts << " cuts; newton "
+                        << result.cost.factorizations << " factorizations, " << result.path.cut_backs << " cuts; newton "
                         << reference.path.iterations);
     CHECK((result.u - reference.u).lpNorm<Eigen::Infinity>() < 1e-8);
     for (const auto& step : result.steps) {

@@ -141,7 +141,7 @@ TEST_CASE("the load path cuts back, grows again, hits its stops and ends at 1") 
   CHECK(report.complete);
   CHECK(reached.back() == 1);
   CHECK(std::find(reached.begin(), reached.end(), 0.3) != reached.end());
-  CHECK(report.cuts >= 2);
+  CHECK(report.cut_backs >= 2);
   double widest = 0;
   for (std::size_t i = 1; i < reached.size(); ++i) widest = std::max(widest, reached[i] - reached[i - 1]);
   CHECK(widest > 0.1);  // grown again after the hard place

@@ -73,7 +73,8 @@ TEST_CASE("Table 2, rows of FER: full integration with d = 2e-3") {
     CAPTURE(row[0]);
     REQUIRE(scene.path.complete);
     MESSAGE("alpha " << row[0] << ": u_y " << at_B(scene)[1] << " (printed " << row[1] << "), u_z " << at_B(scene)[2]
-                     << " (printed " << row[2] << "), " << scene.path.iterations << " iterations, " << scene.path.cuts << " cuts");
+                     << " (printed " << row[2] << "), " << scene.path.iterations << " iterations, " << scene.path.cut_backs
+                     << " cuts");
     CHECK(at_B(scene)[1] == doctest::Approx(row[1]).epsilon(row[3]));
     CHECK(at_B(scene)[2] == doctest::Approx(row[2]).epsilon(row[3]));
   }

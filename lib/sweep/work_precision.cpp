@@ -1,4 +1,4 @@
-#include "sweep/trade.hpp"
+#include "sweep/work_precision.hpp"
 
 #include <algorithm>
 #include <cmath>
