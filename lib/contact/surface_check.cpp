@@ -191,6 +191,18 @@ bool SurfaceCheck::inside_body(const Vec3& p, const std::vector<Vec3>& x) const 
   return std::abs(angle) > (mesh_.section ? std::numbers::pi : 2 * std::numbers::pi);
 }
 
+double SurfaceCheck::pressed_along(Vec3 along, const std::vector<Vec3>& u) const {
+  if (mesh_.section) {  // what a symmetric field of forces cannot add up to
+    along[2] = 0;
+    if (mesh_.section->of == SectionOf::axisymmetric) along[0] = 0;
+  }
+  if (along.isZero(0)) return 0;
+  along.normalize();
+  double most = -std::numeric_limits<double>::infinity(), fewest = -most;
+  for (int n : nodes_) most = std::max(most, along.dot(u[n])), fewest = std::min(fewest, along.dot(u[n]));
+  return most - fewest;
+}
+
 SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& c,
                                const std::vector<Vec3>& r) const {
   SurfaceLook found;
@@ -241,16 +253,7 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
       if ((mesh_.X[i] - found.nearest).norm() < (mesh_.X[nearest] - found.nearest).norm()) nearest = i;
     along = shape_at(contact.shape, x[nearest] - c).normal;
   }
-  if (mesh_.section) {  // what a symmetric field of forces cannot add up to
-    along[2] = 0;
-    if (mesh_.section->of == SectionOf::axisymmetric) along[0] = 0;
-  }
-  if (!along.isZero(0)) {
-    along.normalize();
-    double most = -std::numeric_limits<double>::infinity(), fewest = -most;
-    for (int n : nodes_) most = std::max(most, along.dot(u[n])), fewest = std::min(fewest, along.dot(u[n]));
-    found.pressed = most - fewest;
-  }
+  found.pressed = pressed_along(along, u);
   return found;
 }
 

@@ -54,6 +54,7 @@ class SurfaceCheck {
   VecX weights(const Patch& patch, double s, double t) const;
   Deepest deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x, const Vec3& c) const;
   bool inside_body(const Vec3& p, const std::vector<Vec3>& x) const;
+  double pressed_along(Vec3 along, const std::vector<Vec3>& u) const;
   double half_diagonal(const Patch& patch) const;  // between neighbouring nodes, at rest
 
   const Mesh& mesh_;

@@ -124,79 +124,100 @@ void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6],
   }
 }
 
+// What the parts of packet_solid_of share. They are inlined into it, so that sizes and pointers stay known to the compiler.
 template <int n, int n_gauss>
-void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
-                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+struct PacketPoints {
+  P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];  // g_a = cof F dN_a / J
+  P t[n_modes]{}, b[n_modes][3 * n];                      // integrals of mode (J - 1), mode dJ/du
+};
+
+// dJ/du of every point where n_modal is 0
+template <int n, int n_gauss>
+[[gnu::always_inline]] inline void kinematics(const PacketGeometry& geometry, const Packet* u, int n_modal,
+                                              PacketPoints<n, n_gauss>& at, PacketElement& out) {
   constexpr int n_dofs = 3 * n;
-  const bool modal = formulation != Formulation::displacement;
-  const int n_p = n_pressures(formulation, n);
-  P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];
-  P t[n_modes]{}, b[n_modes][n_dofs];  // integrals of mode (J - 1), mode dJ/du
-  for (int k = 0; k < n_p && modal; ++k) std::fill(b[k], b[k] + n_dofs, P());
-  out.W = P(), out.J_min = P(1e300);
+  for (int k = 0; k < n_modal; ++k) std::fill(at.b[k], at.b[k] + n_dofs, P());
+  out.J_min = P(1e300);
   for (int q = 0; q < n_gauss; ++q) {
     const P* dN = &geometry.dN_dX[q * n_dofs];
     P H[9];
     displacement_gradient<n>(dN, u, H);
-    J_minus_1[q] = dilatation(H);
-    const P J = 1.0 + J_minus_1[q];
+    at.J_minus_1[q] = dilatation(H);
+    const P J = 1.0 + at.J_minus_1[q];
     out.J_min = P(J.v < out.J_min.v ? J.v : out.J_min.v);
-    for (int i = 0; i < 9; ++i) F[q][i] = i % 4 == 0 ? 1.0 + H[i] : H[i];
-    const P* f = F[q];
-    // cof F; dJ/du_a = cof F dN_a,  g_a = cof F dN_a / J
+    for (int i = 0; i < 9; ++i) at.F[q][i] = i % 4 == 0 ? 1.0 + H[i] : H[i];
+    const P* f = at.F[q];
     const P cof[9] = {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
                       f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
                       f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
     const P inverse_J = 1.0 / J, w = geometry.w[q];
     P weight[n_modes] = {w};
-    for (int k = 1; k < n_p && modal; ++k) weight[k] = w * geometry.mode[q * n_modes + k];
+    for (int k = 1; k < n_modal; ++k) weight[k] = w * geometry.mode[q * n_modes + k];
     for (int a = 0; a < n; ++a)
       for (int i = 0; i < 3; ++i) {
         const P dJ = cof[3 * i] * dN[3 * a] + cof[3 * i + 1] * dN[3 * a + 1] + cof[3 * i + 2] * dN[3 * a + 2];
-        g[q][a][i] = dJ * inverse_J;
-        if (modal)
-          for (int k = 0; k < n_p; ++k) b[k][3 * a + i] += weight[k] * dJ;
+        at.g[q][a][i] = dJ * inverse_J;
+        if (n_modal > 0)
+          for (int k = 0; k < n_modal; ++k) at.b[k][3 * a + i] += weight[k] * dJ;
         else
           out.dJ_du(q)[3 * a + i] = dJ;
       }
-    for (int k = 0; k < n_p && modal; ++k) t[k] += weight[k] * J_minus_1[q];
+    for (int k = 0; k < n_modal; ++k) at.t[k] += weight[k] * at.J_minus_1[q];
   }
+}
+
+// dilatations and pressures of the whole cell: their energy, force and tangent; p: of the tangent
+template <int n, int n_gauss>
+[[gnu::always_inline]] inline void add_modal(const Material& material, const P& local, const PacketGeometry& geometry,
+                                             const Packet* p_tangent, bool with_tangent, int n_p,
+                                             const PacketPoints<n, n_gauss>& at, P* p, PacketElement& out) {
+  constexpr int n_dofs = 3 * n;
+  const P inverse_V = 1.0 / geometry.V;
+  for (int k = 0; k < n_p; ++k) {
+    out.J_minus_1[k] = at.t[k] * inverse_V;
+    P* dJ = out.dJ_du(k);
+    for (int i = 0; i < n_dofs; ++i) dJ[i] = at.b[k][i] * inverse_V;
+  }
+  const ModalVolume<P> volume = modal_volume(
+      material.volume, n_p, out.J_minus_1.data(), local, geometry.V, n_gauss, [&](int q) { return geometry.w[q]; },
+      [&](int q, int k) { return geometry.mode[q * n_modes + k]; });
+  out.W += volume.W;
+  for (int k = 0; k < n_p; ++k) {
+    p[k] = p_tangent ? p_tangent[k] : volume.p[k];
+    const P* dJ = out.dJ_du(k);
+    for (int i = 0; i < n_dofs; ++i) out.f[i] += volume.p[k] * at.b[k][i];
+    for (int i = 0, entry = 0; i < n_dofs && with_tangent; ++i) {
+      P row = volume.kappa[k][k] * dJ[i];
+      for (int l = 0; l < n_p && !volume.independent; ++l)
+        if (l != k) row += volume.kappa[k][l] * out.dJ_du(l)[i];
+      if (k == 0)
+        for (int j = 0; j <= i; ++j) out.K[entry++] = row * at.b[k][j];
+      else
+        for (int j = 0; j <= i; ++j) out.K[entry++] += row * at.b[k][j];
+    }
+  }
+}
+
+template <int n, int n_gauss>
+void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
+                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+  const bool modal = formulation != Formulation::displacement;
+  const int n_p = n_pressures(formulation, n);
+  PacketPoints<n, n_gauss> at;
+  out.W = P();
+  kinematics(geometry, u, modal ? n_p : 0, at, out);
   std::fill(out.f.begin(), out.f.end(), P());
   if (with_tangent && !modal) std::fill(out.K.begin(), out.K.end(), P());
   P p[n_modes];  // of the tangent
-  if (modal) {
-    const P inverse_V = 1.0 / geometry.V;
-    for (int k = 0; k < n_p; ++k) {
-      out.J_minus_1[k] = t[k] * inverse_V;
-      P* dJ = out.dJ_du(k);
-      for (int i = 0; i < n_dofs; ++i) dJ[i] = b[k][i] * inverse_V;
-    }
-    const ModalVolume<P> volume = modal_volume(
-        material.volume, n_p, out.J_minus_1.data(), local, geometry.V, n_gauss, [&](int q) { return geometry.w[q]; },
-        [&](int q, int k) { return geometry.mode[q * n_modes + k]; });
-    out.W += volume.W;
-    for (int k = 0; k < n_p; ++k) {
-      p[k] = p_tangent ? p_tangent[k] : volume.p[k];
-      const P* dJ = out.dJ_du(k);
-      for (int i = 0; i < n_dofs; ++i) out.f[i] += volume.p[k] * b[k][i];
-      for (int i = 0, entry = 0; i < n_dofs && with_tangent; ++i) {
-        P row = volume.kappa[k][k] * dJ[i];
-        for (int l = 0; l < n_p && !volume.independent; ++l)
-          if (l != k) row += volume.kappa[k][l] * out.dJ_du(l)[i];
-        if (k == 0)
-          for (int j = 0; j <= i; ++j) out.K[entry++] = row * b[k][j];
-        else
-          for (int j = 0; j <= i; ++j) out.K[entry++] += row * b[k][j];
-      }
-    }
-  } else {
-    std::copy(J_minus_1, J_minus_1 + n_gauss, out.J_minus_1.begin());
-  }
+  if (modal)
+    add_modal(material, local, geometry, p_tangent, with_tangent, n_p, at, p, out);
+  else
+    std::copy(at.J_minus_1, at.J_minus_1 + n_gauss, out.J_minus_1.begin());
   P c[n_gauss][36], stress[n_gauss][6];  // of the tangent
   for (int q = 0; q < n_gauss; ++q) {
-    const P J = 1.0 + J_minus_1[q], w = geometry.w[q];
+    const P J = 1.0 + at.J_minus_1[q], w = geometry.w[q];
     Spatial s;
-    law(material, F[q], J, fibres, s);
+    law(material, at.F[q], J, fibres, s);
     out.W += w * s.W;
     P force[6];  // w times the Kirchhoff stress in the residual
     for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
@@ -206,7 +227,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
       for (int k = 1; k < n_p; ++k) p_K += p[k] * geometry.mode[q * n_modes + k];
     }
     if (!modal || formulation == Formulation::linear_dilatation) {
-      const P x = J_minus_1[q];
+      const P x = at.J_minus_1[q];
       const Energy<P> U = modal ? Energy<P>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
       p_K += p_tangent && !modal ? p_tangent[q] : U.dW;
       out.W += w * U.W;
@@ -214,7 +235,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
       bulk = U.ddW * J * J;
     }
     for (int a = 0; a < n; ++a) {
-      const P* ga = g[q][a];
+      const P* ga = at.g[q][a];
       out.f[3 * a] += force[0] * ga[0] + force[3] * ga[1] + force[5] * ga[2];
       out.f[3 * a + 1] += force[3] * ga[0] + force[1] * ga[1] + force[4] * ga[2];
       out.f[3 * a + 2] += force[5] * ga[0] + force[4] * ga[1] + force[2] * ga[2];
@@ -225,7 +246,7 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     for (int i = 0; i < 6; ++i) stress[q][i] = w * (i < 3 ? s.tau[i] + pJ : s.tau[i]);
   }
   if (!with_tangent) return;
-  for (int b = 0; b < n; ++b) add_stiffness<n, n_gauss>(b, g, c, stress, out.K.data());
+  for (int b = 0; b < n; ++b) add_stiffness<n, n_gauss>(b, at.g, c, stress, out.K.data());
 }
 
 }  // namespace

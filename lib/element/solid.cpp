@@ -59,6 +59,50 @@ double mode(const ElementGeometry& geometry, int g, int k) { return k == 0 ? 1 :
 
 // n nodes; sizes known to the compiler
 template <int n>
+struct GaussPoints {
+  std::vector<Mat3> F;
+  std::vector<double> J_minus_1;
+  std::vector<typename Sizes<n>::Vec> dJ;
+  std::vector<typename Sizes<n>::Gradient> dN;
+  double J_min = 1e300;
+
+  GaussPoints(const ElementGeometry& geometry, const ElementNodes& u) {
+    for (int g = 0; g < geometry.n_gauss(); ++g) {
+      const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
+      F.push_back(Mat3::Identity() + H);
+      J_minus_1.push_back(volume_change(H));
+      J_min = std::min(J_min, 1 + J_minus_1[g]);
+      dN.push_back(geometry.dN_dX[g]);
+      dJ.push_back(dilatation_gradient<n>(F[g], dN[g]));
+    }
+  }
+};
+
+// dilatations and pressures of the whole cell: their energy, force and tangent
+template <int n>
+ModalVolume<double> add_modal(const Material& material, double local, const ElementGeometry& geometry, const GaussPoints<n>& at,
+                              int n_p, typename Sizes<n>::Vec& f, typename Sizes<n>::Mat* K, SolidElement& out) {
+  out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
+  for (int k = 0; k < n_p; ++k) {
+    double& t = out.J_minus_1[k];
+    VecX& b = out.dJ_du[k];
+    for (int g = 0; g < geometry.n_gauss(); ++g) {
+      const double w = geometry.w[g] * mode(geometry, g, k);
+      t += w * at.J_minus_1[g], b += w * at.dJ[g];
+    }
+    t /= geometry.V, b /= geometry.V;
+  }
+  const ModalVolume<double> volume = modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
+  out.W += volume.W;
+  for (int k = 0; k < n_p; ++k) {
+    f += (geometry.V * volume.p[k]) * out.dJ_du[k];
+    for (int l = 0; l < n_p && K; ++l)
+      if (l == k || !volume.independent) *K += (geometry.V * volume.kappa[k][l]) * out.dJ_du[k] * out.dJ_du[l].transpose();
+  }
+  return volume;
+}
+
+template <int n>
 bool solid_of(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
               std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
   const bool modal = formulation != Formulation::displacement;
@@ -67,61 +111,32 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
   thread_local typename Sizes<n>::Mat K;  // 52 kB for 27 nodes
   if (with_tangent) K.setZero();
   out.W = 0;
-
-  std::vector<Mat3> F(n_gauss);
-  std::vector<double> J_minus_1(n_gauss);
-  std::vector<typename Sizes<n>::Vec> dJ(n_gauss);
-  std::vector<typename Sizes<n>::Gradient> dN(n_gauss);
-  out.J_min = 1e300;
-  for (int g = 0; g < n_gauss; ++g) {
-    const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
-    F[g] = Mat3::Identity() + H;
-    J_minus_1[g] = volume_change(H);
-    out.J_min = std::min(out.J_min, 1 + J_minus_1[g]);
-    dN[g] = geometry.dN_dX[g];
-    dJ[g] = dilatation_gradient<n>(F[g], dN[g]);
-  }
+  const GaussPoints<n> at(geometry, u);
+  out.J_min = at.J_min;
   if (!(out.J_min > 0)) return false;
 
   ModalVolume<double> volume;
-  if (modal) {
-    out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
-    for (int k = 0; k < n_p; ++k) {
-      double& t = out.J_minus_1[k];
-      VecX& b = out.dJ_du[k];
-      for (int g = 0; g < n_gauss; ++g) {
-        const double w = geometry.w[g] * mode(geometry, g, k);
-        t += w * J_minus_1[g], b += w * dJ[g];
-      }
-      t /= geometry.V, b /= geometry.V;
-    }
-    volume = modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
-    out.W += volume.W;
-    for (int k = 0; k < n_p; ++k) {
-      f += (geometry.V * volume.p[k]) * out.dJ_du[k];
-      for (int l = 0; l < n_p && with_tangent; ++l)
-        if (l == k || !volume.independent) K += (geometry.V * volume.kappa[k][l]) * out.dJ_du[k] * out.dJ_du[l].transpose();
-    }
-  } else {
-    out.J_minus_1 = J_minus_1, out.dJ_du.assign(dJ.begin(), dJ.end());
-  }
+  if (modal)
+    volume = add_modal<n>(material, local, geometry, at, n_p, f, with_tangent ? &K : nullptr, out);
+  else
+    out.J_minus_1 = at.J_minus_1, out.dJ_du.assign(at.dJ.begin(), at.dJ.end());
 
   for (int g = 0; g < n_gauss; ++g) {
-    const double w = geometry.w[g], J = 1 + J_minus_1[g];
-    const Mat3 C = F[g].transpose() * F[g];
+    const double w = geometry.w[g], J = 1 + at.J_minus_1[g];
+    const Mat3 C = at.F[g].transpose() * at.F[g];
     Response iso = isochoric(material, C, a);
     out.W += w * iso.W;
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
     Vec6 S = iso.S;
-    const double x = J_minus_1[g];
+    const double x = at.J_minus_1[g];
     const Energy<double> U = modal ? Energy<double>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
     double p_K = U.dW;
     out.W += w * U.W;
     S += U.dW * J * Ci;
     for (int k = 0; k < n_p && modal; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
     if (!modal && p_tangent) p_K = p_tangent[g];
-    const typename Sizes<n>::Strain B = strain_operator<n>(F[g], dN[g]);
+    const typename Sizes<n>::Strain B = strain_operator<n>(at.F[g], at.dN[g]);
     f.noalias() += w * (B.transpose() * S);
     if (!with_tangent) continue;
     // dJ/dE = J C^-1,  d2J/dE2 = J (C^-1 x C^-1 - 2 C^-1 o C^-1)
@@ -129,7 +144,7 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
     if (U.ddW != 0) D += U.ddW * J * J * Ci * Ci.transpose();
     const typename Sizes<n>::Strain DB = w * D * B;
     K.noalias() += B.transpose() * DB;
-    add_geometric<n>(dN[g], iso.S + p_K * J * Ci, w, K);
+    add_geometric<n>(at.dN[g], iso.S + p_K * J * Ci, w, K);
   }
   out.f = f;
   if (with_tangent) out.K = K;

@@ -198,6 +198,33 @@ Json fields_view(std::vector<ShownField>& fields) {
   return list(shown, [](const Json& j) { return j; });
 }
 
+struct States {
+  std::vector<double> t;
+  std::vector<std::vector<double>> u;  // state, 3 node
+  std::vector<Json> told;
+};
+
+// of these rows of the table of states; fields: their values are added
+States states_of(const SolutionReader& solution, const Body& body, const Chosen& chosen, const std::vector<int>& rows,
+                 StressAt stress, std::vector<ShownField>& fields) {
+  States states;
+  for (const int row : rows) {
+    const StepState state = row == 0 ? unloaded(body.mesh()) : state_of(solution.step(row - 1));
+    states.t.push_back(state.t);
+    auto& here = states.u.emplace_back();
+    for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
+    const GaussValues gauss = gauss_values(body, state.u);
+    for (ShownField& f : fields) f.values.emplace_back();
+    for (const int node : chosen.nodes) {
+      const VecX values = node_values(body, node, gauss, stress);
+      for (ShownField& f : fields) f.values.back().push_back(value_of(f.quantity, values, f.family));
+    }
+    states.told.push_back(object(
+        {{"row", number(row)}, {"t", number(state.t)}, {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
+  }
+  return states;
+}
+
 }  // namespace
 
 Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path, const ReportConfig& config,
@@ -215,26 +242,10 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const Chosen& chosen = cells ? whole : outside;
   const std::vector<int> rows = rows_shown(solution.n_steps(), states);
 
-  std::vector<std::vector<double>> u;  // state, 3 node
-  std::vector<Json> of_state;
-  std::vector<double> t;
-  for (const int row : rows) {
-    const StepState state = row == 0 ? unloaded(mesh) : state_of(solution.step(row - 1));
-    t.push_back(state.t);
-    auto& here = u.emplace_back();
-    for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
-    const GaussValues gauss = gauss_values(body, state.u);
-    for (ShownField& f : fields) f.values.emplace_back();
-    for (const int node : chosen.nodes) {
-      const VecX values = node_values(body, node, gauss, config.stress);
-      for (ShownField& f : fields) f.values.back().push_back(value_of(f.quantity, values, f.family));
-    }
-    of_state.push_back(object(
-        {{"row", number(row)}, {"t", number(state.t)}, {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
-  }
+  const States at = states_of(solution, body, chosen, rows, config.stress, fields);
 
   double largest = 0;
-  for (const auto& state : u)
+  for (const auto& state : at.u)
     for (double v : state) largest = std::max(largest, std::abs(v));
   const double step = largest > 0 ? largest / 32767 : 1;
   std::vector<float> X;
@@ -258,12 +269,12 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"n_states", number(solution.n_steps() + 1)},
                  {"X", packed(X)},
                  {"facets", packed(facets)},
-                 {"states", list(of_state, as_is)},
+                 {"states", list(at.told, as_is)},
                  {"step", number(step)},
-                 {"u", moves_view(u, step)},
+                 {"u", moves_view(at.u, step)},
                  {"fields", fields_view(fields)},
                  {"glyphs", glyphs},
-                 {"indenters", indenters_view(header, t)}});
+                 {"indenters", indenters_view(header, at.t)}});
 }
 
 }  // namespace langer::report
