@@ -1,4 +1,5 @@
-# The commands of the tutorial and of the how-to pages do what the pages say; links between all pages lead somewhere.
+# The commands of the tutorial and of the how-to pages do what the pages say; links between all pages lead somewhere, and the files
+# of the project that they name are there.
 include(${ROOT}/tests/support/run.cmake)
 file(GLOB pages RELATIVE ${ROOT}/docs ${ROOT}/docs/tutorial.md ${ROOT}/docs/howto_*.md)
 execute_process(COMMAND gnuplot --version RESULT_VARIABLE no_gnuplot OUTPUT_QUIET)
@@ -64,3 +65,38 @@ foreach(page ${pages} ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md ${ROOT}/CHANGELO
     endif()
   endforeach()
 endforeach()
+
+# files that pages name, but for those that a reader makes and the libraries beside the programs
+foreach(page ${pages} ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md)
+  file(READ ${page} text)
+  string(REGEX REPLACE "[][;]" " " text "${text}")
+  string(REGEX MATCHALL "[^A-Za-z0-9_/.](lib|tests|configs|pipelines|stages|cmake|share|data)/[A-Za-z0-9_./]+\\.(hpp|cpp|cmake|yaml|csv|txt|py|awk)[^A-Za-z0-9_*{<]"
+    named "${text}")
+  foreach(word ${named})
+    string(REGEX REPLACE "^.(.*).$" "\\1" file "${word}")
+    if(NOT file STREQUAL "pipelines/mine.yaml" AND NOT EXISTS ${ROOT}/${file})
+      message(FATAL_ERROR "${page}: no file ${file}")
+    endif()
+    list(APPEND seen ${file})
+  endforeach()
+endforeach()
+list(LENGTH seen n)
+message("${n} files named by pages")
+if(n LESS 100)
+  message(FATAL_ERROR "too few: the words are not found")
+endif()
+
+# commits that CONTRIBUTING.md shows, where the whole history is here
+find_program(GIT git)
+execute_process(COMMAND ${GIT} -C ${ROOT} rev-parse --is-shallow-repository RESULT_VARIABLE no_history OUTPUT_VARIABLE shallow ERROR_QUIET)
+if(GIT AND no_history EQUAL 0 AND shallow MATCHES "false")
+  file(READ ${ROOT}/CONTRIBUTING.md text)
+  string(REGEX MATCHALL "git show [0-9a-f]+" commits "${text}")
+  foreach(commit ${commits})
+    string(REPLACE "git show " "" commit "${commit}")
+    execute_process(COMMAND ${GIT} -C ${ROOT} merge-base --is-ancestor ${commit} HEAD RESULT_VARIABLE code ERROR_QUIET)
+    if(NOT code EQUAL 0)
+      message(FATAL_ERROR "CONTRIBUTING.md shows ${commit}, which is no commit before this one")
+    endif()
+  endforeach()
+endif()
