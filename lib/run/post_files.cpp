@@ -197,9 +197,11 @@ std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<V
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
   std::vector<std::string> names;
-  for (const auto& [name, nodes] : header.contact_nodes)
+  for (const auto& contact : header.contact_nodes) {
+    const std::string& name = contact.first;
     if (std::none_of(indenters.begin(), indenters.end(), [&](const RigidContact& c) { return c.name == name; }))
       names.push_back(name);
+  }
   return names;
 }
 
