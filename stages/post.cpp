@@ -166,7 +166,7 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
 }
 
 std::vector<Summary> post(const Job<PostConfig>& job) {
-  const PostConfig& config = job.config;
+  PostConfig config = job.config;
   const Solution solution(job.input("solution"));
   const SolutionHeader& header = solution.reader.header();
   const std::vector<RigidContact> indenters = indenters_of(header);
@@ -175,6 +175,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   Available available{!header.contact_nodes.empty(), missing.empty(), {}};
   if (solution.reader.n_steps() > 0)
     for (const auto& [name, value] : solution.reader.step(0).scalars) available.histories.push_back(name);
+  config.columns = with_errors(config.columns, available.histories);
   const Measures shown = look_up(config.columns, "columns", solution.body, available);
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);

@@ -93,8 +93,14 @@ std::string gnuplot_script(const Plot& plot, const std::string& name) {
     // lines beyond the last colour begin with other dashes
     const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
     const char* const rgb = colours[colour % colours.size()];
-    draw += fmt::format("{}{} using {}:{}", i ? ", \\\n     " : "", gnuplot_file(line.csv), gnuplot_string(line.x),
-                        gnuplot_string(line.y));
+    if (!line.error.empty()) {
+      const auto column = [](const std::string& name) { return fmt::format("column({})", gnuplot_string(name)); };
+      draw += fmt::format("{}{} using ({}):({}-{}):({}+{}) with filledcurves fs transparent solid 0.2 noborder lc rgb '{}' notitle",
+                          i ? ", \\\n     " : "", gnuplot_file(line.csv), column(line.x), column(line.y), column(line.error),
+                          column(line.y), column(line.error), rgb);
+    }
+    draw += fmt::format("{}{} using {}:{}", i || !line.error.empty() ? ", \\\n     " : "", gnuplot_file(line.csv),
+                        gnuplot_string(line.x), gnuplot_string(line.y));
     if (line.points)
       draw += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
                           open_markers[dash % open_markers.size()]);

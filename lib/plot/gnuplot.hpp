@@ -16,6 +16,7 @@ struct PlotLine {
   bool points = false;         // open markers instead of a line: a curve that lies on another stays visible
   std::string names;           // column of texts written beside the points
   std::string low, high;       // columns of the ends of a bar through each point; empty: none
+  std::string error;           // column of the half width of a band about the line; empty: none
   int colour = -1, dash = -1;  // numbers of its colour and of its dashes and marker; by default both differ from line to line
 };
 

@@ -100,6 +100,29 @@ std::string label_of(const ColumnChoice& choice) {
   return choice.quantity ? line_of(*choice.quantity).label : literal(*choice.history);
 }
 
+std::string error_of(const std::string& column) { return column + "_error"; }
+
+std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories) {
+  std::vector<ColumnChoice> out;
+  std::vector<std::string> names;
+  for (const ColumnChoice& c : columns) names.push_back(column_name(c));
+  for (const ColumnChoice& c : columns) {
+    out.push_back(c);
+    if (!c.quantity) continue;
+    const std::string_view word = line_of(*c.quantity).word;
+    const std::string history = error_of(word == "force"                         ? "force"
+                                         : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at
+                                                                                 : "");
+    const std::string name = error_of(column_name(c));
+    if (std::find(histories.begin(), histories.end(), history) == histories.end()) continue;
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    ColumnChoice error;
+    error.history = history, error.name = name;
+    out.push_back(error);
+  }
+  return out;
+}
+
 Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body, const Available& available) {
   Measures out;
   std::vector<std::string> sets;

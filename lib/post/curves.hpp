@@ -47,6 +47,11 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice, const std
 std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
+// What the solver has estimated of a column's error beside it, as one more column <name>_error: of force, and of reactions of the sets
+// that are moved.
+std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories);
+std::string error_of(const std::string& column);  // the name of that column
+
 // The same with everything looked up.
 struct Measure {
   std::string name, unit, label;

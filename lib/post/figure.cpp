@@ -57,9 +57,11 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
   const bool alike = std::all_of(figure.y.begin(), figure.y.end(),
                                  [&](const std::string& name) { return label_of(*find(columns, name)) == label_of(y); });
   plot.y_label = figure.y_label || alike ? with_unit(figure.y_label.value_or(label_of(y)), unit_of(y)) : unit_of(y);
-  for (std::size_t i = 0; i < figure.y.size(); ++i)
+  for (std::size_t i = 0; i < figure.y.size(); ++i) {
     plot.lines.push_back(
         {csv, head_of(figure.x), head_of(figure.y[i]), figure.legends.empty() ? literal(figure.y[i]) : figure.legends[i]});
+    if (const std::string error = error_of(figure.y[i]); find(columns, error)) plot.lines.back().error = head_of(error);
+  }
   return plot;
 }
 

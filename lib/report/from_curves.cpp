@@ -29,7 +29,14 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
     std::map<std::string, std::size_t> place;
     for (const Column& c : curves.columns) place.emplace(c.name, place.size());
     std::vector<const NamedCurve*> sorted;
-    for (const NamedCurve& c : curves.curves) sorted.push_back(&c);
+    const auto curve_called = [&](const std::string& name) {
+      const auto found =
+          std::find_if(curves.curves.begin(), curves.curves.end(), [&](const NamedCurve& c) { return c.name == name; });
+      return found == curves.curves.end() ? nullptr : &*found;
+    };
+    const std::string error = "_error";  // of another curve: its band
+    for (const NamedCurve& c : curves.curves)
+      if (!c.name.ends_with(error) || !curve_called(c.name.substr(0, c.name.size() - error.size()))) sorted.push_back(&c);
     const auto rank = [&](const NamedCurve* c) { return place.count(c->name) ? place.at(c->name) : place.size(); };
     std::stable_sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
     for (const NamedCurve* c : sorted) {
@@ -45,6 +52,7 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
                               : c->name == title ? c->name
                                                  : c->name.substr(title.size() + 1),
                               c->x, c->y, false});
+      if (const NamedCurve* band = curve_called(c->name + error)) chart.series.back().error = band->y;
     }
   }
   for (const std::string& title : order) page.charts.push_back(std::move(charts.at(title)));

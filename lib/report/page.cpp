@@ -10,7 +10,11 @@ namespace {
 const char* level_word(Level level) { return level == Level::good ? "good" : level == Level::note ? "note" : "warning"; }
 
 Json series(const Series& s) {
-  return object({{"name", words(s.name)}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"points", {s.points ? "true" : "false"}}});
+  return object({{"name", words(s.name)},
+                 {"x", numbers(s.x)},
+                 {"y", numbers(s.y)},
+                 {"error", numbers(s.error)},
+                 {"points", {s.points ? "true" : "false"}}});
 }
 
 Json data_of(const ReportPage& page) {

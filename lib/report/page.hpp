@@ -22,7 +22,8 @@ struct Verdict {
 struct Series {
   std::string name;
   std::vector<double> x, y;
-  bool points = false;  // measured: points in place of a line
+  bool points = false;             // measured: points in place of a line
+  std::vector<double> error = {};  // half width of a band about the line; empty: none
 };
 
 struct Chart {

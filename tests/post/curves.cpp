@@ -79,6 +79,25 @@ TEST_CASE("a column is called after its quantity, its place and its fibre family
   CHECK(name("{history: energy}") == "energy");
 }
 
+TEST_CASE("a force has the column of its error beside it where the solver estimated one") {
+  const auto named = [](const std::string& list, const std::vector<std::string>& histories) {
+    std::vector<std::string> names;
+    for (const ColumnChoice& c : with_errors(choices(list), histories))
+      names.push_back(column_name(c) + "|" + c.history.value_or(""));
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  const std::string list =
+      "{quantity: u_ind}, {quantity: force, name: F}, {quantity: reaction_x, at: x_max}, {quantity: reaction_x, at: bottom}";
+  CHECK(named(list, {"energy"}) == Names{"u_ind|", "F|", "reaction_x_x_max|", "reaction_x_bottom|"});
+  CHECK(named(list, {"force_error", "reaction_x_max_error"}) == Names{"u_ind|", "F|", "F_error|force_error", "reaction_x_x_max|",
+                                                                      "reaction_x_x_max_error|reaction_x_max_error",
+                                                                      "reaction_x_bottom|"});
+  CHECK(named("{quantity: force}, {history: force_error}", {"force_error"}) == Names{"force|", "force_error|force_error"});
+  for (const char* name : {"force_error", "force_left_error", "reaction_top_error"})
+    CHECK(solution::unit_of(name) == std::string("N"));
+}
+
 TEST_CASE("every quantity can be measured, is finite, and is found by its own word") {
   Sample s;
   for (const QuantityLine& line : quantity_lines()) {

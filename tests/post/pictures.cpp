@@ -241,6 +241,21 @@ TEST_CASE("a figure takes its columns by name, labels carry units, legends are t
   CHECK(plain("stress σ_{xx}") == "stress σ_xx");
 }
 
+TEST_CASE("a column whose error stands beside it has a band in its figure") {
+  std::vector<ColumnChoice> columns(3);
+  columns[0].quantity = quantity("u_ind"), columns[1].quantity = quantity("force");
+  columns[2].history = "force_error", columns[2].name = "force_error";
+  FigureChoice figure;
+  figure.x = "u_ind", figure.y = {"force"};
+  const Plot with = plot_of(figure, columns, "c.csv", csv_name);
+  CHECK(with.lines.at(0).error == "force_error_N");
+  CHECK(gnuplot_script(with, "f").find("(column('force_N')-column('force_error_N'))") != std::string::npos);
+  columns.pop_back();
+  const Plot without = plot_of(figure, columns, "c.csv", csv_name);
+  CHECK(without.lines.at(0).error.empty());
+  CHECK(gnuplot_script(without, "f").find("filledcurves") == std::string::npos);
+}
+
 TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, and so is its absence") {
   const std::string where = folder("figure");
   write(where + "/curves.csv", "t,u_mm,force_N\n0,0,0\n1,0.5,2\n2,1,8\n");

@@ -84,6 +84,9 @@ L.legend = (chart, shown) => {
   }));
 };
 
+// a line with a band of its error about it
+L.banded = s => s.error && s.error.length > 0 && s.error.length === s.x.length;
+
 L.chart = chart => {
   const W = 600, H = 350, box = { l: 74, r: 14, t: 10, b: 50 };
   const figure = L.el('figure', { class: 'chart' }, L.el('figcaption', {}, chart.title));
@@ -93,7 +96,8 @@ L.chart = chart => {
     svg.replaceChildren();
     points = [];
     const all = chart.series.filter((s, i) => shown[i]);
-    const xs = all.flatMap(s => s.x).filter(v => v !== null), ys = all.flatMap(s => s.y).filter(v => v !== null);
+    const xs = all.flatMap(s => s.x).filter(v => v !== null);
+    const ys = all.flatMap(s => L.banded(s) ? s.y.flatMap((y, k) => [y - s.error[k], y + s.error[k]]) : s.y).filter(v => v !== null);
     if (!ys.length) return;
     const reach = values => {
       let low = values.reduce((a, b) => Math.min(a, b)), high = values.reduce((a, b) => Math.max(a, b));
@@ -118,11 +122,15 @@ L.chart = chart => {
     chart.series.forEach((s, i) => {
       if (!shown[i]) return;
       const look = L.look(chart, i);
+      if (L.banded(s)) {
+        const ends = sign => s.x.map((x, k) => `${px(x).toFixed(1)} ${py(s.y[k] + sign * s.error[k]).toFixed(1)}`);
+        svg.append(L.el('path', { d: 'M' + [...ends(1), ...ends(-1).reverse()].join('L') + 'Z', fill: look.colour, 'fill-opacity': 0.18, class: 'band' }));
+      }
       let d = '', pen = false;
       s.x.forEach((x, k) => {
         const y = s.y[k];
         if (x === null || y === null) { pen = false; return; }
-        points.push({ px: px(x), py: py(y), x, y, name: s.name, colour: look.colour });
+        points.push({ px: px(x), py: py(y), x, y, name: s.name, colour: look.colour, error: L.banded(s) ? s.error[k] : null });
         if (s.points) svg.append(L.el('circle', { cx: px(x), cy: py(y), r: 3.2, fill: 'none', stroke: look.colour, 'stroke-width': 1.6 }));
         d += (pen ? 'L' : 'M') + px(x).toFixed(1) + ' ' + py(y).toFixed(1);
         pen = true;
@@ -155,7 +163,7 @@ L.hover = (svg, W, points, xLabel, xUnit, yUnit) => {
     if (!best) return hide();
     const here = svg.querySelector('.here');
     for (const [key, value] of Object.entries({ cx: best.px, cy: best.py, stroke: best.colour, visibility: 'visible' })) here.setAttribute(key, value);
-    L.tip(`${best.name}\n${xLabel} = ${L.number(best.x)} ${L.unit(xUnit)}\n${L.number(best.y)} ${L.unit(yUnit)}`, event);
+    L.tip(`${best.name}\n${xLabel} = ${L.number(best.x)} ${L.unit(xUnit)}\n${L.number(best.y)}${best.error ? ` ± ${L.number(best.error, 2)}` : ''} ${L.unit(yUnit)}`, event);
   };
 };
 
