@@ -31,7 +31,7 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
     if (watch.of_mesh())
       job.say("the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
               run.reduction.mesh_of_point()->dofs().n_free());
-    const double estimate = estimate_seconds(config, material, job.where);
+    const double estimate = estimate_forecast(config, material, job.where, run);
     return {.summary = dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, job.quiet)};
   }
   need_memory(run.statics, config.threads);
@@ -51,13 +51,14 @@ Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& mate
     for (const std::string& line : watch.contact_warnings()) job.warn("{}", line);
   recording.need_the_end(end, loose);
 
-  std::vector<ErrorEstimate> errors = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
+  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
+  const std::vector<ErrorEstimate>& errors = estimate.at_end;
   if (!section.accurate(errors)) return {Solved::At::other_section};
   if (accuracy.refine(errors)) return {Solved::At::too_coarse};
   const std::vector<Summary> said =
       joined({summary_of(errors), section.summary(errors), accuracy.summary(errors), watch.contact_summary()});
   recording.finish(recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}),
-                   said);
+                   said, histories_of(estimate));
   progress.finished(end.path, run.statics, recording.seconds());
   return {Solved::At::the_end,
           joined({summary_of(run, end, recording.n_steps()), said, {{"fibre_jump", jump, "deg"}}, watch.stability_summary()}),

@@ -178,7 +178,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *level : levels.back();
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
-  if (!config.estimate) config.estimate = EstimateBy::refinement;
+  if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
   if (config.symmetry == SymmetryChoice::none && !is_section(geometry)) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)

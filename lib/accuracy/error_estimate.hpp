@@ -16,6 +16,7 @@
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
 //   limit       found - cells - increments
+//   left out    of what a body leaves out that stands for a larger one, where the config asks (accuracy/truncation.hpp)
 // For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is not the length in contact radii
 // (block, section), hex8 are taken for fine enough, and hex27 are set against hex8 of half their length.
 #pragma once
@@ -23,11 +24,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "run/run.hpp"
+#include "run/step_forces.hpp"
 #include "store/provenance.hpp"
 
 namespace langer {
@@ -41,8 +44,16 @@ struct Valued {
 // moved, greatest von Mises stress of the nodes, displacement of each named point
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
-// of the state at t = 1 of a config that holds its mesh; nothing is written
-// Throws Failure(not_converged) where there is none, or one with the signal's code where one has come.
+// A config that holds its mesh, solved without a file.
+struct SolvedPath {
+  std::vector<Valued> found;     // at t = 1
+  std::vector<StepForces> path;  // at each step
+  double seconds = 0;            // of CPU
+};
+// Throws Failure(not_converged) where there is no state at t = 1, or one with the signal's code where one has come.
+SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
+                       const std::function<Place(const std::string&)>& where,
+                       const std::function<RunListener(const Run&)>& listener = {});
 std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
                                 const std::function<Place(const std::string&)>& where,
                                 const std::function<RunListener(const Run&)>& listener = {});
@@ -53,6 +64,11 @@ struct ErrorEstimate {
   double scatter = 0, solver = 0;
   double order = 2;       // p of the error of the cells
   bool has_limit = true;  // false: by recovery, which knows no sign
+  struct Part {
+    std::string name;
+    double value;
+  };
+  std::vector<Part> left_out = {};  // by a body that stands for a larger one (accuracy/truncation.hpp); signed, not in total
   // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not follow one law leave more open
   // than their scatter.
   double total() const { return (order < 2 ? 1.25 : 1) * std::abs(cells) + std::abs(increments) + 2 * scatter + solver; }
@@ -79,16 +95,26 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
                                            const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
                                            double residual, const EstimateListener& listener = {});
 
-// as config.estimate says, of the last state of its run
-std::vector<ErrorEstimate> estimated(const SolveConfig& config, const std::optional<Material>& material,
-                                     const std::function<Place(const std::string&)>& where, const Run& run, const StepRecord& last,
-                                     const EstimateListener& listener);
+struct PathErrors {
+  std::vector<ErrorEstimate> at_end;
+  std::map<std::string, std::vector<double>> along;  // by force: total() at each step of the run [N]; empty by recovery
+  double growth = 0;                                 // power of 1 / length of the cells with which the CPU time grew; 0: not known
+};
+// The same, at each step of itself.path too: the forces of the other meshes there, linear between their own steps.
+PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
+                          const std::function<Place(const std::string&)>& where, const SolvedPath& itself, double residual,
+                          const EstimateListener& listener = {});
+
+// as config.estimate says, of the last state of its run and of the forces on its path
+PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
+                     const std::function<Place(const std::string&)>& where, const Run& run, const StepRecord& last,
+                     const std::vector<StepForces>& path, const EstimateListener& listener);
 
 // "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6"
 std::string in_words(const ErrorEstimate& estimate);
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates);  // what gather can collect
 
-// CPU seconds that it will take, about (solve/forecast.hpp); 0 where the scene is not solved again
+// CPU seconds that an estimate by refinement takes, about (solve/forecast.hpp)
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,
                         const std::function<Place(const std::string&)>& where);
 

@@ -2,25 +2,72 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/interrupt.hpp"
+#include "run/dry_run.hpp"
 #include "run/progress.hpp"
 
 namespace langer {
 
-std::vector<ErrorEstimate> say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                                      const Run::Where& where, const Run& run, const StepRecord& last, const Recording& recording) {
-  if (config.estimate.value_or(EstimateBy::none) == EstimateBy::none) return {};
-  std::vector<ErrorEstimate> errors;
+namespace {
+
+constexpr double worth_it = 1.0 / 3;  // of the solve
+
+bool has_numbers(const SolveConfig& config) { return config.mesh && has_numbers_of_cells(config.mesh->geometry); }
+
+bool wanted(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where,
+            Run& run) {
+  if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(EstimateBy::none) != EstimateBy::none;
+  if (!has_numbers(config))
+    voice.say("errors are not estimated: the cells follow from no numbers of this config; estimate: recovery is for any mesh");
+  else if (estimate_forecast(config, material, where, run) > 0)
+    return true;
+  else
+    voice.say("errors are not estimated: that takes more than a third of the solve; estimate: refinement does it all the same");
+  return false;
+}
+
+// half of the cells' part by shorter cells, of the increments' by shorter ones
+void say_costs(const Voice& voice, const PathErrors& found) {
+  if (found.growth == 0 || found.at_end.empty()) return;
+  const ErrorEstimate& first = found.at_end.front();
+  std::string words = fmt::format("half the cells' part of {} takes about {:.2g} times the time", first.of.name,
+                                  std::pow(2, found.growth / first.order));
+  if (first.increments != 0) words += fmt::format(", half the increments' part {:.2g} times", std::sqrt(2));
+  voice.say("{}", words);
+}
+
+}  // namespace
+
+PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording) {
+  PathErrors found;
   try {
-    errors = estimated(config, material, where, run, last,
-                       [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
+    if (!wanted(voice, config, material, where, run)) return found;
+    found = estimated(config, material, where, run, last, recording.forces(),
+                      [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
   } catch (const Failure& failure) {
     if (interrupted()) recording.stopped_in_estimate();
     if (failure.code() != Exit::not_converged) throw;
     voice.warn(fmt::format("errors are not estimated: {}", failure.what()));
   }
-  for (const ErrorEstimate& e : errors) voice.say("{}", in_words(e));
-  return errors;
+  for (const ErrorEstimate& e : found.at_end) voice.say("{}", in_words(e));
+  say_costs(voice, found);
+  return found;
+}
+
+double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run) {
+  if (!by_refinement(config) || !has_numbers(config)) return 0;
+  const double estimate = estimate_seconds(config, material, where);
+  if (config.estimate == EstimateBy::refinement) return estimate;
+  return estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds() ? estimate : 0;
+}
+
+SolutionWriter::Histories histories_of(const PathErrors& estimate) {
+  SolutionWriter::Histories histories;
+  for (const auto& [force, errors] : estimate.along) histories[force + "_error"] = errors;
+  return histories;
 }
 
 }  // namespace langer

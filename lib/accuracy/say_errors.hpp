@@ -10,9 +10,16 @@
 
 namespace langer {
 
-// Estimates and says them; empty where config asks for none, or where there is none (a warning: the result itself stands).
+// Estimates and says them, and what half of them would cost; empty where config asks for none, or where there is none (a warning: the
+// result itself stands). With estimate: auto only where it takes less than a third of the solve.
 // Throws Failure with the signal's code where one has come.
-std::vector<ErrorEstimate> say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                                      const Run::Where& where, const Run& run, const StepRecord& last, const Recording& recording);
+PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording);
+
+// CPU seconds that it will take, about; 0 where nothing is solved again
+double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run);
+
+// of PathErrors::along, by their names in /history of a solution
+SolutionWriter::Histories histories_of(const PathErrors& estimate);
 
 }  // namespace langer

@@ -16,9 +16,13 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       watch_(watch),
       output_(output),
       config_(identity.config),
+      collect_(by_refinement(config)
+                   ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
+                   : std::function<void(const StepRecord&)>()),
       file_(output, header_of(run.mesh, run.scene.formulation, run.scene, with_steps_hash(identity, config)),
-            [&watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
+            [this, &watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
               if (!good(step, earlier)) return false;
+              if (collect_) collect_(step);
               watch.kept(step);
               return true;
             }),
@@ -45,6 +49,7 @@ RunEnd Recording::follow(Progress& progress) {
       const Stopwatch writing(seconds_);
       file_.append(record);
     }
+    if (collect_) collect_(record);
     progress.accepted(record, report);
   };
   if (resumed_) progress.resumed(n_steps(), resumed_->t);

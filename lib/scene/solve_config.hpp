@@ -127,15 +127,20 @@ enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
 // How the errors of a result are estimated (accuracy/error_estimate.hpp).
-enum class EstimateBy { none, recovery, refinement };
-constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement"}; }
+enum class EstimateBy { none, recovery, refinement, automatic };
+constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto"}; }
 constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }
+
+// What a block or disc leaves out that stands for a larger body (accuracy/truncation.hpp).
+enum class Truncation { sides, bottom };
+constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
 
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
   std::optional<std::string> accuracy;  // "1%"
   std::optional<Fidelity> fidelity;
   std::optional<EstimateBy> estimate;
+  std::vector<Truncation> truncation;
   std::optional<Material> material;
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
@@ -163,8 +168,11 @@ struct SolveConfig {
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other "
       "increments; wants a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is "
-      "taken where accuracy or fidelity is asked for. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
+      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
       "and stress, and in an indentation some times too large");
+    v(&SolveConfig::truncation, "truncation", unit::none,
+      "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
+      "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
     v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own",
       between(-360, 360));
@@ -217,6 +225,20 @@ struct SolveConfig {
     if (estimate == EstimateBy::refinement && !numbers)
       found.push_back({"estimate", "refinement, and " + other_mesh, laid_out,
                        "coarser cells are made from those numbers; estimate: recovery is for any mesh"});
+    const bool indented = mesh && has_edge_in_contact_radii(mesh->geometry);
+    if (!truncation.empty() && !indented)
+      found.push_back({"truncation", "a mesh that is no indented_block or indented_disc", "one of the two",
+                       "wider and thicker bodies are made from their numbers"});
+    else if (!truncation.empty() && !accuracy && !fidelity && estimate != EstimateBy::refinement &&
+             estimate != EstimateBy::automatic)
+      found.push_back({"truncation", "no estimate by refinement", "estimate: refinement or auto", "it tells what is left out"});
+    for (std::size_t i = 0; i < truncation.size(); ++i) {
+      const std::string key = "truncation[" + std::to_string(i) + "]";
+      if (truncation[i] == Truncation::bottom && mesh && !mesh->bodies.empty())
+        found.push_back({key, "bottom, of a mesh with bodies", "sides", "which of its layers would go on is not known"});
+      if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
+        found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
+    }
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
       found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
@@ -224,6 +246,11 @@ struct SolveConfig {
     return found;
   }
 };
+
+// whether an estimate by refinement may follow the solve
+inline bool by_refinement(const SolveConfig& config) {
+  return config.estimate == EstimateBy::refinement || config.estimate == EstimateBy::automatic;
+}
 
 inline bool has_friction(const SolveConfig& config) {
   for (const auto& [name, contact] : config.contacts)

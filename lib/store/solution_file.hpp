@@ -74,8 +74,10 @@ class SolutionWriter {
   int n_steps() const;
   const std::vector<EarlierRun>& earlier() const;  // which runs the steps are of that it was continued from
   void append(const StepRecord& record);
-  // cost: none where the work was done in several runs; summary: what is said of the result as a whole
-  void finish(const std::optional<Cost>& cost = {}, const std::vector<Summary>& summary = {});
+  using Histories = std::map<std::string, std::vector<double>>;  // by name, a value for each step
+  // cost: none where the work was done in several runs; summary: what is said of the result as a whole; found_later: histories that
+  // only the whole path tells
+  void finish(const std::optional<Cost>& cost = {}, const std::vector<Summary>& summary = {}, const Histories& found_later = {});
 
  private:
   struct State;

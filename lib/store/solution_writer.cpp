@@ -243,7 +243,13 @@ void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& r
 }
 }  // namespace
 
-void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary) {
+void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary, const Histories& found_later) {
+  const h5::Group history = state_->file.root().group("history");
+  for (const auto& [name, values] : found_later) {
+    check_length(name, values.size(), static_cast<std::size_t>(n_steps()));
+    check_finite(name, values);
+    extend<double>(history, name, {}, history_chunk, values, solution::unit_of(name));
+  }
   write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
   if (!summary.empty()) write_summary(state_->file.root(), summary);
   write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);

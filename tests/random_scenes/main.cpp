@@ -71,7 +71,7 @@ Answer asked_for(const SolveConfig& config) {
     Run run(body_mesh(answer.config, "", nowhere), answer.config, config.material, nowhere);
     const RunEnd end = run.follow();
     if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
-    answer.errors = estimated(answer.config, config.material, nowhere, run, end.last, {});
+    answer.errors = estimated(answer.config, config.material, nowhere, run, end.last, {}, {}).at_end;
   } while (accuracy.refine(answer.errors));
   answer.seconds = cpu_seconds() - start;
   accuracy.need(answer.errors, "");

@@ -45,6 +45,10 @@ run(5 ${BIN}/langer-solve coarse.yaml -o short.h5 --set accuracy=0.2%)
 expect_said("asked for 0.2 %")
 expect_said("short.h5")
 run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution short.h5 -o curves.h5 --quiet)
+# an estimate that takes its turn by itself does not where it takes longer than a third of the solve
+run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 --set estimate=auto)
+expect_said("errors are not estimated: that takes more than a third of the solve")
+
 # without an estimate nothing is judged, which is said
 run(0 ${BIN}/langer-solve beside.yaml -o loose.h5 --set accuracy=2% --set estimate=none)
 expect_said("nothing was estimated")

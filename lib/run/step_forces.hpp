@@ -1,0 +1,28 @@
+// The forces of a state by name, of which errors are told at every step:
+//   force             on the indenter, of several the length of their sum [N]
+//   force_<contact>   of several indenters: on each of them [N]
+//   reaction_<set>    of each set that is moved [N]
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "run/run.hpp"
+
+namespace langer {
+
+struct StepForces {
+  double t = 0;
+  std::map<std::string, double> of;  // [N]
+};
+StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& whole);
+
+// Between two steps linear, 0 at t = 0 and for a name that is not there. path: ascending t
+double force_at(const std::vector<StepForces>& path, const std::string& name, double t);
+
+// `listener`, and whoever collects the forces of the run's steps in `path`
+RunListener collecting(RunListener listener, const SolveConfig& config, const Run& run, std::vector<StepForces>& path);
+
+}  // namespace langer
