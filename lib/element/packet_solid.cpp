@@ -39,27 +39,53 @@ struct Spatial {
 
 constexpr int most_families = 4;
 
-//   tau = dev sum 2 W' h,   h of spatial_terms.hpp
-void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres, Spatial& out) {
+// factors of the terms of an elastic law
+struct AsTheyAre {
+  static const P& matrix(const P& x) { return x; }
+  static const P& fibres(const P& x) { return x; }
+};
+struct Times {
+  const Amplified& by;
+  P matrix(const P& x) const { return by.matrix * x; }
+  P fibres(const P& x) const { return by.fibres * x; }
+};
+
+//   tau = dev sum 2 W' h,   h of spatial_terms.hpp; W' and W'' times their factors
+template <class Factors>
+void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres, const Factors& factors, Spatial& out) {
   const auto deviator = [](const P* h, P* d) {
     const P mean = (h[0] + h[1] + h[2]) * (1.0 / 3);
     for (int p = 0; p < 6; ++p) d[p] = p < 3 ? h[p] - mean : h[p];
   };
   const SpatialState state(F, J, [&](std::size_t k, int i) { return fibres[k].a[i]; });
   P dW{}, ddW{}, sum[6];
-  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { out.W += e.W, dW += e.dW, ddW += e.ddW; });
+  matrix_terms<P>(material, state,
+                  [&](OfI1, const Energy<P>& e) { out.W += e.W, dW += factors.matrix(e.dW), ddW += factors.matrix(e.ddW); });
   for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * state.b[p];
   out.stiffness[0] = 4.0 * ddW;
   deviator(state.b, out.h[0]);
   out.n = 1;
   fibre_terms<P>(material, state, [&](const auto& family, const Energy<P>& e) {
     out.W += e.W;
-    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * e.dW * family.h[p];
-    out.stiffness[out.n] = 4.0 * e.ddW;
+    const P dW_k = factors.fibres(e.dW);
+    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * dW_k * family.h[p];
+    out.stiffness[out.n] = 4.0 * factors.fibres(e.ddW);
     deviator(family.h, out.h[out.n++]);
   });
   out.tau_trace = sum[0] + sum[1] + sum[2];
   deviator(sum, out.tau);
+}
+
+// F H F^T: the Kirchhoff stress of a second Piola-Kirchhoff stress
+void push_forward(const P* F, const P* H, P* tau) {
+  const P full[3][3] = {{H[0], H[3], H[5]}, {H[3], H[1], H[4]}, {H[5], H[4], H[2]}};
+  P FH[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) FH[i][k] = F[3 * i] * full[0][k] + F[3 * i + 1] * full[1][k] + F[3 * i + 2] * full[2][k];
+  for (int p = 0; p < 6; ++p) {
+    const int i = voigt_i[p], j = voigt_j[p];
+    tau[p] = FH[i][0] * F[3 * j] + FH[i][1] * F[3 * j + 1] + FH[i][2] * F[3 * j + 2];
+  }
 }
 
 // c = sum 4 W'' dev h x dev h + 2/3 tr (I - 1/3 1 x 1) - 2/3 (tau x 1 + 1 x tau) + p J (1 x 1 - 2 I) + bulk 1 x 1,  times w
@@ -217,10 +243,17 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
   for (int q = 0; q < n_gauss; ++q) {
     const P J = 1.0 + at.J_minus_1[q], w = geometry.w[q];
     Spatial s;
-    law(material, at.F[q], J, fibres, s);
+    P remembered[6];  // Kirchhoff stress
+    if (memory) {
+      law(material, at.F[q], J, fibres, Times{memory->amplified}, s);
+      push_forward(at.F[q], memory->H + 6 * q, remembered);
+    } else
+      law(material, at.F[q], J, fibres, AsTheyAre{}, s);
     out.W += w * s.W;
     P force[6];  // w times the Kirchhoff stress in the residual
     for (int i = 0; i < 6; ++i) force[i] = w * s.tau[i];
+    if (memory)
+      for (int i = 0; i < 6; ++i) force[i] += w * remembered[i];
     P bulk{}, p_K{};
     if (modal) {
       p_K = p[0];
@@ -244,6 +277,8 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     const P pJ = p_K * J;
     tangent(s, pJ, bulk, w, c[q]);
     for (int i = 0; i < 6; ++i) stress[q][i] = w * (i < 3 ? s.tau[i] + pJ : s.tau[i]);
+    if (memory)
+      for (int i = 0; i < 6; ++i) stress[q][i] += w * remembered[i];
   }
   if (!with_tangent) return;
   for (int b = 0; b < n; ++b) add_stiffness<n, n_gauss>(b, at.g, c, stress, out.K.data());
@@ -288,10 +323,11 @@ void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet*
 }
 
 void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
-                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+                  const PacketMemory* memory) {
   with_cell(geometry.n_nodes, [&](auto cell) {
     packet_solid_of<decltype(cell)::n_nodes, decltype(cell)::n_gauss>(formulation, material, local, geometry, fibres, u, p_tangent,
-                                                                      with_tangent, out);
+                                                                      with_tangent, out, memory);
   });
 }
 

@@ -25,6 +25,12 @@ struct PacketFibre {
   Packet a[3];
 };
 
+// What viscous branches add in an increment of eight elements (CellMemory): H[6 g + p]
+struct PacketMemory {
+  Amplified amplified;
+  const Packet* H;
+};
+
 struct PacketElement {
   PacketElement(int n_nodes, int n_pressures);
   int n_dofs;
@@ -43,7 +49,8 @@ PacketGeometry packed(const ElementGeometry* const geometry[Packet::lanes]);
 
 // u[3 a + k]; p_tangent: one packet for each dilatation, or nullptr. Check J_min > 0 before using the rest.
 void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
-                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out);
+                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+                  const PacketMemory* memory = nullptr);
 
 // J - 1 at each Gauss point of displaced elements
 void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet* J_minus_1);

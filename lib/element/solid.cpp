@@ -104,7 +104,8 @@ ModalVolume<double> add_modal(const Material& material, double local, const Elem
 
 template <int n>
 bool solid_of(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-              std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
+              std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+              const CellMemory* memory) {
   const bool modal = formulation != Formulation::displacement;
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
   typename Sizes<n>::Vec f = Sizes<n>::Vec::Zero();
@@ -124,7 +125,8 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
   for (int g = 0; g < n_gauss; ++g) {
     const double w = geometry.w[g], J = 1 + at.J_minus_1[g];
     const Mat3 C = at.F[g].transpose() * at.F[g];
-    Response iso = isochoric(material, C, a);
+    Response iso = memory ? isochoric(material, C, a, memory->amplified) : isochoric(material, C, a);
+    if (memory) iso.S += memory->H[static_cast<std::size_t>(g)];
     out.W += w * iso.W;
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
@@ -172,16 +174,17 @@ Formulation usual_formulation(CellType type) {
 }
 
 bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out) {
+           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+           const CellMemory* memory) {
   bool done = false;
   with_cell(static_cast<int>(u.rows()), [&](auto cell) {
-    done = solid_of<decltype(cell)::n_nodes>(formulation, material, local, geometry, a, u, p_tangent, with_tangent, out);
+    done = solid_of<decltype(cell)::n_nodes>(formulation, material, local, geometry, a, u, p_tangent, with_tangent, out, memory);
   });
   return done;
 }
 
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
-                                     std::span<const Vec3> a, const ElementNodes& u) {
+                                     std::span<const Vec3> a, const ElementNodes& u, std::span<const Vec6> branches) {
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
   const bool modal = formulation != Formulation::displacement;
   std::vector<GaussState> states(n_gauss);
@@ -199,7 +202,8 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
     for (int k = 0; k < n_p && modal; ++k) s.pressure += mode(geometry, g, k) * p[k];
-    const Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
+    Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
+    if (!branches.empty()) S += branches[static_cast<std::size_t>(g)];
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
   }
   return states;

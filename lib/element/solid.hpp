@@ -23,6 +23,7 @@
 
 #include "base/fields.hpp"
 #include "element/geometry.hpp"
+#include "element/viscous_points.hpp"
 #include "material/material.hpp"
 
 namespace langer {
@@ -45,9 +46,10 @@ struct SolidElement {
   std::vector<VecX> dJ_du;        // gradients of those
 };
 
-// local: modulus of what the modes leave of J - 1
+// local: modulus of what the modes leave of J - 1; memory: of viscous branches, none where the law is elastic (W is then without them)
 bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out);
+           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+           const CellMemory* memory = nullptr);
 
 // State at a Gauss point, for results.
 struct GaussState {
@@ -56,8 +58,9 @@ struct GaussState {
   double J = 1;
   double pressure = 0;  // p or U'(J): the volumetric part of the mean stress [MPa]
 };
+// branches: sum of the branch stresses Q_i at each Gauss point, empty where the law is elastic
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
-                                     std::span<const Vec3> a, const ElementNodes& u);
+                                     std::span<const Vec3> a, const ElementNodes& u, std::span<const Vec6> branches = {});
 double mean_I4_bar(std::span<const GaussState> states, const Vec3& a);  // over the Gauss points, of fibres along a
 
 }  // namespace langer

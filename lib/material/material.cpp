@@ -1,9 +1,11 @@
 #include "material/material.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <string>
 
 #include "base/traps.hpp"
 #include "material/terms.hpp"
+#include "material/viscous_point.hpp"
 #include "mesh/directions.hpp"
 #include "tensor/invariants.hpp"
 #include "tensor/kinematics.hpp"
@@ -39,6 +41,26 @@ double shear_modulus(const MatrixTerm& term) {
           return 2 * law(3.).dW;
       },
       term);
+}
+
+std::vector<Complaint> Material::complaints() const {
+  std::vector<Complaint> found;
+  if (viscous && viscous->empty())
+    found.push_back({"viscous", "found an empty list", "at least {tau: 1, gamma: 0.5}", "without the key the law is elastic"});
+  if (!fibres.empty()) return found;
+  for (std::size_t i = 0; viscous && i < viscous->size(); ++i)
+    if ((*viscous)[i].of == BranchOf::fibres)
+      found.push_back({"viscous[" + std::to_string(i) + "].of", "fibres, which the material has none of", "all or matrix", ""});
+  if (spectrum && spectrum->of == BranchOf::fibres)
+    found.push_back({"spectrum.of", "fibres, which the material has none of", "all or matrix", ""});
+  return found;
+}
+
+std::vector<ViscousBranch> branches_of(const Material& material) {
+  std::vector<ViscousBranch> branches = material.viscous.value_or(std::vector<ViscousBranch>{});
+  if (material.spectrum)
+    for (const ViscousBranch& branch : branches_of(*material.spectrum)) branches.push_back(branch);
+  return branches;
 }
 
 double shear_modulus(const Material& material) {
@@ -104,8 +126,22 @@ struct ReferenceState {
   }
 };
 
+// factors of the terms and of their energies: of an elastic law, of the stress of an increment, of its potential
+struct AsTheyAre {
+  static constexpr double matrix = 1, fibres = 1, W_matrix = 1, W_fibres = 1;
+};
+struct OfStress {
+  double matrix, fibres;
+  static constexpr double W_matrix = 1, W_fibres = 1;
+};
+struct OfPotential {
+  double matrix, fibres, W_matrix, W_fibres;
+};
+
 // the terms of one C, gathered before the derivatives of the invariants are formed once
-Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product) {
+template <class Factors>
+Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product,
+                   const Factors& factors) {
   Response r;
   Vec6 M = Vec6::Zero();  // sum W' M, M = I or the fibres' tensor
   double dW_I2 = 0;
@@ -114,25 +150,25 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
   };
   for_each_term<double>(material, ReferenceState{v, a},
                         Overloaded{[&](OfI1, const Energy<double>& e) {
-                                     r.W += e.W;
-                                     M.head<3>().array() += e.dW;
-                                     square(e.ddW, dlinear_bar_dC(v, identity6()));
+                                     r.W += factors.W_matrix * e.W;
+                                     M.head<3>().array() += factors.matrix * e.dW;
+                                     square(factors.matrix * e.ddW, dlinear_bar_dC(v, identity6()));
                                    },
                                    [&](OfI2, const Energy<double>& e) {
-                                     r.W += e.W;
-                                     dW_I2 += e.dW;
-                                     square(e.ddW, dI2_bar_dC(v));
+                                     r.W += factors.W_matrix * e.W;
+                                     dW_I2 += factors.matrix * e.dW;
+                                     square(factors.matrix * e.ddW, dI2_bar_dC(v));
                                    },
                                    [&](const ReferenceState::Family& family, const Energy<double>& e) {
-                                     r.W += e.W;
-                                     M += e.dW * family.M;
-                                     square(e.ddW, dlinear_bar_dC(v, family.M));
+                                     r.W += factors.W_fibres * e.W;
+                                     M += factors.fibres * e.dW * family.M;
+                                     square(factors.fibres * e.ddW, dlinear_bar_dC(v, family.M));
                                    },
                                    [&](const Ogden& law) {
                                      const OfStretches s = of_stretches(law, v, C_inverse_product);
-                                     r.W += s.W;
-                                     M += s.G;
-                                     if (C_inverse_product) r.D += 4 * s.QHQ;
+                                     r.W += factors.W_matrix * s.W;
+                                     M += factors.matrix * s.G;
+                                     if (C_inverse_product) r.D += (4 * factors.matrix) * s.QHQ;
                                    }});
 
   r.S = 2 * dlinear_bar_dC(v, M);
@@ -148,15 +184,36 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
 
 Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent) {
   const Invariants v = invariants(C);
-  if (!with_tangent) return isochoric(material, v, a, nullptr);
+  if (!with_tangent) return isochoric(material, v, a, nullptr, AsTheyAre{});
   const Mat6 P = inverse_product(v);
-  return isochoric(material, v, a, &P);
+  return isochoric(material, v, a, &P, AsTheyAre{});
+}
+
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, const Amplified& amplified,
+                   bool with_tangent) {
+  const Invariants v = invariants(C);
+  const OfStress factors{amplified.matrix, amplified.fibres};
+  if (!with_tangent) return isochoric(material, v, a, nullptr, factors);
+  const Mat6 P = inverse_product(v);
+  return isochoric(material, v, a, &P, factors);
+}
+
+Response incremental(const Material& material, const Mat3& C, std::span<const Vec3> a, const PointMemory& memory,
+                     bool with_tangent) {
+  const Invariants v = invariants(C);
+  const auto& [matrix, fibres] = memory.amplified;
+  const OfPotential factors{matrix, fibres, matrix, fibres};
+  const Mat6 P = with_tangent ? inverse_product(v) : Mat6(Mat6::Zero());
+  Response r = isochoric(material, v, a, with_tangent ? &P : nullptr, factors);
+  r.W += 0.5 * memory.H.dot(voigt_strain(C - Mat3::Identity()));
+  r.S += memory.H;
+  return r;
 }
 
 Response response(const Material& material, const Mat3& C, double J_minus_1, std::span<const Vec3> a) {
   const Invariants v = invariants(C);
   const Mat6 P = inverse_product(v);
-  Response r = isochoric(material, v, a, &P);
+  Response r = isochoric(material, v, a, &P, AsTheyAre{});
   const double J = 1 + J_minus_1;
   const Energy<double> U = volume_energy(material.volume, J_minus_1);
   const Vec6 g = dJ_dC(v, J);

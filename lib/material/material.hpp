@@ -7,6 +7,7 @@
 // The fibre acts where I_k >= 1 (default, W is C1) or where M:C >= 1 (the paper's eq. 16; S jumps when J != 1).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "material/mooney_rivlin.hpp"
 #include "material/neo_hooke.hpp"
 #include "material/ogden.hpp"
+#include "material/viscous.hpp"
 #include "material/volume.hpp"
 #include "material/yeoh.hpp"
 #include "tensor/invariants.hpp"
@@ -34,12 +36,23 @@ struct Material {
   std::vector<MatrixTerm> matrix;
   std::vector<Fibre> fibres;
   Volume volume;
+  std::optional<std::vector<ViscousBranch>> viscous = {};
+  std::optional<Spectrum> spectrum = {};
   static void fields(auto& v) {
     v(&Material::matrix, "matrix", unit::none, "isotropic terms; several are summed", required);
     v(&Material::fibres, "fibres", unit::none, "fibre families; none means an isotropic material");
     v(&Material::volume, "volume", unit::none, "how volume change is resisted", required);
+    v(&Material::viscous, "viscous", unit::none,
+      "branches that relax; matrix and fibres are then the law that is left after all have relaxed. A scene with one needs path.seconds");
+    v(&Material::spectrum, "spectrum", unit::none,
+      "in place of viscous, or beside it: one branch for each decade from tau1 to tau2");
   }
+  std::vector<Complaint> complaints() const;
 };
+
+// those of viscous and of spectrum; none: an elastic law
+std::vector<ViscousBranch> branches_of(const Material& material);
+inline bool is_viscous(const Material& material) { return material.viscous || material.spectrum; }
 
 double shear_modulus(const Material& material);  // of its matrix at rest [MPa]
 inline double bulk_modulus(const Material& material) { return bulk_modulus(material.volume); }
@@ -63,6 +76,9 @@ std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame =
 
 // isochoric part: matrix and fibres, no volume term; without tangent D stays zero
 Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent = true);
+// S and D with each kind of terms times its factor, as in an increment of viscous branches; W without
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, const Amplified& amplified,
+                   bool with_tangent = true);
 
 // all terms; J_minus_1 where it is known without cancellation (tensor/kinematics.hpp)
 Response response(const Material& material, const Mat3& C, std::span<const Vec3> a);

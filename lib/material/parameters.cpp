@@ -30,6 +30,8 @@ void collect_member(V& value, const Member& m, const std::string& path, List& li
                  value[i]);
   } else if constexpr (is_choice<V>) {
     std::visit([&](auto& term) { collect(term, path + "." + std::remove_cvref_t<decltype(term)>::key, list); }, value);
+  } else if constexpr (is_optional<V>) {
+    if (value) collect_member(*value, m, path, list);
   } else if constexpr (is_vector<V>) {
     for (std::size_t i = 0; i < value.size(); ++i) collect_member(value[i], m, path + "[" + std::to_string(i) + "]", list);
   } else if constexpr (Listed<V>) {

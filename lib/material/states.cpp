@@ -39,11 +39,13 @@ struct Sheet {
   std::span<const Vec3> a;
   double lambda_x;
   bool free_width, free_shear;
+  const PointMemory* memory;
 
   std::optional<Sample> at(const Vec2& q) const {
     const Mat3 F = gradient(lambda_x, std::exp(q[0]), q[1]);
     Sample s;
-    s.r = isochoric(material, right_cauchy_green(F), a);
+    const Mat3 C = right_cauchy_green(F);
+    s.r = memory ? incremental(material, C, a, *memory) : isochoric(material, C, a);
     const Mat3 S = tensor(s.r.S), P = F * S;
     Mat3 dF[2] = {Mat3::Zero(), Mat3::Zero()};
     dF[0](2, 2) = F(2, 2), dF[0](1, 1) = -F(1, 1), dF[1](0, 2) = 1;
@@ -109,7 +111,7 @@ bool axial(std::span<const Vec3> a) {
 }  // namespace
 
 PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind, double first, double second,
-                       OffAxisShear shear) {
+                       OffAxisShear shear, const PointMemory* memory) {
   const bool slides = kind == TestKind::simple_shear;
   const double lambda_x = slides ? 1 : first;
   double lambda_z = kind == TestKind::biaxial ? second : kind == TestKind::equibiaxial ? first : 1;
@@ -121,14 +123,15 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
   const bool free_shear = shear == OffAxisShear::free && !slides && off_axis;
   Vec6 S;
   if (free_width) {
-    if (!solve({material, a, lambda_x, true, free_shear}, q, S, state.W)) return state;
+    if (!solve({material, a, lambda_x, true, free_shear, memory}, q, S, state.W)) return state;
     state.F = gradient(lambda_x, std::exp(q[0]), q[1]);
   } else if (free_shear) {
-    if (!solve({material, a, lambda_x, false, true}, q, S, state.W)) return state;
+    if (!solve({material, a, lambda_x, false, true, memory}, q, S, state.W)) return state;
     state.F = gradient(lambda_x, lambda_z, q[1]);
   } else {
     state.F = gradient(lambda_x, lambda_z, q[1]);
-    const Response r = isochoric(material, right_cauchy_green(state.F), a, false);
+    const Mat3 C = right_cauchy_green(state.F);
+    const Response r = memory ? incremental(material, C, a, *memory, false) : isochoric(material, C, a, false);
     S = r.S, state.W = r.W;
   }
   state.sigma = cauchy(state.F, S, 1);

@@ -14,6 +14,7 @@
 
 #include "material/material.hpp"
 #include "material/uniaxial.hpp"
+#include "material/viscous_point.hpp"
 
 namespace langer {
 
@@ -31,8 +32,9 @@ struct PlaneState {
 };
 
 // first: lambda_x, or g in simple shear; second: lambda_z in a biaxial test, elsewhere without meaning
+// memory: of an increment of a viscous point, whose W is then its potential
 PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind, double first, double second = 1,
-                       OffAxisShear shear = OffAxisShear::held);
+                       OffAxisShear shear = OffAxisShear::held, const PointMemory* memory = nullptr);
 
 // what a test measures [MPa]: the x component and the z component (simple shear: the xz component and 0)
 std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind, StressMeasure measure);
