@@ -169,7 +169,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
       std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
-  chosen.shown = of_the_studys_kind(config, print);
+  chosen.shown = of_the_studys_kind(config, print) && !config.path.seconds;                          // it is of elastic bodies
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);

@@ -148,12 +148,14 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
   for (const auto& [name, newtons] : step_forces(config, scene, mesh, state).of) found.push_back({name, "N", newtons});
-  const Body body(mesh, scene.materials, scene.directions, scene.formulation);
-  const GaussValues gauss = gauss_values(body, state.u);
-  double most = 0;
-  for (int n = 0; n < mesh.n_nodes(); ++n)
-    most = std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
-  found.push_back({"von_mises_max", "MPa", most});
+  // the stress of a viscous body follows from all of its steps, and one is here
+  if (const Body body(mesh, scene.materials, scene.directions, scene.formulation); !body.viscous()) {
+    const GaussValues gauss = gauss_values(body, state.u);
+    double most = 0;
+    for (int n = 0; n < mesh.n_nodes(); ++n)
+      most = std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
+    found.push_back({"von_mises_max", "MPa", most});
+  }
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) found.push_back({"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
   return found;

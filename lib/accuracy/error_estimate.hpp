@@ -11,7 +11,7 @@
 //   cells       q - f
 //   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order (Statics::slip_from_touch), r = 2 or more, so that dt / r <= 1/8;
 //               of increments below 0.1 what twice their length changes; on the longest of these cells; nothing where no friction
-//               makes the path matter
+//               and no time makes the path matter
 //   scatter     root mean square of what the fit leaves
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
@@ -41,7 +41,7 @@ struct Valued {
   bool of_force() const { return unit == langer::unit::N; }
 };
 // of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
-// moved, greatest von Mises stress of the nodes, displacement of each named point
+// moved, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // A config that holds its mesh, solved without a file.

@@ -114,13 +114,14 @@ Refinements refinements(const SolveConfig& config, const Find& where) {
   if (quadratic) add_longer_hex27(refined, config);
   const SolveConfig& coarsest = refined.hex8.empty() ? refined.hex27.back() : refined.hex8.back();
   for (Truncation truncation : config.truncation) refined.wider[truncation] = wider(coarsest, truncation);
-  if (!has_friction(config)) return refined;
+  if (!has_friction(config) && !config.path.seconds) return refined;
   const double increment = config.path.largest_increment();
   const bool shorter = increment >= 0.1;
   const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment, ratio = increment / another;
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
   refined.other_increments = coarsest;
   refined.other_increments.path.use_increment(another);
+  refined.other_increments.path.time_error /= ratio * ratio * ratio;  // it grows with the third power of an increment
   return refined;
 }
 

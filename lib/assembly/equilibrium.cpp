@@ -46,8 +46,10 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
   local_.assign(n, 0);
   J_minus_1_ = p_;
   dJ_du_.resize(p_.size() * n_dofs_);
+  if (ViscousPoints::needed(materials_)) viscous_.emplace(materials_, mesh.body, n, mesh.cell().n_gauss);
   f_ = K_du_ = VecX::Zero(dofs_.n);
   K_.assign(pattern_.nnz(), 0);
+  begin_increment(0);
 }
 
 void Equilibrium::make_blocks() {
@@ -127,7 +129,10 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
       local.set(l, local_[e]);
       for (int k = 0; k < n_p_; ++k) p[k].set(l, modal_pressure(e, k));
     }
-    packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out);
+    const bool remembers = viscous_ && viscous_->has(block.cells[0]);
+    const PacketMemory memory = remembers ? PacketMemory{viscous_->amplified(block.cells[0]), packet_H_[b].data()} : PacketMemory{};
+    packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out,
+                 remembers ? &memory : nullptr);
     return;
   }
   SolidElement one;
@@ -135,8 +140,9 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
     for (int k = 0; k < n_p_; ++k) p[k] = modal_pressure(e, k);
-    const bool whole =
-        solid(formulation_, law, local_[e], geometry_[e], fibres(e), element_displacements(u, e), p.data(), with_tangent, one);
+    const auto memory = viscous_ && viscous_->has(e) ? std::optional(viscous_->memory(e)) : std::nullopt;
+    const bool whole = solid(formulation_, law, local_[e], geometry_[e], fibres(e), element_displacements(u, e), p.data(),
+                             with_tangent, one, memory ? &*memory : nullptr);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
     if (!whole) continue;
     for (int k = 0; k < n_p_; ++k) {

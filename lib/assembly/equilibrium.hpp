@@ -7,6 +7,7 @@
 // so the number of threads does not change a bit of the result.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "assembly/dofs.hpp"
@@ -31,7 +32,7 @@ class Equilibrium {
   const VecX& f_int() const { return f_; }             // (3 n) [N]
   const std::vector<double>& K() const { return K_; }  // (nnz) [N/mm]
   const VecX& K_du() const { return K_du_; }           // (3 n) K times du_prescribed [N]
-  double W() const { return W_; }                      // stored energy [N mm]
+  double W() const { return W_; }                      // stored energy [N mm]; of viscous bodies what is left after all has relaxed
   double J_min() const { return J_min_; }
   double smallest_J(const VecX& u) const;  // over all Gauss points, without assembling
   // what rounding leaves in the residual: kappa eps |grad u| through each element's dilatation gradient [N]
@@ -48,6 +49,15 @@ class Equilibrium {
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
   // p + s (p - p_before), p_before those at u_before; J - 1 at an extrapolated u would mean nothing
   void extrapolate_pressures(const VecX& u_before, double s);
+
+  // Increments of a viscous body, of `seconds`: what it remembers at the begin stands in every assembly until the next one. None of
+  // this has an effect on an elastic body.
+  bool viscous() const { return viscous_.has_value(); }
+  void begin_increment(double seconds);
+  double end_increment(const VecX& u);  // found; ViscousPoints::error()
+  void accept_increment(const VecX& u0, const VecX& u);
+  const std::optional<ViscousPoints>& memory() const { return viscous_; }
+  double viscous_work() const;  // integral of the branch stresses over the strain since rest [N mm]
 
   const Dofs& dofs() const { return dofs_; }
   const Pattern& pattern() const { return pattern_; }
@@ -100,6 +110,8 @@ class Equilibrium {
   std::vector<double> dJ_du_;      // n_dofs_ for each of them
   std::vector<double> dJ_du_kept_;
   std::vector<double> local_;  // by cell: modulus of what its modes leave of J - 1 [MPa]
+  std::optional<ViscousPoints> viscous_;
+  std::vector<std::vector<Packet>> packet_H_;  // per block, as PacketMemory has it
   VecX f_, K_du_;
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;

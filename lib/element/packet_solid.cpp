@@ -226,7 +226,8 @@ template <int n, int n_gauss>
 
 template <int n, int n_gauss>
 void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
-                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out) {
+                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+                     const PacketMemory* memory) {
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
   PacketPoints<n, n_gauss> at;

@@ -42,8 +42,8 @@ ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u,
 
 ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) {
   const auto a = body.fibres(e);
-  const auto states =
-      gauss_states(body.formulation(), body.material(e), body.geometry(e), a, element_displacements(body.mesh(), u, e));
+  const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
+                                   element_displacements(body.mesh(), u, e), body.branches(e));
   ElementValues values = ElementValues::Ones(static_cast<Eigen::Index>(states.size()), body.n_values());
   for (std::size_t g = 0; g < states.size(); ++g) {
     values.row(g).head<6>() = voigt(states[g].sigma).transpose();

@@ -38,6 +38,13 @@ class Body {
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }  // unit, reference state
   int n_families() const { return n_families_; }                           // the most that any cell has
   int n_values() const { return 7 + n_families_; }                         // length of a row
+  // Of a viscous body's state: sum of the branch stresses at the Gauss points of each cell [MPa]; gauss_values() has those told last.
+  void tell_branches(std::vector<std::vector<Vec6>> branches) { branches_ = std::move(branches); }
+  std::span<const Vec6> branches(int e) const {
+    return branches_.empty() ? std::span<const Vec6>() : branches_[static_cast<std::size_t>(e)];
+  }
+  bool viscous() const { return ViscousPoints::needed(materials_); }
+  const std::vector<Material>& materials() const { return materials_; }
   // (cell, its local node) at a node, of the region that the node shows
   struct Corner {
     int cell, local;
@@ -51,6 +58,7 @@ class Body {
   Formulation formulation_;
   int n_families_;
   std::vector<ElementGeometry> geometry_;
+  std::vector<std::vector<Vec6>> branches_;
   std::vector<std::size_t> first_;
   std::vector<Corner> corners_;
 };

@@ -62,6 +62,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     line("fibres", families == 0 ? "off, not in the material"
                                  : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
                                                scene.directions.from_field() ? ", directions from a field" : ""));
+    if (body.viscous())
+      line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory", amount(body.memory()->bytes())));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),

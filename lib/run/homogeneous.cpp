@@ -67,12 +67,17 @@ HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const S
   if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
+  seconds_ = config.path.seconds.value_or(0);
   whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation, scene.dofs, config.threads);
 }
 
 std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
   std::unique_ptr<HomogeneousScene> found(new HomogeneousScene(mesh, scene, config));
-  return found->whole_ && found->first_increment_balances(config.path) ? std::move(found) : nullptr;
+  if (!found->whole_ || !found->first_increment_balances(config.path)) return nullptr;
+  if (!found->whole_->viscous()) return found;
+  // it has followed the increment of that trial
+  std::unique_ptr<HomogeneousScene> afresh(new HomogeneousScene(mesh, scene, config));
+  return afresh;
 }
 
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
@@ -125,6 +130,25 @@ bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
   return balances;
 }
 
+// what the mesh says to u; a viscous one goes along
+bool HomogeneousScene::balance(const VecX& u, double t) const {
+  const bool anew = whole_->viscous() && t != t_;  // else it is asked once more of the same state
+  if (anew) whole_->begin_increment((t - t_) * seconds_);
+  whole_->pressures_from(u);
+  if (!whole_->assemble(u, false)) return false;
+  if (!anew) return true;
+  if (u_.size() == 0) u_ = VecX::Zero(u.size());
+  whole_->end_increment(u), whole_->accept_increment(u_, u);
+  t_ = t, u_ = u;
+  return true;
+}
+
+void HomogeneousScene::replay(const StepRecord& whole) const {
+  VecX u(3 * static_cast<Eigen::Index>(whole.u.size()));
+  for (std::size_t i = 0; i < whole.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[i];
+  balance(u, whole.t);
+}
+
 std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
   StepRecord record = one;
   const int n = whole_->mesh().n_nodes();
@@ -134,8 +158,7 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
     for (std::size_t a = 0; a < 8; ++a) record.u[i] += N_[i][a] * one.u[a];
     u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
   }
-  whole_->pressures_from(u);
-  if (!whole_->assemble(u, false)) return std::nullopt;
+  if (!balance(u, one.t)) return std::nullopt;
   const VecX& f = whole_->f_int();
   double left = 0, reactions = 0;
   for (int dof : whole_->dofs().free) left += f[dof] * f[dof];
@@ -152,6 +175,7 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
   for (auto& [name, values] : record.cell_fields)
     values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
   record.scalars["J_min"] = whole_->J_min(), record.scalars["energy"] = whole_->W();
+  if (whole_->viscous()) record.scalars["viscous_work"] = whole_->viscous_work();
   return record;
 }
 

@@ -32,11 +32,13 @@ class HomogeneousScene {
   // what a solution on the mesh that ends in this state reports of its residual, by the config's own tolerance
   SolveReport report(const SolveReport& of_point, const StepRecord& whole) const;
   Equilibrium& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
+  void replay(const StepRecord& whole) const;       // a step that was found before
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);
   bool recognise(const Mesh& mesh, const Scene& scene);
   bool first_increment_balances(const LoadPathOptions& path);
+  bool balance(const VecX& u, double t) const;
   SolveReport on_mesh(double residual, double reactions, SolveReport report) const;  // [N]; with the mesh's tolerances
 
   Mesh mesh_;
@@ -45,6 +47,9 @@ class HomogeneousScene {
   std::array<int, 8> corner_node_;                             // of the mesh
   std::vector<std::array<double, 8>> N_;                       // by node of the mesh: weights of the corners
   std::unique_ptr<Equilibrium> whole_;                         // balance of the mesh
+  double seconds_ = 0;                                         // of the path
+  mutable double t_ = 0;                                       // of the last step of a viscous body, and its displacements
+  mutable VecX u_;
 };
 
 }  // namespace langer

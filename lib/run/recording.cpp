@@ -20,10 +20,11 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
                    ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
                    : std::function<void(const StepRecord&)>()),
       file_(output, header_of(run.mesh, run.scene.formulation, run.scene, with_steps_hash(identity, config)),
-            [this, &watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
+            [this, &run, &watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
               if (!good(step, earlier)) return false;
               if (collect_) collect_(step);
               watch.kept(step);
+              run.replay(step);
               return true;
             }),
       resumed_(file_.resumed()) {

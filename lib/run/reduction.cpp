@@ -61,6 +61,10 @@ SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_w
 
 Equilibrium* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
 
+void Reduction::replay(const StepRecord& of_whole) const {
+  if (point_) point_->replay(of_whole);
+}
+
 BodyState Reduction::reduced(const StepRecord& of_whole) const {
   if (point_) return point_->reduced(of_whole);
   return part_ ? part_->reduced(of_whole) : state_of(of_whole, scene_);

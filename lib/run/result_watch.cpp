@@ -50,6 +50,25 @@ void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
   if (may_lock_)
     if (const Locking now = locking(body_, u); now.energy > locking_.energy) locking_ = now;
   if (has_chains_) look_at_chains(u);
+  if (body_.viscous()) look_at_branches();
+}
+
+// A cycle that ends in a hold costs the work against the branches and nothing else (element/viscous_points.hpp): what is negative
+// beyond the error of the increments is no dissipation.
+void ResultWatch::look_at_branches() {
+  const ViscousPoints& points = *body_.memory();
+  double volume = 0, given = 0, worst = 0;
+  for (int e = 0; e < body_.mesh().n_cells(); ++e) volume += body_.geometry(e).V;
+  const double little = -1e-2 * std::abs(body_.viscous_work()) / volume;
+  Vec3 place = Vec3::Zero();
+  for (int e = 0; e < body_.mesh().n_cells(); ++e)
+    for (int g = 0; points.has(e) && g < body_.geometry(e).n_gauss(); ++g) {
+      const double work = points.work(e, g);
+      if (!(work < little)) continue;
+      given += body_.geometry(e).w[g] / volume;
+      if (work < worst) worst = work, place = gauss_position(body_.mesh(), e, g);
+    }
+  if (given > given_) given_ = given, given_at_ = t_, given_place_ = place;
 }
 
 void ResultWatch::look_at_chains(const VecX& u) {
@@ -109,6 +128,11 @@ std::vector<std::string> ResultWatch::warnings() const {
         fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
                     "with {} rounding allows no less; {} leaves what was asked",
                     asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), stiffness(), soft_enough()));
+  if (given_ > 1e-4)
+    lines.push_back(fmt::format(
+        "the dissipation is negative in {:.2g} % of the volume at t = {:.4g}, most near {}: along such paths the linear "
+        "evolution of the viscous branches gives work for nothing, and its stresses mean little",
+        100 * given_, given_at_, text(given_place_)));
   if (chains_ > 0)
     lines.push_back(
         fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "

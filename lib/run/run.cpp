@@ -11,6 +11,12 @@ namespace {
 StaticsOptions threads_of(const SolveConfig& config) {
   StaticsOptions options;
   options.threads = config.blas_threads;
+  options.seconds = config.path.seconds.value_or(0);
+  return options;
+}
+
+StaticsOptions with_seconds(StaticsOptions options, const LoadPathOptions& path) {
+  options.seconds = path.seconds.value_or(0);
   return options;
 }
 
@@ -31,14 +37,26 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part, cons
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
       body(reduction.equilibrium()),
-      statics(body, reduction.scene().contacts, options),
+      statics(body, reduction.scene().contacts, with_seconds(options, path_)),
       path(path_),
       solver(std::move(solver_)) {}
 
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
-  const BodyState earlier = before ? reduction.reduced(*before) : statics.accepted();  // at rest
+  BodyState earlier = statics.accepted();
+  if (before)
+    earlier = reduction.reduced(*before);
+  else {
+    earlier.t = 0, earlier.u.setZero();
+    for (auto& reactions : earlier.r) std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
+  }
   statics.restore(reduction.reduced(last), &earlier);
   increment_ = last.scalars.at("next_increment");
+}
+
+void Run::replay(const StepRecord& step) {
+  if (!body.viscous()) return;
+  statics.replay(reduction.reduced(step));
+  reduction.replay(step);
 }
 
 RunEnd Run::follow(const RunListener& listener) {
@@ -46,16 +64,18 @@ RunEnd Run::follow(const RunListener& listener) {
   const auto attempt = [&](double t) {
     if (interrupted()) return SolveReport{};  // not converged
     statics.begin(t);
-    const SolveReport report =
+    SolveReport report =
         equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+    if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
   };
   const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
     statics.accept();
     const bool at_end = at_end_of_path(t);
-    if (!at_end && !listener.of_part && !listener.of_whole) return !interrupted();
+    if (!at_end && !listener.of_part && !listener.of_whole && !body.viscous()) return !interrupted();
     StepRecord record = step_record(statics, body, taken, next, report);
+    if (path.seconds) record.scalars["time"] = t * *path.seconds;
     if (listener.of_part && !listener.of_part(record)) {
       end.at = RunEnd::At::listener;
       return false;

@@ -50,6 +50,8 @@ class Run {
 
   // To go on after `last`; before: the step before it, none where that was the body at rest.
   void resume(const StepRecord& last, const std::optional<StepRecord>& before);
+  // Before that, of a viscous body: every step so far, in order. Its branches follow from them to the last digit.
+  void replay(const StepRecord& step);
   // From where it stands to t = 1. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
   RunEnd follow(const RunListener& listener = {});
 

@@ -56,7 +56,9 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
   for (int e = 0; e < n; ++e) {
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
-    const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e));
+    const std::vector<Vec6> branches = body.viscous() ? body.memory()->stresses(e) : std::vector<Vec6>{};
+    const auto states =
+        gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e), branches);
     const double w = 1.0 / static_cast<double>(states.size());
     for (const GaussState& g : states) {
       sigma += w * g.sigma;
@@ -83,6 +85,7 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
   record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
+  if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
   const auto& contacts = statics.contacts();
   if (contacts.empty()) return record;
   const auto defects = statics.defects();

@@ -114,6 +114,14 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
     refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field, material,
                                  (own.fibre_field ? key : "") + "fibre_angles", where, errors);
     angles_follow = angles_follow || !own.material, field_follows = field_follows || (follows && !own.fibre_field);
+    if (is_viscous(material) && !config.path.seconds)
+      errors.push_back({where("path.seconds"), "path.seconds",
+                        fmt::format("nothing, and the material of the body \"{}\" is viscous", mesh.bodies[b]),
+                        "the duration of the path in s", "path: {seconds: 100}"});
+    if (is_viscous(material) && config.estimate == EstimateBy::recovery)
+      errors.push_back({where("estimate"), "estimate",
+                        fmt::format("recovery, and the material of the body \"{}\" is viscous", mesh.bodies[b]), "refinement",
+                        "recovery compares elastic stresses"});
     scene.materials.push_back(material);
     if (!field || material.fibres.empty() || !errors.empty()) continue;
     std::vector<int> cells;
@@ -160,14 +168,14 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config) {
 }
 
 // shape and path as the config gives them; no candidates yet
-RigidContact indenter_of(const std::string& name, const ContactConfig& contact) {
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact, const LoadPathOptions& path) {
   RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
   if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
     Triangles triangles = read_surface(facets->file.path);
     for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
     facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
   }
-  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
+  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, path), Vec3(w.to[0], w.to[1], w.to[2])});
   return rigid;
 }
 
@@ -186,7 +194,7 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
 void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh, const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
-    RigidContact rigid = indenter_of(name, contact);
+    RigidContact rigid = indenter_of(name, contact, config.path);
     for (const Waypoint& w : rigid.motion) scene.stops.push_back(w.t);
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
     if (rigid.nodes.empty() && contact.on.empty())

@@ -59,10 +59,13 @@ struct LoadConfig {
 };
 
 struct WaypointConfig {
-  double t = 1;
+  std::optional<double> t;
   std::array<double, 3> to{};
+  std::optional<double> s;
   static void fields(auto& v) {
-    v(&WaypointConfig::t, "t", unit::none, "place on the path, 0 to 1", required, Range{0, 1, false, true});
+    v(&WaypointConfig::t, "t", unit::none, "place on the path, 0 to 1", Range{0, 1, false, true});
+    v(&WaypointConfig::s, "s", unit::s, "in place of t, where path.seconds tells how long the path takes: since its beginning",
+      positive);
     v(&WaypointConfig::to, "to", unit::mm, "displacement of the indenter from its start", required);
   }
 };
@@ -83,9 +86,18 @@ struct ContactConfig {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (motion.empty()) found.push_back({"motion", "found an empty list", "at least {t: 1, to: [x, y, z]}", ""});
-    for (std::size_t i = 1; i < motion.size(); ++i)
-      if (motion[i].t <= motion[i - 1].t)
-        found.push_back({"motion", "times that do not increase", "each t greater than the one before", ""});
+    bool in_t = false, in_s = false;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const WaypointConfig& w = motion[i];
+      if (w.t.has_value() == w.s.has_value())
+        found.push_back({"motion[" + std::to_string(i) + "]", w.t ? "found t and s" : "found neither t nor s", "one of the two",
+                         "t: 0 to 1 along the path; s: seconds, with path: {seconds: ...}"});
+      in_t = in_t || w.t, in_s = in_s || w.s;
+      if (i > 0 && (w.t <= motion[i - 1].t && w.s <= motion[i - 1].s))
+        found.push_back({"motion", "times that do not increase",
+                         std::string("each ") + (in_s ? "s" : "t") + " greater than the one before", ""});
+    }
+    if (in_t && in_s && found.empty()) found.push_back({"motion", "t and s in one list", "one of the two", ""});
     return found;
   }
 };
@@ -241,15 +253,39 @@ struct SolveConfig {
     }
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
       found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
+    complain_of_seconds(found);
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
     return found;
+  }
+
+ private:
+  // histories in seconds go from the begin of the path to its end
+  void complain_of_seconds(std::vector<Complaint>& found) const {
+    for (const auto& [name, contact] : contacts) {
+      const std::string key = "contacts." + name + ".motion";
+      if (contact.motion.empty() || !contact.motion.back().s) continue;
+      const double end = *contact.motion.back().s;
+      const std::string last = key + "[" + std::to_string(contact.motion.size() - 1) + "].s";
+      if (!path.seconds)
+        found.push_back({last, "found seconds, and the path has none", "path: {seconds: ...}, or t in place of s", ""});
+      else if (end > *path.seconds * (1 + 1e-9))
+        found.push_back({last, "found a time behind the end of the path", "path.seconds at most", ""});
+      else if (end < *path.seconds * (1 - 1e-9))
+        found.push_back({last, "found a history shorter than the path", "one that ends at path.seconds",
+                         "a point more where the indenter rests to the end"});
+    }
   }
 };
 
 // whether an estimate by refinement may follow the solve
 inline bool by_refinement(const SolveConfig& config) {
   return config.estimate == EstimateBy::refinement || config.estimate == EstimateBy::automatic;
+}
+
+// where on the path
+inline double place(const WaypointConfig& w, const LoadPathOptions& path) {
+  return w.s ? *w.s / path.seconds.value() : w.t.value();
 }
 
 inline bool has_friction(const SolveConfig& config) {

@@ -63,8 +63,9 @@ struct SolveReport {
   int again = 0;        // corrections with the tangent of an iteration
   int evaluations = 0;  // of the residual
   double residual = 0, tolerance = 0, reference = 0;
-  double asked = 0;  // tolerance before it was raised to what rounding leaves [N]
-  std::string why;   // in words, when not converged
+  double asked = 0;       // tolerance before it was raised to what rounding leaves [N]
+  std::string why;        // in words, when not converged
+  double time_error = 0;  // of a viscous body: ViscousPoints::error()
   bool converged() const { return outcome == Outcome::converged; }
 };
 

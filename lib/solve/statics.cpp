@@ -49,6 +49,7 @@ void Statics::begin(double t) {
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
+  equilibrium_.begin_increment((t - now_.t) * options_.seconds);
   equilibrium_.pressures_from(now_.u);
   const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0;  // then the last movement does not go on
   if (const double last = now_.t - before_.t; last > 0 && !rests) extrapolate(std::min((t - now_.t) / last, 2.0));
@@ -80,7 +81,17 @@ void Statics::slip_from_touch() {
   }
 }
 
+double Statics::time_error() { return equilibrium_.end_increment(u_); }
+
+void Statics::replay(const BodyState& next) {
+  equilibrium_.begin_increment((next.t - now_.t) * options_.seconds);
+  equilibrium_.end_increment(next.u);
+  t_ = next.t, u_ = next.u, r_ = next.r;
+  accept();
+}
+
 void Statics::accept() {
+  equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_};
 }

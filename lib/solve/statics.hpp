@@ -41,6 +41,7 @@ struct StaticsOptions {
   double gap_tolerance = 1e-10;  // [mm]
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one
+  double seconds = 0;            // of the path, for viscous bodies
 };
 
 class Statics {
@@ -53,7 +54,9 @@ class Statics {
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
-  void accept();  // the trial becomes the accepted state
+  double time_error();                 // of the trial, once it is in equilibrium; before accept() of a viscous body
+  void accept();                       // the trial becomes the accepted state
+  void replay(const BodyState& next);  // accepts a state that was found before; a viscous body follows
   void restore(const BodyState& accepted, const BodyState* before = nullptr);
 
   const BodyState& accepted() const { return now_; }

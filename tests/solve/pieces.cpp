@@ -252,3 +252,79 @@ TEST_CASE("the linear solver handles definite, indefinite and singular matrices 
   CHECK_FALSE(linear.factorize(values));
   CHECK_FALSE(linear.factorize_indefinite(values));
 }
+
+TEST_CASE("with seconds increments are fractions of a stage, and those of a short stage grow into a long one") {
+  LoadPathOptions options;
+  options.seconds = 100;
+  options.first = options.largest = 0.25;
+  std::vector<double> reached;
+  const auto attempt = [](double) {
+    SolveReport r;
+    r.outcome = Outcome::converged, r.iterations = 1;
+    return r;
+  };
+  const auto accepted = [&](double t, double, double, const SolveReport&) {
+    reached.push_back(t);
+    return true;
+  };
+  REQUIRE(load_path(options, 0, {}, {0.001}, attempt, accepted).complete);
+  CHECK(std::count_if(reached.begin(), reached.end(), [](double t) { return t <= 0.001; }) == 4);
+  CHECK(reached[4] - reached[3] == doctest::Approx(0.00025));
+  CHECK(reached[5] - reached[4] == doctest::Approx(1.5 * 0.00025));
+  for (std::size_t i = 5; i < reached.size(); ++i) CHECK(reached[i] - reached[i - 1] <= 0.25 * 0.999 + 1e-12);
+  reached.clear();
+  options.steps = 5;
+  REQUIRE(load_path(options, 0, {}, {0.001}, attempt, accepted).complete);
+  REQUIRE(reached.size() == 10);
+  CHECK(reached[4] == 0.001);
+  CHECK(reached[7] == doctest::Approx(0.001 + 0.6 * 0.999));
+}
+
+TEST_CASE("an increment of too large an error in time is begun again, and none is cut short for nothing") {
+  LoadPathOptions options;
+  options.seconds = 1, options.time_error = 1e-3;
+  double from = 0, largest = 0;
+  int attempts = 0;
+  std::vector<double> taken;
+  // the error of an increment is its third power, times something that fades
+  const auto attempt = [&](double t) {
+    SolveReport r;
+    r.outcome = Outcome::converged, r.iterations = 1;
+    r.time_error = 1e4 * std::exp(-20 * t) * std::pow(t - from, 3);
+    REQUIRE(++attempts < 1000);
+    return r;
+  };
+  const PathReport report = load_path(options, 0, {}, {}, attempt, [&](double t, double by, double, const SolveReport& r) {
+    largest = std::max(largest, r.time_error);
+    taken.push_back(by), from = t;
+    return true;
+  });
+  REQUIRE(report.complete);
+  CHECK(largest <= options.time_error);
+  CHECK(largest > 0.2 * options.time_error);
+  CHECK(report.too_long >= 1);
+  CHECK(report.too_long < 10);
+  CHECK(attempts == report.steps + report.too_long);
+  CHECK(report.cut_backs == 0);
+  CHECK(*std::max_element(taken.begin(), taken.end()) > 0.09);
+}
+
+TEST_CASE("an increment that is a little too long for its error is not stretched to the end of its stage again") {
+  LoadPathOptions options;
+  options.seconds = 1, options.first = options.largest = 1, options.time_error = 1e-3;
+  double from = 0;
+  int attempts = 0;
+  const auto attempt = [&](double t) {
+    SolveReport r;
+    r.outcome = ++attempts < 10 ? Outcome::converged : Outcome::singular;
+    r.time_error = 1.2e-3 * std::pow(t - from, 3);
+    return r;
+  };
+  const auto accepted = [&](double t, double, double, const SolveReport&) {
+    from = t;
+    return true;
+  };
+  const PathReport report = load_path(options, 0, {}, {}, attempt, accepted);
+  CHECK(report.complete);
+  CHECK(report.steps == 2);
+}
