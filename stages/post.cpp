@@ -21,10 +21,12 @@ namespace {
 struct Solution {
   explicit Solution(const std::string& path)
       : reader(path),
-        body(reader.header().mesh, reader.header().laws(), reader.header().directions, formulation_of(reader.header(), path)) {}
+        body(reader.header().mesh, reader.header().laws(), reader.header().directions, formulation_of(reader.header(), path)),
+        branches_(body, reader) {}
   SolutionReader reader;
-  Body body;
+  mutable Body body;  // told of the branch stresses of the row that was read last
   StepRecord record(int row) const {
+    branches_.go_to(row);
     if (row > 0) return reader.step(row - 1);
     StepRecord rest;
     rest.u.assign(body.mesh().X.size(), Vec3::Zero());
@@ -37,6 +39,9 @@ struct Solution {
     rest.scalars["shear_stiffness_min"] = stiffness;
     return rest;
   }
+
+ private:
+  mutable BranchRows branches_;
 };
 
 using Columns = std::vector<Column>;

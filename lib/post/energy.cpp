@@ -13,13 +13,17 @@ void EnergyPath::add(State now) {
     last_ = std::move(now);
     return;
   }
-  Interval step{now.t - last_.t, 0, 0, intervals_.size() > 0, 0, 0};
+  Interval step{now.t - last_.t, 0, 0, intervals_.size() > 0, 0, 0, 0, 0};
   std::vector<Vec3> from_contact_0(now.u.size(), Vec3::Zero()), from_contact_1 = from_contact_0, rates;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
     const Vec3 c0 = indenter_displacement(contact, last_.t), c = indenter_displacement(contact, now.t), dc = c - c0;
     rates.push_back(dc / step.dt);
-    if (k == 0) step.way = dc.norm();
+    if (k == 0) {
+      Vec3 force = Vec3::Zero();
+      for (const Vec3& r : now.r[0]) force += r;
+      step.way = dc.norm(), step.travel = c.norm(), step.force = force.norm();
+    }
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
       const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
@@ -50,9 +54,13 @@ void EnergyPath::add(State now) {
 
 std::vector<PathSums> EnergyPath::sums() const {
   std::vector<PathSums> all(stored_.size());
-  double largest = 0;
+  double largest = 0, most_force = 0, work_at_begin = 0;
+  bool came_back = false;
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
     const Interval& here = intervals_[k];
+    const double goes = here.travel - (k > 0 ? intervals_[k - 1].travel : 0);
+    if (goes > 0 && came_back) work_at_begin = all[k].work;
+    if (goes != 0) came_back = goes < 0;
     const double slope = (here.end - here.begin) / here.dt;
     // second divided differences with the states before and after
     double curvature = 0;
@@ -70,6 +78,9 @@ std::vector<PathSums> EnergyPath::sums() const {
     sum.path = all[k].path + here.way;
     sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature;
     sum.dissipated = all[k].dissipated + here.dissipated;
+    sum.hysteresis = sum.work - work_at_begin;
+    most_force = std::max(most_force, here.force);
+    if (most_force > 0) sum.relaxation = here.force / most_force;
     largest = std::max(largest, std::abs(sum.work));
     if (largest > 0) sum.balance = (sum.work - stored_[k + 1] - sum.dissipated) / largest;
   }

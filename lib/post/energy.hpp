@@ -4,6 +4,9 @@
 //   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
+//   hysteresis  work since the first indenter last began to go on after it had come back: at the end of a cycle what that has cost [N mm]
+//   relaxation  force of the first indenter over its greatest so far [-]
+// stored counts the work against viscous branches too (element/viscous_points.hpp), whether they still hold it or not.
 #pragma once
 
 #include <vector>
@@ -14,7 +17,7 @@
 namespace langer {
 
 struct PathSums {
-  double path = 0, work = 0, dissipated = 0, balance = 0;
+  double path = 0, work = 0, dissipated = 0, balance = 0, hysteresis = 0, relaxation = 1;
 };
 
 class EnergyPath {
@@ -35,6 +38,7 @@ class EnergyPath {
     double dt, begin, end;  // power per t at its two ends [N mm]
     bool goes_on;           // in the direction of the interval before
     double way, dissipated;
+    double travel, force;  // of the first indenter at the end: distance from its start, length of the force
   };
   const Mesh& mesh_;
   std::vector<RigidContact> contacts_;

@@ -205,10 +205,12 @@ struct States {
 };
 
 // of these rows of the table of states; fields: their values are added
-States states_of(const SolutionReader& solution, const Body& body, const Chosen& chosen, const std::vector<int>& rows,
-                 StressAt stress, std::vector<ShownField>& fields) {
+States states_of(const SolutionReader& solution, Body& body, const Chosen& chosen, const std::vector<int>& rows, StressAt stress,
+                 std::vector<ShownField>& fields) {
   States states;
+  BranchRows branches(body, solution);
   for (const int row : rows) {
+    branches.go_to(row);
     const StepState state = row == 0 ? unloaded(body.mesh()) : state_of(solution.step(row - 1));
     states.t.push_back(state.t);
     auto& here = states.u.emplace_back();
@@ -231,7 +233,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                double budget) {
   const SolutionHeader& header = solution.header();
   const Mesh& mesh = header.mesh;
-  const Body body(mesh, header.laws(), header.directions, formulation_of(header, path));
+  Body body(mesh, header.laws(), header.directions, formulation_of(header, path));
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
 

@@ -64,6 +64,16 @@ void add_contact(std::vector<Field>& points, std::size_t n, const std::string& n
 
 }  // namespace
 
+void BranchRows::go_to(int row) {
+  if (!body_.viscous()) return;
+  if (!path_ || row < row_) path_.emplace(body_), row_ = 0;
+  for (; row_ < row; ++row_) {
+    const StepRecord next = solution_.step(row_);
+    path_->add(body_, next.scalars.at("time"), next.u);
+  }
+  path_->tell(body_);
+}
+
 Formulation formulation_of(const SolutionHeader& header, const std::string& path) {
   const auto words = names(Formulation{});
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -148,7 +158,8 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
         if (surface == header.indenter_surfaces.end()) continue;
         facets->tree = std::make_shared<TriangleTree>(surface->second);
       }
-      for (const WaypointConfig& w : contact.motion) indenter.motion.push_back({w.t, Vec3(w.to[0], w.to[1], w.to[2])});
+      for (const WaypointConfig& w : contact.motion)
+        indenter.motion.push_back({place(w, solve.path), Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
     }
   } catch (const Failure&) {
@@ -224,7 +235,8 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
     state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
   }
-  if (const auto stored = record.scalars.find("energy"); stored != record.scalars.end()) state.stored = stored->second;
+  for (const char* part : {"energy", "viscous_work"})
+    if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;
   return state;
 }
 

@@ -7,10 +7,25 @@
 #include "post/curves.hpp"
 #include "post/energy.hpp"
 #include "post/render.hpp"
+#include "post/viscous_path.hpp"
 #include "store/snapshot.hpp"
 #include "store/solution_file.hpp"
 
 namespace langer {
+
+// The branch stresses of a viscous body at the rows of a solution, row 0 at rest: a row has them from all rows before it. Refers to
+// both, and tells the body. Nothing for an elastic one.
+class BranchRows {
+ public:
+  BranchRows(Body& body, const SolutionReader& solution) : body_(body), solution_(solution) {}
+  void go_to(int row);
+
+ private:
+  Body& body_;
+  const SolutionReader& solution_;
+  std::optional<ViscousPath> path_;
+  int row_ = 0;
+};
 
 Formulation formulation_of(const SolutionHeader& header, const std::string& path);  // throws Failure(input)
 StepState state_of(const StepRecord& record);
