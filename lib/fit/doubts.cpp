@@ -50,8 +50,8 @@ void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) 
   if (std::abs(first) < at_rest * r.strain && std::abs(z) < at_rest * r.strain && std::abs(test.stress_x[0]) > offset * r.stress)
     all.push_back(fmt::format("test {}: {:.3g} MPa at no strain, {:.2g} % of the largest: an offset of the force, or a preload",
                               test.name, test.stress_x[0], 100 * std::abs(test.stress_x[0]) / r.stress));
-  // a protocol of several branches goes back on purpose, in a uniaxial test it is the way back or a cycle
-  if (test.kind == TestKind::biaxial) return;
+  // a protocol of several branches and a history go back on purpose, in another uniaxial test it is the way back or a cycle
+  if (test.kind == TestKind::biaxial || !test.time.empty()) return;
   double farthest = 0;
   for (std::size_t i = 0; i < test.points(); ++i) {
     const double e = std::abs(strain_of(test, test.first[i]));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -176,10 +177,15 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
     return sigma.has_value();
   }
   const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
+  std::optional<ViscousPoint> point;
+  if (is_viscous(material) && !test.time.empty()) point.emplace(material, a);
   for (std::size_t i = 0; i < test.points(); ++i) {
-    const PlaneState state =
-        plane_state(material, a, test.kind, test.first[i], test.second.empty() ? 1 : test.second[i], test.shear);
+    // at rest until the first point
+    const PointMemory memory = point ? point->begin(i > 0 ? test.time[i] - test.time[i - 1] : 0) : PointMemory{};
+    const PlaneState state = plane_state(material, a, test.kind, test.first[i], test.second.empty() ? 1 : test.second[i],
+                                         test.shear, point ? &memory : nullptr);
     if (!state.converged) return false;
+    if (point) point->accept(state.F);
     const auto both = measured_stress(state, test.kind, test.measure);
     stress[i] = both[0];
     if (!test.stress_z.empty()) stress[test.points() + i] = both[1];

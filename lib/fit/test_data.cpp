@@ -221,6 +221,16 @@ struct Reading {
     return row.cells[axis.strain].text.empty() && row.cells[axis.stress].text.empty();
   }
 
+  // [s]; that of one row after another of a test does not go back
+  double time(const CsvRow& row, const Test& test) {
+    const double t = number(row, *time_column);
+    if (!test.time.empty() && t < test.time.back())
+      say(row.line, row.cells[*time_column].column, "columns.time", fmt::format("found {:g} s after {:g} s", t, test.time.back()),
+          "times that do not go back");
+    return t;
+  }
+
+  std::optional<std::size_t> time_column;
   std::vector<std::pair<std::size_t, std::string>> where;
   bool found_by_name = false;
 };
@@ -299,6 +309,7 @@ void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z, const st
     }
     if (own_grids && in.is_empty(row, x)) continue;
     Test& test = test_named(tests, in.format.like, name);
+    if (in.time_column) test.time.push_back(in.time(row, test));
     test.first.push_back(in.stretch(row, x));
     if (z.has_strain && !own_grids) test.second.push_back(in.stretch(row, z));
     test.stress_x.push_back(x.stress_factor * in.number(row, x.stress));
@@ -309,7 +320,7 @@ void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z, const st
 }  // namespace
 
 std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
-  Reading in{table, format, {}, {}, {}, false};
+  Reading in{table, format, {}, {}, {}, {}, false};
   if (table.header.cells.empty()) throw Failure(Exit::input, {{table.name, 0, 0}, "", "found 0 points", "two at least", ""});
   in.found_by_name = format.strain_x.empty() && format.stress_x.empty();
   if (in.found_by_name) in.find_columns();
@@ -320,6 +331,7 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   std::optional<std::size_t> strain_z, stress_z, split;
   if (!f.strain_z.empty()) strain_z = in.column(f.strain_z, "columns.strain_z");
   if (!f.stress_z.empty()) stress_z = in.column(f.stress_z, "columns.stress_z");
+  if (!f.time.empty()) in.time_column = in.column(f.time, "columns.time");
   if (!f.split.empty()) split = in.column(f.split, "split");
   for (const auto& [name, text] : f.where)
     if (const auto c = in.column(name, "where")) in.where.emplace_back(*c, text);
@@ -360,7 +372,7 @@ std::vector<Test> parse_tests(const std::string& text, const std::string& shown_
       return name.empty() || std::any_of(cells.begin(), cells.end(), [&](const CsvCell& c) { return c.text == name; });
     };
     if (!format.strain_x.empty())
-      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) && has(format.stress_z);
+      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) && has(format.stress_z) && has(format.time);
     bool deformation = false, stress = false;
     for (const CsvCell& cell : cells) {
       const ColumnMeaning m = column_meaning(cell.text);

@@ -6,7 +6,7 @@
 //   P = F / (width thickness),  lambda = 1 + u / gauge_length
 // A measure that nobody told: deformations that start at 1 are stretches, those that start at 0 engineering strains, others are
 // asked about; what was taken stands in `notes`.
-// Refused, with file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches <= 0,
+// Refused, with file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches <= 0, times that go back,
 // fewer than two points.
 #pragma once
 
@@ -29,6 +29,7 @@ struct Test {
   double fibre_angle_deg = 0;  // of the specimen, added to the law's
   double weight = 1;           // of its residuals: 1/standard deviation, or relative
   std::vector<double> first, second, stress_x, stress_z;
+  std::vector<double> time;        // [s] of each point, what viscous laws need; empty where it was not measured
   std::vector<std::string> notes;  // what was taken for granted when it was read
 
   std::size_t points() const { return first.size(); }
@@ -44,7 +45,7 @@ struct TestFormat {
   std::optional<DecimalSign> decimal;
   // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or pure shear test with strain_z
   // has a grid of its own for each axis and becomes two tests
-  std::string strain_x, strain_z, stress_x, stress_z;
+  std::string strain_x, strain_z, stress_x, stress_z, time;
   std::map<std::string, std::string> where;        // only rows with these texts in these columns
   std::string split;                               // a column: one test per text in it
   double strain_from = -1e300, strain_to = 1e300;  // of lambda_x - 1 (simple shear: g), after the shift by `toe`

@@ -37,6 +37,14 @@ std::vector<Complaint> FitData::complaints() const {
                    "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())
     all.push_back({"columns.stress_z", "missing beside strain_z", "the stress along z, at the deformations of strain_z", ""});
+  if (columns && !columns->time.empty()) {
+    const std::string whole = "a history, of which no part can be left out";
+    if (toe) all.push_back({"toe", "found beside columns.time", "none: " + whole, ""});
+    if (strain_from) all.push_back({"strain_from", "found beside columns.time", "none: " + whole, ""});
+    if (strain_to) all.push_back({"strain_to", "found beside columns.time", "none: " + whole, ""});
+    if (own_grids)
+      all.push_back({"columns.time", "found with a grid of its own for each axis", "both axes at the same instants", ""});
+  }
   if (toe && kind == TestKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
   if (toe && own_grids) all.push_back({"toe", "found with a grid of its own for each axis", "no toe: data that start at rest", ""});
   if (columns && !columns->stress_z.empty() && (kind == TestKind::uniaxial || kind == TestKind::simple_shear))
@@ -72,6 +80,8 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
     box.high = 100;
   else if (parameter.name.starts_with("lam0"))
     box = {1.001, 2, true, true};
+  else if (parameter.unit == std::string(unit::s))
+    box = {start / 100, 100 * start, true, true};  // relaxation times
   else if (parameter.name.starts_with("Jm"))
     box = {0.1, 200, true, true};
   else if (parameter.name.starts_with("locking"))
@@ -158,6 +168,15 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
            "other bounds of " + whole.of + ", or another factor"});
 }
 
+void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
+  if (config.dilatation == Dilatation::compressible)
+    all.push_back({"dilatation", "compressible, and a viscous law", "incompressible", ""});
+  for (std::size_t i = 0; i < config.data.size(); ++i)
+    if (const auto& columns = config.data[i].columns; !columns || columns->time.empty())
+      all.push_back({fmt::format("data[{}].columns.time", i), "missing, and the law is viscous", "the column of times in s",
+                     "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
+}
+
 void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
   const std::vector<Tie> written = written_ties(config);
   const ResolvedTies whole = resolved(written);
@@ -198,6 +217,7 @@ std::vector<Complaint> FitConfig::complaints() const {
       if (data[i].kind != TestKind::uniaxial || data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0)
         all.push_back({"data[" + std::to_string(i) + "].kind", "a test whose state is solved without change of volume",
                        "uniaxial tests with held shear and no fibre_angle, or dilatation: incompressible", ""});
+  if (is_viscous(law)) complain_about_time(*this, all);
   Material copy = law;
   const std::vector<MaterialParameter> known = langer::parameters(copy);
   std::vector<std::string> keys;
@@ -256,6 +276,7 @@ std::vector<Test> measured_tests(const FitConfig& config) {
     if (data.columns) {
       format.strain_x = data.columns->strain_x, format.strain_z = data.columns->strain_z;
       format.stress_x = data.columns->stress_x, format.stress_z = data.columns->stress_z;
+      format.time = data.columns->time;
       format.where = data.where, format.split = data.split;
       if (!data.split.empty() && data.name.empty()) like.name.clear();
     }

@@ -21,13 +21,15 @@
 namespace langer {
 
 struct FitColumns {
-  std::string strain_x, strain_z, stress_x, stress_z;
+  std::string strain_x, strain_z, stress_x, stress_z, time;
   static void fields(auto& v) {
     v(&FitColumns::strain_x, "strain_x", unit::none, "deformation along x; in simple shear its amount", required);
     v(&FitColumns::strain_z, "strain_z", unit::none,
       "deformation along z, of a biaxial test; of an equibiaxial or pure shear test where stress_z has a grid of its own");
     v(&FitColumns::stress_x, "stress_x", unit::none, "stress along x; in simple shear the shear stress", required);
     v(&FitColumns::stress_z, "stress_z", unit::none, "stress along z, where it was measured");
+    v(&FitColumns::time, "time", unit::s,
+      "of each point, where the law is viscous: relaxation, ramp and hold, cycles. The specimen is at rest until the first point");
   }
 };
 
