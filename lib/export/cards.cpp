@@ -10,6 +10,7 @@
 #include "export/fibre_frame.hpp"
 #include "export/foreign_terms.hpp"
 #include "export/polynomial.hpp"
+#include "material/parameters.hpp"
 
 namespace langer {
 
@@ -212,10 +213,64 @@ Card febio(const Material& m) {
   return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
 }
 
+// The law at once after a step: ANSYS counts its branches from there.
+Material instantaneous(const Material& m, double amplified) {
+  Material stiff = m;
+  for (const MaterialParameter& p : parameters(stiff))
+    if (p.key.starts_with("matrix") && p.unit == std::string(unit::MPa)) *p.value *= amplified;
+  return stiff;
+}
+
+// with branches: TIME=PRONY and TB,PRONY give their strengths as shares of the instantaneous modulus
+void add_branches(const Material& m, const std::vector<ViscousBranch>& branches, Card& abaqus, Card& ansys) {
+  double amplified = 1;
+  for (const ViscousBranch& branch : branches) amplified += branch.gamma;
+  const char* transport =
+      "at large strain it leads the stress of the branches along with the rotation, Langer with all of the deformation: alike where "
+      "strains are small";
+  if (abaqus.exists) {
+    const std::string word = "*HYPERELASTIC,";
+    abaqus.text.insert(abaqus.text.find(word) + word.size(), " MODULI=LONG TERM,");
+    abaqus.text += fmt::format("** {}\n*VISCOELASTIC, TIME=PRONY\n", transport);
+    for (const ViscousBranch& b : branches) abaqus.text += fmt::format("{}, 0, {}\n", number(b.gamma / amplified), number(b.tau));
+  }
+  ansys = langer::ansys(instantaneous(m, amplified));
+  if (!ansys.exists) return;
+  ansys.text +=
+      fmt::format("! moduli above are those at once after a step; {}\nTB,PRONY,1,1,{},SHEAR\n", transport, branches.size());
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    ansys.text += fmt::format("TBDATA,{},{},{}\n", 2 * i + 1, number(branches[i].gamma / amplified), number(branches[i].tau));
+}
+
+std::vector<Card> viscous_cards(const Material& m) {
+  const std::vector<ViscousBranch> branches = branches_of(m);
+  Material law = m;
+  law.viscous.reset(), law.spectrum.reset();
+  std::vector<Card> all{abaqus(law), ansys(law), febio(law), calculix(law)};
+  std::string pairs;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    pairs += fmt::format(" t{} = {} s, g{} = {};", i + 1, number(branches[i].tau), i + 1, number(branches[i].gamma));
+  const auto refuse = [&](Card& card, const std::string& begin, const std::string& end, const std::string& nearest) {
+    card.exists = false, card.text = begin + note(card.program, "viscous branches as they are here", nearest) + end + "\n";
+  };
+  const std::string relaxed = "the law without `viscous`, what is left after all has relaxed";
+  if (m.fibres.empty()) {
+    add_branches(law, branches, all[0], all[1]);
+  } else {
+    refuse(all[0], "** ", "", relaxed + "; its viscous laws with fibres were not tried");
+    refuse(all[1], "! ", "", relaxed + "; its viscous laws with fibres were not tried");
+  }
+  refuse(all[2], "<!-- ", " -->",
+         "<material type=\"uncoupled viscoelastic\"> around the law without them, with" + pairs + " it was not tried");
+  refuse(all[3], "** ", "", relaxed);
+  return all;
+}
+
 }  // namespace
 
 std::vector<Card> cards(const Material& material) {
   const Material m = acting(material);
+  if (is_viscous(m)) return viscous_cards(m);
   return {abaqus(m), ansys(m), febio(m), calculix(m)};
 }
 

@@ -296,6 +296,10 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
   if (header.mesh.section)
     refuse(path, "", "a section",
            "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
+  for (const Material& law : header.laws())
+    if (is_viscous(law))
+      refuse(path, "", "a viscous material, whose scene goes through time",
+             "the same scene without viscous and spectrum: the law that is left after all has relaxed");
   const SolveConfig config = config_of(header, path);
   if (!header.mesh.cell().names.febio)
     refuse(path, "", fmt::format("cells {}", names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),

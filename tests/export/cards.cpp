@@ -83,3 +83,23 @@ TEST_CASE("the law (44) of two families stands in ANSYS with its ten constants")
   dispersed.fibres[0].kappa = 0.1;
   CHECK(!card(dispersed, "ANSYS").exists);
 }
+
+TEST_CASE("viscous branches are shares of the instantaneous modulus, or a note where a program was not tried") {
+  Material m{{NeoHooke{0.3}}, {}, QuadraticVolume{1e-3}};
+  m.viscous = {{0.5, 0.3, BranchOf::all}, {20, 0.2, BranchOf::matrix}};
+  const std::vector<Card> all = cards(m);
+  CHECK(all[0].exists);
+  CHECK(all[0].text.find("*HYPERELASTIC, MODULI=LONG TERM, NEO HOOKE\n0.3, 0.001\n") != std::string::npos);
+  CHECK(all[0].text.find("*VISCOELASTIC, TIME=PRONY\n0.2, 0, 0.5\n0.1333333333, 0, 20\n") != std::string::npos);
+  CHECK(all[1].exists);
+  CHECK(all[1].text.find("TBDATA,1,0.9,0.001\n") != std::string::npos);  // 2 a1 (1 + 0.5)
+  CHECK(all[1].text.find("TB,PRONY,1,1,2,SHEAR\nTBDATA,1,0.2,0.5\nTBDATA,3,0.1333333333,20\n") != std::string::npos);
+  CHECK(!all[2].exists);
+  CHECK(!all[3].exists);
+  m.fibres = {Fibre{HgoFibre{0.1, 0.3}, 30}};
+  for (const Card& card : cards(m)) {
+    CAPTURE(card.program);
+    CHECK(!card.exists);
+    CHECK(card.text.find("viscous") != std::string::npos);
+  }
+}
