@@ -59,7 +59,7 @@ bool holds(const InBox& box, const Vec3& x, double tolerance) {
 bool holds(const InCylinder& cylinder, const Vec3& x, double tolerance) {
   Vec3 across = x - vector(cylinder.through);
   across[index(cylinder.axis)] = 0;
-  return across.norm() <= cylinder.radius + tolerance;
+  return across.norm() <= cylinder.radius + tolerance && across.norm() >= cylinder.beyond.value_or(0) - tolerance;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -37,10 +38,16 @@ struct InCylinder {
   std::string axis;
   std::array<double, 3> through{};
   double radius = 0;
+  std::optional<double> beyond = {};
   static void fields(auto& v) {
     v(&InCylinder::axis, "axis", unit::none, "direction of the axis; the cylinder has no ends", required, one_of("x", "y", "z"));
     v(&InCylinder::through, "through", unit::mm, "a point of the axis");
     v(&InCylinder::radius, "radius", unit::mm, "nodes within this distance of the axis", required, positive);
+    v(&InCylinder::beyond, "beyond", unit::mm, "and at least this far from it: a ring", positive);
+  }
+  std::vector<Complaint> complaints() const {
+    if (!beyond || *beyond < radius) return {};
+    return {{"beyond", "found at least the radius", "less than the radius", ""}};
   }
 };
 

@@ -30,6 +30,8 @@ TEST_CASE("a box and a cylinder hold what lies inside or on them") {
   CHECK(select(mesh, InCylinder{"y", {0, 0, 0}, 1}, top(mesh)).size() == 5);  // the centre and four at exactly 1
   CHECK(select(mesh, InCylinder{"y", {0, 7, 0}, 1.5}, all_nodes(mesh)).size() == 27);
   CHECK(select(mesh, InCylinder{"x", {0, 0, 2}, 0.5}, all_nodes(mesh)).size() == 5);
+  CHECK(select(mesh, InCylinder{"y", {0, 0, 0}, 2, 1}, top(mesh)).size() ==
+        12);  // a ring: less the centre; its four are at exactly 1
 }
 
 TEST_CASE("the nearest node is one, of several equally near the first") {
