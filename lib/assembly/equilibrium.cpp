@@ -231,8 +231,12 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
       double* dJ = &dJ_du_[at * n_dofs_];
       for (int i = 0; i < n_dofs_; ++i) dJ[i] = out.dJ_du(k)[i][l];
       for (int i = 0; i < n_dofs_ && !tied; ++i) slope = std::max(slope, std::abs(dJ[i]));
-      for (int a = 0; a < n_nodes_ && tied; ++a)
-        slope = std::max(slope, (dofs_.tie[nodes[a]].T.transpose() * Vec3(dJ + 3 * a)).lpNorm<Eigen::Infinity>());
+      for (int a = 0; a < n_nodes_ && tied; ++a) {
+        Vec3 sum = Vec3::Zero();  // over the nodes before it that move with the same dofs
+        for (int b = 0; b <= a; ++b)
+          if (dofs_.node(nodes[b]) == dofs_.node(nodes[a])) sum += dofs_.tie[nodes[b]].T.transpose() * Vec3(dJ + 3 * b);
+        slope = std::max(slope, sum.lpNorm<Eigen::Infinity>());
+      }
     }
     for (int a : nodes) moved = std::max(moved, u.segment<3>(3 * dofs_.node(a)).lpNorm<Eigen::Infinity>());
     // rounding of u reaches the pressure through the dilatation's gradient, and the force through it once more
