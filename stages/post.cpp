@@ -79,8 +79,9 @@ struct Table {
 Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
                const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
-  EnergyPath path(solution.body.mesh(), indenters);
-  for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters));
+  const Loads loads = loads_of(solution.reader.header());
+  EnergyPath path(solution.body.mesh(), indenters, kinks_of(solution.reader.header()));
+  for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
@@ -91,6 +92,12 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
     const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
     for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
     table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
+  }
+  for (std::size_t c = 0; c < measures.size(); ++c) {
+    if (!measures[c].zero_at) continue;
+    std::vector<double>& values = table.columns[c].values;
+    const double zero = values[static_cast<std::size_t>(table.exact_row(job, measures[c].key + ".zero_at", *measures[c].zero_at))];
+    for (double& value : values) value -= zero;
   }
   return table;
 }
@@ -174,7 +181,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   PostConfig config = job.config;
   const Solution solution(job.input("solution"));
   const SolutionHeader& header = solution.reader.header();
-  const std::vector<RigidContact> indenters = indenters_of(header);
+  std::vector<RigidContact> indenters = indenters_of(header);
+  follow_records(indenters, solution.reader);
   const std::vector<std::string> missing = indenters_missing(header, indenters);
 
   Available available{!header.contact_nodes.empty(), missing.empty(), {}};

@@ -81,9 +81,8 @@ bool is_clamped(const SolveConfig& config) {
   std::map<std::string, std::set<Axis>> given;
   for (const SupportConfig& support : config.supports) given[support.on].insert(support.hold.begin(), support.hold.end());
   for (const LoadConfig& load : config.loads) {
-    const Displacement& u = load.displacement;
-    for (const auto& [component, axis] : {std::pair{&u.x, Axis::x}, {&u.y, Axis::y}, {&u.z, Axis::z}})
-      if (*component) given[load.on].insert(axis);
+    for (int axis = 0; axis < 3; ++axis)
+      if (load.imposed(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
   return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
 }

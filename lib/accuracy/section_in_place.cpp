@@ -51,7 +51,7 @@ bool holds_alike(const SolveConfig& config) {
   };
   return std::all_of(config.supports.begin(), config.supports.end(), alike) &&
          std::all_of(config.loads.begin(), config.loads.end(),
-                     [](const LoadConfig& l) { return !l.displacement.x && !l.displacement.z; });
+                     [](const LoadConfig& l) { return l.displacement && !l.imposed(0) && !l.imposed(2); });
 }
 
 bool has_direction(const std::optional<Material>& material) {
@@ -68,8 +68,9 @@ bool is_isotropic(const SolveConfig& config, const std::optional<Material>& mate
 bool is_round(const ContactConfig& contact, const Vec3& axis) {
   // what stays as it is when turned by one radian does so for every turn
   const Isometry turn{Eigen::AngleAxisd(1, Vec3::UnitY()).toRotationMatrix(), axis};
-  return unchanged_by(contact.rigid, turn) && std::all_of(contact.motion.begin(), contact.motion.end(),
-                                                          [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
+  return !contact.control && unchanged_by(contact.rigid, turn) &&
+         std::all_of(contact.motion.begin(), contact.motion.end(),
+                     [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
 }
 
 void shift(std::array<double, 3>& x, const Vec3& by) {

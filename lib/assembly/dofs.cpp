@@ -11,7 +11,8 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vec
   std::sort(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) { return a.dof < b.dof; });
   for (const Prescribed& p : prescribed) {
     if (!dofs.prescribed.empty() && dofs.prescribed.back().dof == p.dof) {
-      if (dofs.prescribed.back().value != p.value && result.conflict < 0) result.conflict = p.dof;
+      const Prescribed& other = dofs.prescribed.back();
+      if ((other.value != p.value || !same_factor(other.factor, p.factor)) && result.conflict < 0) result.conflict = p.dof;
       continue;
     }
     dofs.prescribed.push_back(p);

@@ -1,10 +1,11 @@
 // Which degrees of freedom are free. Dof 3 i + k is displacement component k of node i.
-// A prescribed component moves as  value * ramp(t);  held components have value 0.
+// A prescribed component moves as  value * factor(t);  held components have value 0.
 // Tied nodes, those of symmetry or of a section, have no dofs of their own: whoever needs their displacement asks their image.
 #pragma once
 
 #include <vector>
 
+#include "base/history.hpp"
 #include "mesh/symmetry.hpp"
 #include "tensor/types.hpp"
 
@@ -12,7 +13,9 @@ namespace langer {
 
 struct Prescribed {
   int dof = 0;
-  double value = 0;  // [mm] at t = 1; proportional to t
+  double value = 0;             // [mm] its largest value
+  LoadFactor factor = nullptr;  // of it; none: in proportion to t
+  double at(double t) const { return value * factor_at(factor, t); }
 };
 
 struct Dofs {

@@ -184,6 +184,49 @@ void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_
     }
 }
 
+void Equilibrium::set_loads(Loads loads) {
+  loads_ = std::move(loads);
+  f_ext_ = VecX::Zero(dofs_.n);
+}
+
+int Equilibrium::position(int e, int row, int column) const {
+  if (pattern_.scattered(e)) return pattern_.slots(e)[row * (row + 1) / 2 + column];
+  const int a = row / 3, b = column / 3, i = row % 3, j = column % 3;
+  const int* at = pattern_.blocks(e) + 3 * (a * (a + 1) / 2 + b);
+  if (at[0] == Pattern::none) return Pattern::none;
+  if (a == b) return at[j] + i - j;
+  return at[0] >= 0 ? at[j] + i : Pattern::turned(at[i]) + j;
+}
+
+void Equilibrium::add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
+  f_ext_.setZero();
+  const auto displacements = [&](int e) { return element_displacements(u, e); };
+  loads_.each(t_loads_, displacements, with_tangent, [&](int e, const ElementNodes& force, const MatX* stiffness) {
+    const auto nodes = mesh_.cell(e);
+    const bool tied = !tied_.empty() && tied_[e];
+    for (int a = 0; a < n_nodes_; ++a) add_force(f_ext_, nodes[a], tied, force.row(a).transpose());
+    if (!stiffness) return;
+    for (int a = 0; a < n_nodes_; ++a)
+      for (int b = 0; b <= a; ++b) {
+        Mat3 K = stiffness->block<3, 3>(3 * a, 3 * b);
+        if (K.isZero(0)) continue;
+        const bool twice = tied && a != b && dofs_.tie[nodes[a]].of == dofs_.tie[nodes[b]].of;  // as in add_tied
+        if (tied) K = dofs_.tie[nodes[a]].T.transpose() * K * dofs_.tie[nodes[b]].T;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < (a == b ? i + 1 : 3); ++j)
+            if (const int at = position(e, 3 * a + i, 3 * b + j); at >= 0) K_[at] += (twice && i == j ? 2 : 1) * K(i, j);
+      }
+    if (!du_prescribed) return;
+    const ElementNodes du = element_displacements(*du_prescribed, e);
+    if (du.isZero(0)) return;
+    for (int a = 0; a < n_nodes_; ++a) {
+      Vec3 K_du = Vec3::Zero();
+      for (int b = 0; b < n_nodes_; ++b) K_du += stiffness->block<3, 3>(3 * a, 3 * b) * du.row(b).transpose();
+      add_force(K_du_, nodes[a], tied, K_du);
+    }
+  });
+}
+
 void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
   if (pattern_.scattered(e)) {
     const int* slot = pattern_.slots(e);
@@ -282,6 +325,7 @@ bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_pres
         }
       });
   floor_ = std::sqrt(floor_);
+  if (!loads_.empty() && J_min_ > 0) add_loads(u, with_tangent, du_prescribed);
   return J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/dofs.hpp"
+#include "assembly/loads.hpp"
 #include "assembly/pattern.hpp"
 #include "element/packet_solid.hpp"
 #include "mesh/directions.hpp"
@@ -24,6 +25,12 @@ class Equilibrium {
  public:
   Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation, Dofs dofs,
               int threads = 1, Kernel kernel = Kernel::packets, std::vector<double> cell_share = {});
+
+  // Forces on the surface, at t from now on: K() then has the symmetric part of what pressures take from the tangent.
+  void set_loads(Loads loads);
+  const Loads& loads() const { return loads_; }
+  void load_to(double t) { t_loads_ = t; }
+  const VecX& f_ext() const { return f_ext_; }  // (3 n) [N]; empty without loads
 
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
@@ -86,6 +93,8 @@ class Equilibrium {
   void add_force(VecX& forces, int node, bool tied, const Vec3& force) const;  // to the dofs that the node moves with
   void add_stiffness(int e, const PacketElement& out, int lane);
   void add_tied(int e, const PacketElement& out, int lane, bool with_tangent);
+  void add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed);
+  int position(int e, int row, int column) const;  // of a cell's entry, row >= column, in K
   void add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed);
 
   const Mesh& mesh_;
@@ -112,7 +121,9 @@ class Equilibrium {
   std::vector<double> local_;  // by cell: modulus of what its modes leave of J - 1 [MPa]
   std::optional<ViscousPoints> viscous_;
   std::vector<std::vector<Packet>> packet_H_;  // per block, as PacketMemory has it
-  VecX f_, K_du_;
+  Loads loads_;
+  double t_loads_ = 0;
+  VecX f_, K_du_, f_ext_;
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;
 };

@@ -71,7 +71,7 @@ inline constexpr bool is_words = std::is_same_v<T, std::string> || Named<T>;
 // whether a map of this type cannot be empty
 template <class T>
 bool asks() {
-  if constexpr (is_optional<T> || is_vector<T> || is_array<T> || is_named_things<T> || is_leaf<T>)
+  if constexpr (is_optional<T> || is_vector<T> || is_array<T> || is_named_things<T> || is_leaf<T> || is_history<T>)
     return false;
   else if constexpr (is_choice<T>)
     return true;
@@ -85,7 +85,7 @@ bool asks() {
 // whether anything in it is required, so that an included file makes a difference
 template <class T>
 bool asks_within() {
-  if constexpr (is_leaf<T>)
+  if constexpr (is_leaf<T> || is_history<T>)
     return false;
   else if constexpr (is_optional<T> || is_vector<T>)
     return asks_within<typename T::value_type>();
@@ -188,6 +188,8 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
     return type("boolean");
   else if constexpr (is_whole_number<T> || std::is_floating_point_v<T>)
     return number(m, is_whole_number<T>);
+  else if constexpr (is_history<T>)
+    return object({{"anyOf", list({number(m, false), of<std::vector<HistoryPointConfig>>(m, whole, definitions)})}});
   else if constexpr (Named<T>)
     return object({{"enum", words(words_of<T>())}});
   else if constexpr (std::is_same_v<T, std::string>)

@@ -13,6 +13,7 @@
 
 #include "base/fields.hpp"
 #include "base/former.hpp"
+#include "base/history.hpp"
 #include "base/input_path.hpp"
 
 namespace langer {
@@ -107,6 +108,9 @@ template <class... T>
 inline constexpr bool is_sum<std::vector<std::variant<T...>>> = true;
 
 template <class T>
+inline constexpr bool is_history = std::is_same_v<T, HistoryConfig>;  // a number, or a list of points
+
+template <class T>
 inline constexpr bool is_whole_number = std::is_integral_v<T> && !std::is_same_v<T, bool>;
 template <class T>
 inline constexpr bool is_leaf =
@@ -173,6 +177,8 @@ std::string type_words(const Member& m) {
     return "true or false";
   else if constexpr (is_whole_number<T> || std::is_floating_point_v<T>)
     return number_words(m, is_whole_number<T>);
+  else if constexpr (is_history<T>)
+    return number_words(m, false) + ", or a list of {t, to}";
   else if constexpr (Named<T>)
     return "one of " + list_words(words_of<T>());
   else if constexpr (std::is_same_v<T, std::string>)

@@ -84,6 +84,20 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
   out = x;
 }
 
+void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out, Findings& f) {
+  out = {};
+  if (tree.kind == Tree::Kind::scalar) return read_leaf(tree, path, m, out.value, f);
+  if (tree.kind != Tree::Kind::list)
+    return f.say(tree.place, path, "found " + description(tree), type_words<HistoryConfig>(m), m.hint);
+  const std::size_t before = f.errors.size();
+  read_items(tree, path, m, out.points, f);
+  if (f.errors.size() > before) return;
+  for (const Complaint& c : place_complaints(out.points, "", "{t: 1, to: ...}"))
+    f.say(tree.place, path, c.found, c.expected, c.hint);
+  for (std::size_t i = 0; i < out.points.size(); ++i)  // as large as a number in this place may be
+    if (const Tree* to = tree.list[i].find("to")) read_leaf(*to, join(item(path, i), "to"), m, out.points[i].to, f);
+}
+
 long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f) {
   const auto wrong = [&](const std::string& hint) {
     f.say(tree.place, path, "found " + description(tree), number_words(m, true), hint);

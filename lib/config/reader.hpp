@@ -42,6 +42,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, bool&
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out, Findings& f);
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out, Findings& f);
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f);
+void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out, Findings& f);
 long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f);
 int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f,
               const std::vector<FormerWord>& former = {});  // -1: none
@@ -182,6 +183,8 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
   const auto wrong_kind = [&] { wrong("found " + description(tree)); };
   if constexpr (is_whole_number<T>) {
     read_number(tree, path, m, out, f);
+  } else if constexpr (is_history<T>) {
+    read_history(tree, path, m, out, f);
   } else if constexpr (Named<T>) {
     if (const int i = read_word(tree, path, m, words_of<T>(), f, former_words_of<T>()); i >= 0) out = static_cast<T>(i);
   } else if constexpr (is_leaf<T>) {

@@ -35,6 +35,8 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
     return plain_tree(std::to_string(value));
   else if constexpr (std::is_floating_point_v<T>)
     return plain_tree(number_text(value));
+  else if constexpr (is_history<T>)
+    return value.points.empty() ? to_tree(value.value) : to_tree(value.points);
   else if constexpr (Named<T>)
     return plain_tree(words_of<T>()[static_cast<std::size_t>(value)]);
   else if constexpr (std::is_same_v<T, std::string>)

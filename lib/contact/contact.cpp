@@ -7,13 +7,9 @@
 
 namespace langer {
 
-Vec3 indenter_displacement(const RigidContact& contact, double t) {
-  Waypoint before;
-  for (const Waypoint& w : contact.motion) {
-    if (t <= w.t) return before.u_ind + (t - before.t) / (w.t - before.t) * (w.u_ind - before.u_ind);
-    before = w;
-  }
-  return before.u_ind;
+Vec3 indenter_displacement(const RigidContact& contact, double t, double travel) {
+  const Vec3 moved = contact.motion.empty() ? Vec3(Vec3::Zero()) : value_at(contact.motion, t);
+  return contact.control ? Vec3(moved + travel * contact.control->along) : moved;
 }
 
 Mat3 contact_frame(const Vec3& n) {

@@ -6,17 +6,22 @@
 // Reactions r are global vectors acting on the body; r_n = r.n >= 0.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/history.hpp"
 #include "contact/local_problem.hpp"
 #include "contact/rigid.hpp"
 
 namespace langer {
 
-struct Waypoint {
-  double t = 0;
-  Vec3 u_ind = Vec3::Zero();  // displacement of the indenter [mm]
+using Waypoint = HistoryPoint<Vec3>;  // displacement of the indenter [mm]
+
+// An indenter that is pushed: its travel along a direction is unknown, the sum of its reactions along it is given.
+struct ForceControl {
+  Vec3 along = -Vec3::UnitY();  // of length 1
+  History force;                // [N] on the body, not negative
 };
 
 struct RigidContact {
@@ -24,10 +29,12 @@ struct RigidContact {
   Indenter shape;
   double mu = 0;
   std::vector<int> nodes;        // candidates
-  std::vector<Waypoint> motion;  // ascending t; before the first (0 at t = 0) and between them linear
+  std::vector<Waypoint> motion;  // ascending t; under force control what is across its direction
+  std::optional<ForceControl> control = {};
 };
 
-Vec3 indenter_displacement(const RigidContact& contact, double t);
+// travel: along the direction of its control [mm]
+Vec3 indenter_displacement(const RigidContact& contact, double t, double travel = 0);
 
 // Orthonormal columns n, t1, t2.
 Mat3 contact_frame(const Vec3& n);

@@ -160,10 +160,10 @@ std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves
   std::vector<Vec3> way{Vec3::Zero()};
   for (const Waypoint& w : contact.motion) {
     const Vec3 from = way.back();
-    const double length = (w.u_ind - from).norm();
+    const double length = (w.to - from).norm();
     const int parts = static_cast<int>(std::clamp(std::ceil(length / (0.5 * shortest)), 1.0, 400.0));
     step = std::max(step, length / parts);
-    for (int k = 1; k <= parts; ++k) way.push_back(from + (static_cast<double>(k) / parts) * (w.u_ind - from));
+    for (int k = 1; k <= parts; ++k) way.push_back(from + (static_cast<double>(k) / parts) * (w.to - from));
   }
   std::vector<double> least;
   double depth = 0;

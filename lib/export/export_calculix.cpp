@@ -118,7 +118,7 @@ class Writer {
     }
     std::string held;
     for (const HeldSet& h : deck_.held)
-      if (h.value == 0) held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
+      if (h.to.value == 0) held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
     if (!held.empty()) s_ += "*BOUNDARY\n" + held;
   }
 
@@ -202,7 +202,7 @@ class Writer {
                       takes, std::min(deck_.smallest, takes), std::min({deck_.largest, takes, most}));
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
-        if (h.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.value * t);
+        if (h.to.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.to.at(t));
       }
       for (const DeckContact& c : deck_.contacts) {
         const Vec3 u = indenter_displacement(c.law, t);

@@ -148,18 +148,21 @@ class Writer {
     std::set<std::string> asked;
     int moved = 0;
     for (const HeldSet& h : deck_.held) {
-      if (h.value == 0) {
+      if (h.to.value == 0) {
         fixed[h.set][h.axis] = 1;
         continue;
       }
       if (asked.insert(h.set).second)
         reactions_ += fmt::format("      <node_data data=\"Rx;Ry;Rz\" delim=\",\" file=\"{}_reaction.csv\" node_set=\"{}\"/>\n",
                                   file_name(h.set), escaped(h.set));
-      const int path = curve("<pt>0,0</pt><pt>1,1</pt>");
+      std::string points = "<pt>0,0</pt>";
+      if (h.to.factor)
+        for (const auto& point : *h.to.factor) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", point.t, point.to);
+      const int path = curve(h.to.factor ? points : points + "<pt>1,1</pt>");
       boundary_ += fmt::format(
           "    <bc name=\"moved{}\" type=\"prescribed displacement\" node_set=\"{}\"><dof>{}</dof><value "
           "lc=\"{}\">{:.16g}</value><relative>0</relative></bc>\n",
-          ++moved, escaped(h.set), "xyz"[h.axis], path, h.value);
+          ++moved, escaped(h.set), "xyz"[h.axis], path, h.to.value);
     }
     for (const auto& [set, axes] : fixed)
       boundary_ += fmt::format(
@@ -239,7 +242,7 @@ class Writer {
         name);
     for (int k = 0; k < 3; ++k) {
       std::string points = "<pt>0,0</pt>";
-      for (const Waypoint& w : c.law.motion) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", w.t, w.u_ind[k]);
+      for (const Waypoint& w : c.law.motion) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", w.t, w.to[k]);
       rigid_ += fmt::format(
           "    <rigid_bc name=\"path_{1}_of_{0}\" type=\"rigid_displacement\"><rb>{0}</rb><dof>{1}</dof><value "
           "lc=\"{2}\">1</value>"

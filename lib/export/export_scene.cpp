@@ -44,6 +44,11 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
     body.material = header.materials.empty() ? header.material : header.materials[b];
     config.materials[header.mesh.bodies[b]] = body;
   }
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].on_surface())
+      refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure", "imposed displacements and indenters");
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.control) refuse(path, "contacts." + name + ".control", "an indenter under force control", "one that moves as told");
   for (const auto& [name, contact] : config.contacts)
     if (!std::holds_alternative<Sphere>(contact.rigid))
       refuse(path, "contacts." + name + ".rigid", "an indenter of another shape",
@@ -113,7 +118,7 @@ DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::str
   std::vector<Vec3> places;
   for (int n : law.nodes) {
     places.push_back(mesh.X[n]);
-    for (const Waypoint& w : law.motion) places.push_back(mesh.X[n] - w.u_ind);
+    for (const Waypoint& w : law.motion) places.push_back(mesh.X[n] - w.to);
   }
   contact.cap = rigid_cap(std::get<Sphere>(law.shape), towards, places, 0.5 * shortest_side(mesh, contact.facets));
   return contact;
@@ -217,14 +222,11 @@ class DeckComposer {
   void hold_and_move() {
     for (const SupportConfig& support : config_.supports)
       for (Axis axis : support.hold)
-        if (name_set(support.on)) deck_.held.push_back({support.on, static_cast<int>(axis), 0});
+        if (name_set(support.on)) deck_.held.push_back({support.on, static_cast<int>(axis), {}});
     for (const LoadConfig& load : config_.loads)
       for (int k = 0; k < 3; ++k)
-        if (const auto& to = k == 0   ? load.displacement.x
-                             : k == 1 ? load.displacement.y
-                                      : load.displacement.z;
-            to && name_set(load.on))
-          deck_.held.push_back({load.on, k, *to});
+        if (const auto to = load.imposed(k); to && name_set(load.on))
+          deck_.held.push_back({load.on, k, history_of(*to, config_.path.seconds)});
   }
 
   void hold_mirror_planes() {
@@ -234,7 +236,7 @@ class DeckComposer {
         if (scene().dofs.tie[n].T(k, k) == 0) plane.push_back(n);
       if (plane.empty()) continue;
       const std::string name = free_name(fmt::format("mirror_{}", "xyz"[k]));
-      deck_.mesh.node_sets[name] = plane, deck_.held.push_back({name, k, 0});
+      deck_.mesh.node_sets[name] = plane, deck_.held.push_back({name, k, {}});
     }
   }
 

@@ -30,7 +30,7 @@ struct FibreGroup {
 struct HeldSet {
   std::string set;  // of nodes
   int axis = 0;
-  double value = 0;  // at the end of the path [mm], proportional to it
+  History to;  // [mm]
 };
 
 struct DeckContact {

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/curves.hpp"
+#include "post/steps.hpp"
 #include "store/solution_layout.hpp"
 
 namespace langer {
@@ -52,6 +53,9 @@ std::vector<Complaint> ColumnChoice::complaints() const {
                      fmt::format("{} belongs to the whole body", quantity  ? line_of(*quantity).word
                                                                  : history ? "a history"
                                                                            : "a quotient")});
+  if (zero_at && (quotient || !parse_step(*zero_at)))
+    found.push_back({"zero_at", quotient ? "found beside a quotient" : *zero_at,
+                     quotient ? "a quantity or a history" : "a row of the table, t=0.5 or u_ind=0.5", ""});
   return found;
 }
 
@@ -140,6 +144,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
     m.name = column_name(c);
     m.unit = unit_of(c), m.label = label_of(c);
     m.quantity = c.quantity, m.quotient = c.quotient;
+    m.zero_at = c.zero_at, m.key = fmt::format("{}[{}]", key, i);
     if (c.quotient) {
       out.measures.push_back(std::move(m));  // the config knows that its columns are there
       continue;

@@ -22,7 +22,7 @@ namespace langer {
 // One column as the user asks for it.
 struct ColumnChoice {
   std::optional<Quantity> quantity;
-  std::optional<std::string> history, at, name;
+  std::optional<std::string> history, at, name, zero_at;
   std::optional<std::array<std::string, 2>> quotient;
   std::optional<double> length;
   int family = 1;
@@ -35,6 +35,9 @@ struct ColumnChoice {
     v(&ColumnChoice::name, "name", unit::none, "name of the column without its unit; by default the quantity, and _ and the place");
     v(&ColumnChoice::length, "length", unit::mm, "of a strain: the length that belongs to 1; by default the mesh's extent",
       positive);
+    v(&ColumnChoice::zero_at, "zero_at", unit::none,
+      "state that the column is measured from, such as the end of a stage: its value there is taken from all of them. A row of the "
+      "table, t=0.5 or u_ind=0.5, and the path must stop there");
     v(&ColumnChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
   }
   std::vector<Complaint> complaints() const;
@@ -59,7 +62,9 @@ struct Measure {
   std::string history;
   std::optional<std::array<std::string, 2>> quotient;
   std::vector<int> nodes;
-  int family = 0;  // from 0
+  std::optional<std::string> zero_at;
+  std::string key;  // of the column
+  int family = 0;   // from 0
   double length = 1;
 };
 

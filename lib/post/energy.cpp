@@ -3,9 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/touch.hpp"
+
 namespace langer {
 
-EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts) : mesh_(mesh), contacts_(std::move(contacts)) {}
+namespace {
+
+// Of an increment in which a pushed indenter comes to the body, the movement behind the touch: before it there is no force.
+Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& from, std::size_t k, const Vec3& c,
+                  const Vec3& dc) {
+  const std::vector<Vec3>& r = from.r[k];
+  if (!contact.control || std::any_of(r.begin(), r.end(), [](const Vec3& r_i) { return !r_i.isZero(0); })) return dc;
+  const RigidContact pushed{contact.name, contact.shape, 0, contact.nodes, {}, ForceControl{contact.control->along, {}}};
+  const auto position = [&](int node) { return Vec3(mesh.X[node] + from.u[node] - c); };
+  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0)), way = dc.dot(contact.control->along);
+  return free < way ? Vec3(dc - free * contact.control->along) : dc;
+}
+
+}  // namespace
+
+EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks)
+    : mesh_(mesh), contacts_(std::move(contacts)), kinks_(std::move(kinks)) {}
 
 void EnergyPath::add(State now) {
   stored_.push_back(now.stored);
@@ -24,11 +42,12 @@ void EnergyPath::add(State now) {
       for (const Vec3& r : now.r[0]) force += r;
       step.way = dc.norm(), step.travel = c.norm(), step.force = force.norm();
     }
+    const Vec3 worked = behind_touch(contact, mesh_, last_, k, c0, dc);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
       const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
       from_contact_0[node] += r0, from_contact_1[node] += r1;
-      step.begin += r0.dot(dc), step.end += r1.dot(dc);
+      step.begin += r0.dot(worked), step.end += r1.dot(worked);
       // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
       const Vec3 v = now.u[node] - last_.u[node] - dc;
       for (const auto& [r, x] :
@@ -41,12 +60,16 @@ void EnergyPath::add(State now) {
   }
   for (std::size_t i = 0; i < now.u.size(); ++i) {  // imposed displacements; supports do not move
     const Vec3 du = now.u[i] - last_.u[i];
+    if (now.loads.size() > 0)
+      step.begin += last_.loads.segment<3>(3 * static_cast<Eigen::Index>(i)).dot(du),
+          step.end += now.loads.segment<3>(3 * static_cast<Eigen::Index>(i)).dot(du);
     step.begin += (last_.reaction[i] - from_contact_0[i]).dot(du);
     step.end += (now.reaction[i] - from_contact_1[i]).dot(du);
   }
   step.begin /= step.dt, step.end /= step.dt;
   for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
     step.goes_on = (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
+  for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
   intervals_.push_back(step);
   rates_ = std::move(rates);
   last_ = std::move(now);

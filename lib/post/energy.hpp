@@ -1,6 +1,7 @@
 // Energy along the path of a solution: the work of what moves the body, and what friction takes of it.
-//   work        of the indenters and of imposed displacements, the integral of force over movement [N mm]: a parabola through
-//               each three neighbouring states of a straight piece of the path (trapezoids would err by the step squared)
+//   work        of the indenters, of imposed displacements and of forces on the surface, the integral of force over movement
+//               [N mm]: a parabola through each three neighbouring states of a straight piece of the path (trapezoids would err by
+//               the step squared)
 //   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
@@ -22,13 +23,15 @@ struct PathSums {
 
 class EnergyPath {
  public:
-  EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts);
+  // kinks: places on the path at which an imposed displacement or a load changes its rate
+  EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks = {});
 
   struct State {
     double t = 0;
     std::vector<Vec3> u, reaction;     // (n) [mm], [N]
     std::vector<std::vector<Vec3>> r;  // per contact and candidate: reaction on the body [N]
     double stored = 0;                 // [N mm]
+    VecX loads = {};                   // (3 n) forces on the surface [N]; empty where there are none
   };
   void add(State state);               // in the order of the path, from the unloaded one
   std::vector<PathSums> sums() const;  // one for each state added
@@ -42,6 +45,7 @@ class EnergyPath {
   };
   const Mesh& mesh_;
   std::vector<RigidContact> contacts_;
+  std::vector<double> kinks_;
   State last_;
   std::vector<Interval> intervals_;
   std::vector<double> stored_;

@@ -117,10 +117,12 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
 }
 
 // Each as triangles where it starts, and how far it has moved in each state; those that the solution does not hold by name.
-Json indenters_view(const SolutionHeader& header, const std::vector<double>& t) {
+Json indenters_view(const SolutionReader& solution, const std::vector<double>& t) {
+  const SolutionHeader& header = solution.header();
   constexpr int parts = 24;
   std::vector<Json> shown, missing;
-  const std::vector<RigidContact> indenters = indenters_of(header);
+  std::vector<RigidContact> indenters = indenters_of(header);
+  if (!t.empty()) follow_records(indenters, solution);
   Shown region = shown_of(header.mesh);
   region.parts = parts;
   for (const RigidContact& indenter : indenters) {
@@ -238,7 +240,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   std::vector<ShownField> fields = fields_of(config.shown, body);
 
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
-  const double left = budget - static_cast<double>(indenters_view(header, {}).text.size());
+  const double left = budget - static_cast<double>(indenters_view(solution, {}).text.size());
   const auto [cells, states] =
       extent_of(mesh, whole, outside, surface.size(), fields.size(), std::min(config.states, solution.n_steps() + 1), left);
   const Chosen& chosen = cells ? whole : outside;
@@ -276,7 +278,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"u", moves_view(at.u, step)},
                  {"fields", fields_view(fields)},
                  {"glyphs", glyphs},
-                 {"indenters", indenters_view(header, at.t)}});
+                 {"indenters", indenters_view(solution, at.t)}});
 }
 
 }  // namespace langer::report

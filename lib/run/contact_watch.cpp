@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/step_record.hpp"
+
 namespace langer {
 
 namespace {
@@ -100,7 +102,7 @@ void ContactWatch::look(StepRecord& record) {
   for (std::size_t k = 0; k < scene_.contacts.size(); ++k) {
     const RigidContact& contact = scene_.contacts[k];
     const std::vector<Vec3>& r = record.contacts.at(contact.name).r;
-    const Vec3 c = indenter_displacement(contact, record.t);
+    const Vec3 c = indenter_at(contact, record);
     const SurfaceLook look = check_.look(contact, record.u, c, r);
     refuse_mid_path(contact, look, record.t);
     Found& before = found_[k];

@@ -36,8 +36,8 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
 
 // What whole faces are told, as values of the box's corners; nothing where a node is told something that is not its face's.
 std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs, const Hull& hull) {
-  std::map<int, double> imposed, explained;
-  for (const Prescribed& p : dofs.prescribed) imposed[p.dof] = p.value;
+  std::map<int, History> imposed, explained;
+  for (const Prescribed& p : dofs.prescribed) imposed[p.dof] = {p.value, p.factor};
   std::vector<Prescribed> corners;
   for (int axis = 0; axis < 3; ++axis)
     for (int side : {-1, 1}) {
@@ -53,7 +53,7 @@ std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dof
         if (value == imposed.end() || !std::all_of(nodes.begin(), nodes.end(), alike)) continue;
         for (int n : nodes) explained[3 * n + k] = value->second;
         for (int a = 0; a < 8; ++a)
-          if (Hex8::corner[a][axis] == side) corners.push_back({3 * a + k, value->second});
+          if (Hex8::corner[a][axis] == side) corners.push_back({3 * a + k, value->second.value, value->second.factor});
       }
     }
   if (imposed != explained) return std::nullopt;
@@ -81,7 +81,8 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
 }
 
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
-  if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene)) return false;
+  if (mesh.section || !scene.contacts.empty() || !scene.loads.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene))
+    return false;
   Hull hull{mesh.X[0], mesh.X[0]};
   for (const Vec3& X : mesh.X) hull.low = hull.low.cwiseMin(X), hull.high = hull.high.cwiseMax(X);
   const double volume = (hull.high - hull.low).prod();

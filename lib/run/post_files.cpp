@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include "config/reader.hpp"
+#include "mesh/section.hpp"
+#include "run/step_record.hpp"
+#include "scene/loads.hpp"
 #include "scene/solve_config.hpp"
 #include "tensor/stress.hpp"
 
@@ -158,8 +161,9 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
         if (surface == header.indenter_surfaces.end()) continue;
         facets->tree = std::make_shared<TriangleTree>(surface->second);
       }
+      if (contact.control) indenter.control = ForceControl{vec(contact.control->along).normalized(), {}};
       for (const WaypointConfig& w : contact.motion)
-        indenter.motion.push_back({place(w, solve.path), Vec3(w.to[0], w.to[1], w.to[2])});
+        indenter.motion.push_back({place(w, solve.path.seconds), Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
     }
   } catch (const Failure&) {
@@ -168,42 +172,29 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   return indenters;
 }
 
-std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u) {
-  constexpr std::size_t most = 9;
-  const Mesh& mesh = header.mesh;
-  std::vector<Action> actions;
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& X : mesh.X) middle += X / static_cast<double>(mesh.X.size());
-  const auto add = [&](const std::string& set, int axis, double to) {
-    const auto found = mesh.node_sets.find(set);
-    if (found == mesh.node_sets.end() || found->second.empty()) return;
-    const std::vector<int>& nodes = found->second;
-    Action action;
-    Vec3 centre = Vec3::Zero();
-    for (int node : nodes) centre += mesh.X[node] / static_cast<double>(nodes.size());
-    const std::size_t n = std::min(most, nodes.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      const int node = nodes[n > 1 ? i * (nodes.size() - 1) / (n - 1) : 0];
-      action.at.push_back(mesh.X[node] + u[node]);
+void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution) {
+  for (RigidContact& indenter : indenters) {
+    if (!indenter.control) continue;
+    std::vector<Waypoint> found;
+    for (int i = 0; i < solution.n_steps(); ++i) {
+      const StepRecord step = solution.step(i);
+      found.push_back({step.t, indenter_at(indenter, step)});
     }
-    action.moves = to != 0;
-    const double way = action.moves ? to : middle[axis] - centre[axis];
-    action.along = (way < 0 ? -1 : 1) * Vec3::Unit(axis);
-    action.says = fmt::format("u_{} = {:g}{}", "xyz"[axis], to, action.moves ? " mm" : "");
-    actions.push_back(std::move(action));
-  };
+    indenter.motion = std::move(found);
+  }
+}
+
+std::vector<double> kinks_of(const SolutionHeader& header) {
+  std::vector<double> kinks;
   try {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
-    for (const SupportConfig& support : solve.supports)
-      for (Axis axis : support.hold) add(support.on, static_cast<int>(axis), 0);
     for (const LoadConfig& load : solve.loads)
-      for (int axis = 0; axis < 3; ++axis)
-        if (const auto& to = axis == 0 ? load.displacement.x : axis == 1 ? load.displacement.y : load.displacement.z)
-          add(load.on, axis, *to);
+      for (const HistoryConfig& history : load.histories())
+        for (const HistoryPointConfig& point : history.points) kinks.push_back(place(point, solve.path.seconds));
   } catch (const Failure&) {
     return {};  // written by another version of solve
   }
-  return actions;
+  return kinks;
 }
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
@@ -229,11 +220,31 @@ Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
   return moved;
 }
 
-EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters) {
+Loads loads_of(const SolutionHeader& header) {
+  try {
+    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    std::vector<Error> errors;
+    const Section* section = header.mesh.section ? &*header.mesh.section : nullptr;
+    std::vector<SurfaceLoad> loads = surface_loads(
+        solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
+    if (loads.empty() || !errors.empty()) return {};
+    const std::size_t n = section ? static_cast<std::size_t>(header.mesh.n_cells()) : 0;
+    return {header.mesh, std::move(loads), std::vector<double>(n, section ? cell_share(*section) : 1)};
+  } catch (const Failure&) {
+    return {};  // written by another version of solve
+  }
+}
+
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters, const Loads& loads) {
   EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
     state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
+  }
+  if (!loads.empty()) {
+    VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
+    for (std::size_t i = 0; i < record.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+    state.loads = loads.forces(record.t, u);
   }
   for (const char* part : {"energy", "viscous_work"})
     if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;

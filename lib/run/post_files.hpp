@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/loads.hpp"
 #include "post/curves.hpp"
 #include "post/energy.hpp"
 #include "post/render.hpp"
@@ -42,13 +43,18 @@ std::vector<double> picture_values(const Body& body, const StepState& state, Qua
 // The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read. Those of
 // triangles are missing where a version wrote it that did not keep them.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
+// Indenters under force control then move as they were found to.
+void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution);
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters);  // names
-// Supports and imposed displacements as that config tells, on some nodes of each set; u (n) [mm] moves them.
+std::vector<double> kinks_of(const SolutionHeader& header);  // places on the path where one of its loads has a kink
+// Supports, imposed displacements and forces on the surface as that config tells, on some nodes of each set; u (n) [mm] moves them.
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
 // What is shown of a body at rest; of the indenter there at t.
 Shown shown_of(const Mesh& mesh);
 Outline outline_at(const RigidContact& indenter, double t, const Shown& shown);
+// Forces on its surface as that config tells; empty where there are none.
+Loads loads_of(const SolutionHeader& header);
 // The record as a state of an energy path; reactions in the order of the indenters.
-EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters);
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters, const Loads& loads);
 
 }  // namespace langer

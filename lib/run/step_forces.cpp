@@ -9,8 +9,8 @@ namespace {
 std::set<std::string> moved_sets(const SolveConfig& config) {
   std::set<std::string> moved;
   for (const LoadConfig& load : config.loads)
-    if (const Displacement& u = load.displacement; u.x.value_or(0) != 0 || u.y.value_or(0) != 0 || u.z.value_or(0) != 0)
-      moved.insert(load.on);
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto to = load.imposed(axis); to && to->moves()) moved.insert(load.on);
   return moved;
 }
 

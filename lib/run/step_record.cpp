@@ -71,6 +71,10 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
 
 }  // namespace
 
+Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
+  return indenter_displacement(indenter, step.t, indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
+}
+
 StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report) {
   const BodyState& state = statics.accepted();
   StepRecord record;
@@ -100,7 +104,8 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
     if (contacts.size() > 1)
       for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
-  record.u_ind = indenter_displacement(contacts[0], state.t);
+  if (const RigidContact* controlled = statics.controlled()) record.scalars["travel_" + controlled->name] = state.travel;
+  record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
   return record;
 }
@@ -110,7 +115,10 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
   state.t = record.t;
   state.u.resize(3 * static_cast<Eigen::Index>(record.u.size()));
   for (std::size_t i = 0; i < record.u.size(); ++i) state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
-  for (const RigidContact& contact : scene.contacts) state.r.push_back(record.contacts.at(contact.name).r);
+  for (const RigidContact& contact : scene.contacts) {
+    state.r.push_back(record.contacts.at(contact.name).r);
+    if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);
+  }
   return state;
 }
 

@@ -12,6 +12,8 @@ Material material_from(const std::string& path);     // material.h5, or YAML wit
 Material material_of_body(const std::string& path);  // the same; throws Failure(input) where it has no stiffness at rest
 
 SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity);
+// of the indenter at a recorded step [mm]
+Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step);
 StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report);
 BodyState state_of(const StepRecord& record, const Scene& scene);
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <variant>
+
+#include "mesh/facets.hpp"
 
 namespace langer {
 
@@ -61,25 +64,54 @@ std::string broken_fibres(const Symmetry& g, const Isometry& op, const Mesh& mes
 }
 
 std::string broken_supports(const Symmetry& g, const Scene& scene) {
-  std::map<int, double> imposed;
-  for (const Prescribed& p : scene.dofs.prescribed) imposed[p.dof] = p.value;
-  for (const auto& [dof, value] : imposed) {
+  std::map<int, Prescribed> imposed;
+  for (const Prescribed& p : scene.dofs.prescribed) imposed[p.dof] = p;
+  for (const auto& [dof, p] : imposed) {
     const auto other = imposed.find(3 * g.node[dof / 3] + dof % 3);
-    if (other == imposed.end() || std::abs(other->second - g.signs[dof % 3] * value) > same * std::abs(value))
+    if (other == imposed.end() || std::abs(other->second.value - g.signs[dof % 3] * p.value) > same * std::abs(p.value) ||
+        !same_factor(other->second.factor, p.factor))
       return fmt::format("what holds or moves node {} along {}", dof / 3, "xyz"[dof % 3]);
+  }
+  return "";
+}
+
+// whether a load goes over into one with the same factor: the facets by their corners
+std::string broken_loads(const Symmetry& g, const Mesh& mesh, const Scene& scene) {
+  const auto keys = [&](const SurfaceLoad& load, bool image) {
+    std::set<std::array<int, 4>> all;
+    for (const Facet& facet : load.facets) {
+      std::array<int, 4> key = facet_key(mesh, facet);
+      if (image)
+        for (int& node : key) node = node < 0 ? node : g.node[node];
+      std::sort(key.begin(), key.end());
+      all.insert(key);
+    }
+    return all;
+  };
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const SurfaceLoad& load = scene.loads[i];
+    const auto facets = keys(load, true);
+    const bool found = std::any_of(scene.loads.begin(), scene.loads.end(), [&](const SurfaceLoad& other) {
+      return (other.traction - g.signs.cwiseProduct(load.traction)).norm() <= same * load.traction.norm() &&
+             other.pressure == load.pressure && same_factor(other.factor, load.factor) && keys(other, false) == facets;
+    });
+    if (!found) return fmt::format("a force, a traction or a pressure on {} facets", load.facets.size());
   }
   return "";
 }
 
 bool same_motion(const std::vector<Waypoint>& a, const std::vector<Waypoint>& b, const Isometry& op) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.u_ind, q.u_ind, op); });
+                    [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.to, q.to, op); });
 }
 
 // what keeps b from being the image of a; empty where nothing
 std::string difference(const RigidContact& a, const RigidContact& b, const Symmetry& g, const Isometry& op) {
   if (!becomes(a.shape, b.shape, op)) return fmt::format("the shape or place of the indenter \"{}\"", a.name);
   if (a.mu != b.mu) return fmt::format("the friction of the indenter \"{}\"", a.name);
+  const bool both_free = !a.control && !b.control;
+  const bool alike = both_free || (&a == &b && (op.turn * a.control->along - a.control->along).norm() <= same);
+  if (!alike) return fmt::format("the force on the indenter \"{}\"", a.name);
   if (!same_motion(a.motion, b.motion, op)) return fmt::format("the path of the indenter \"{}\"", a.name);
   std::vector<char> candidate(g.node.size(), 0);
   for (int node : b.nodes) candidate[node] = 1;
@@ -110,6 +142,7 @@ SceneImage image_of(const Symmetry& g, const Mesh& mesh, const Scene& scene) {
   SceneImage image;
   image.broken = broken_fibres(g, op, mesh, scene);
   if (image.broken.empty()) image.broken = broken_supports(g, scene);
+  if (image.broken.empty()) image.broken = broken_loads(g, mesh, scene);
   if (image.broken.empty()) image.broken = match_contacts(g, op, scene, image.contact);
   return image;
 }

@@ -1,7 +1,7 @@
 // Whether a scene is its own image under a symmetry of its mesh.
 //   fibres      the set of (law, a a^T) of each cell goes over into that of its image: families may change places, as those at +theta
 //               and -theta do in a mirror; a family without direction (kappa: 1/3) has nothing to turn
-//   supports, imposed displacements    the image's, turned
+//   supports, imposed displacements, forces on the surface    the image's, turned
 //   indenters   each goes over into itself or into another of the same shape and friction, that moves as its image does
 #pragma once
 

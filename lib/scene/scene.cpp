@@ -7,8 +7,10 @@
 #include <tuple>
 
 #include "contact/surface_check.hpp"
+#include "contact/touch.hpp"
 #include "geometry/read_surface.hpp"
 #include "mesh/reference.hpp"
+#include "scene/loads.hpp"
 #include "scene/section.hpp"
 
 namespace langer {
@@ -21,7 +23,7 @@ using Find = std::function<Place(const std::string&)>;
 class Nodes {
  public:
   Nodes(const Mesh& mesh, const Find& where)
-      : mesh_(mesh), where_(where), named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())), value_(named_by_.size(), 0) {}
+      : mesh_(mesh), where_(where), named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())), to_(named_by_.size()) {}
 
   const std::vector<int>& of_set(const std::string& set, const std::string& key) {
     static const std::vector<int> none;
@@ -37,17 +39,18 @@ class Nodes {
   }
 
   // to [mm]; false, and an error, where the same direction of the node was told something else
-  bool prescribe(int node, int axis, double to, const std::string& key) {
+  bool prescribe(int node, int axis, const History& to, const std::string& key) {
     const std::size_t dof = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
-    if (!named_by_[dof].empty() && value_[dof] != to) {
-      errors.push_back(
-          {where_(key), key,
-           fmt::format("asks for {} = {} mm at a node that {} sets to {} mm", "xyz"[axis], to, named_by_[dof], value_[dof]),
-           "one value for each direction of a node", ""});
+    if (!named_by_[dof].empty() && !(to_[dof] == to)) {
+      const bool other_way = to_[dof].value == to.value;
+      errors.push_back({where_(key), key,
+                        fmt::format("asks for {} = {} mm at a node that {} sets to {} mm{}", "xyz"[axis], to.value, named_by_[dof],
+                                    to_[dof].value, other_way ? " by another history" : ""),
+                        "one value for each direction of a node", ""});
       return false;
     }
-    named_by_[dof] = key, value_[dof] = to;
-    prescribed.push_back({static_cast<int>(dof), to});
+    named_by_[dof] = key, to_[dof] = to;
+    prescribed.push_back({static_cast<int>(dof), to.value, to.factor});
     return true;
   }
 
@@ -58,7 +61,7 @@ class Nodes {
   const Mesh& mesh_;
   const Find& where_;
   std::vector<std::string> named_by_;  // by dof: the key; empty where none
-  std::vector<double> value_;          // by dof [mm]
+  std::vector<History> to_;            // by dof [mm]
 };
 
 void set_angles(Material& material, const std::vector<double>& angles, const std::string& key, const Find& where,
@@ -150,32 +153,36 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
   return nodes;
 }
 
-void hold_and_move(Nodes& nodes, const SolveConfig& config) {
+void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>& stops) {
   for (std::size_t i = 0; i < config.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
     for (int node : nodes.of_set(config.supports[i].on, key + ".on"))
-      for (Axis axis : config.supports[i].hold) nodes.prescribe(node, static_cast<int>(axis), 0, key);
+      for (Axis axis : config.supports[i].hold) nodes.prescribe(node, static_cast<int>(axis), {}, key);
   }
   for (std::size_t i = 0; i < config.loads.size(); ++i) {
     const std::string key = fmt::format("loads[{}]", i);
-    const Displacement& d = config.loads[i].displacement;
+    const LoadConfig& load = config.loads[i];
+    std::array<std::optional<History>, 3> to;
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto along = load.imposed(axis)) to[axis] = history_of(*along, config.path.seconds);
+    for (const HistoryConfig& history : load.histories())
+      for (const HistoryPointConfig& point : history.points) stops.push_back(place(point, config.path.seconds));
     bool agrees = true;
-    for (int node : nodes.of_set(config.loads[i].on, key + ".on"))
+    for (int node : nodes.of_set(load.on, key + ".on"))
       for (int axis = 0; axis < 3 && agrees; ++axis)
-        if (const auto& to = axis == 0 ? d.x : axis == 1 ? d.y : d.z)
-          agrees = nodes.prescribe(node, axis, *to, key + ".displacement");
+        if (to[axis]) agrees = nodes.prescribe(node, axis, *to[axis], key + ".displacement");
   }
 }
 
 // shape and path as the config gives them; no candidates yet
-RigidContact indenter_of(const std::string& name, const ContactConfig& contact, const LoadPathOptions& path) {
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact, std::optional<double> seconds) {
   RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
   if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
     Triangles triangles = read_surface(facets->file.path);
     for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
     facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
   }
-  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, path), Vec3(w.to[0], w.to[1], w.to[2])});
+  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
   return rigid;
 }
 
@@ -191,16 +198,36 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
     }
 }
 
+// How far a force pushes is not known before: candidates are named, and what is across its direction moves as told.
+void take_control(Scene& scene, RigidContact& rigid, const ContactConfig& contact, std::optional<double> seconds,
+                  const std::string& key, const Find& where, std::vector<Error>& errors) {
+  rigid.control = ForceControl{vec(contact.control->along).normalized(), history_of(contact.control->force, seconds)};
+  for (const HistoryPointConfig& point : contact.control->force.points) scene.stops.push_back(place(point, seconds));
+  if (contact.on.empty())
+    errors.push_back({where(key), key + ".on", "missing, beside control", "a node set that may touch the indenter",
+                      "how far a force pushes the indenter is not known before"});
+  for (const RigidContact& other : scene.contacts)
+    if (other.control)
+      errors.push_back({where(key + ".control"), key + ".control", fmt::format("found beside that of \"{}\"", other.name),
+                        "one indenter under force control", "others may move as told by `motion`"});
+}
+
 void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh, const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
-    RigidContact rigid = indenter_of(name, contact, config.path);
+    RigidContact rigid = indenter_of(name, contact, config.path.seconds);
     for (const Waypoint& w : rigid.motion) scene.stops.push_back(w.t);
+    if (contact.control) take_control(scene, rigid, contact, config.path.seconds, key, where, nodes.errors);
+    if (contact.on.empty() && contact.control) continue;
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
     if (rigid.nodes.empty() && contact.on.empty())
       nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
+    const auto at_rest = [&](int node) { return mesh.X[static_cast<std::size_t>(node)]; };
+    if (rigid.control && !rigid.nodes.empty() && !travel_to_touch(rigid, 0, 0, at_rest))
+      nodes.errors.push_back({where(key + ".control"), key + ".control.along", "the indenter passes all of its nodes by",
+                              "a direction in which it meets the body", "look at its place, at `on` and at `along`"});
     scene.contacts.push_back(std::move(rigid));
   }
 }
@@ -220,7 +247,8 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
   if (scene.formulation == Formulation::linear_dilatation && !mesh.cell().second_order())
     nodes.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
                             "mean_dilatation", "cells: hex27 in the mesh's config"});
-  hold_and_move(nodes, config);
+  hold_and_move(nodes, config, scene.stops);
+  scene.loads = surface_loads(config, mesh, where, nodes.errors);
   add_contacts(scene, nodes, config, mesh, where);
   add_materials(scene, config, mesh, material, where, nodes.errors);
   if (mesh.section)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly/dofs.hpp"
+#include "assembly/loads.hpp"
 #include "base/error.hpp"
 #include "contact/contact.hpp"
 #include "mesh/directions.hpp"
@@ -21,8 +22,9 @@ struct Scene {
   std::vector<Material> materials;  // one for each body of the mesh; families with c1 = 0 keep their place
   Directions directions{};          // of the fibres, in every cell
   Dofs dofs;
+  std::vector<SurfaceLoad> loads;      // empty: no code of loads runs
   std::vector<RigidContact> contacts;  // empty: no contact code runs
-  std::vector<double> stops;           // values of t where an indenter turns
+  std::vector<double> stops;           // values of t where an indenter turns, or a history has a kink
 
   int families() const;  // with c1 other than 0, in the body that has most of them: others cost nothing
 };

@@ -38,9 +38,10 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     refuse("symmetry", fmt::format("found {}", names(config.symmetry)[static_cast<int>(config.symmetry)]), "none or auto",
            "the section stands for the whole body already");
   for (std::size_t i = 0; i < config.loads.size(); ++i)
-    if (const auto& z = config.loads[i].displacement.z; z && *z != 0) {
+    if (const auto z = config.loads[i].imposed(2); z && z->moves()) {
       const std::string key = fmt::format("loads[{}].displacement.z", i);
-      refuse(key, fmt::format("found {:g}", *z), "none, or 0", "nothing moves out of the plane of a section");
+      refuse(key, fmt::format("found {:g}", history_of(*z, config.path.seconds).value), "none, or 0",
+             "nothing moves out of the plane of a section");
     }
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = "contacts." + name;
@@ -49,6 +50,10 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
              is_round ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
                       : "a shape that stands in z = 0, or a plane normal to that",
              "a block is needed for others");
+    if (const auto& control = contact.control; control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
+      refuse(key + ".control.along",
+             fmt::format("found [{:g}, {:g}, {:g}]", control->along[0], control->along[1], control->along[2]),
+             is_round ? "a direction along y" : "a direction in the plane of x and y", "a block is needed for others");
     for (std::size_t i = 0; i < contact.motion.size(); ++i) {
       const auto& to = contact.motion[i].to;
       if (to[2] == 0 && (!is_round || to[0] == 0)) continue;

@@ -1,6 +1,8 @@
 // What the solve stage's YAML may say. A part that is not named does not exist in the scene.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include "base/fields.hpp"
 #include "base/former.hpp"
+#include "base/history.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "material/at_rest.hpp"
@@ -37,24 +40,79 @@ struct SupportConfig {
 };
 
 struct Displacement {
-  std::optional<double> x, y, z;
+  std::optional<HistoryConfig> x, y, z;
+  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   static void fields(auto& v) {
-    v(&Displacement::x, "x", unit::mm, "displacement at the end of the path");
-    v(&Displacement::y, "y", unit::mm, "displacement at the end of the path");
-    v(&Displacement::z, "z", unit::mm, "displacement at the end of the path");
+    constexpr const char* says = "displacement at the end of the path, in proportion to t; or [{t: 0.5, to: 2}, {t: 1, to: 2}]";
+    v(&Displacement::x, "x", unit::mm, says);
+    v(&Displacement::y, "y", unit::mm, says);
+    v(&Displacement::z, "z", unit::mm, says);
+  }
+};
+
+struct DeadForce {
+  std::optional<HistoryConfig> x, y, z;
+  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  static void fields(auto& v) {
+    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
+    v(&DeadForce::x, "x", unit::N, says);
+    v(&DeadForce::y, "y", unit::N, says);
+    v(&DeadForce::z, "z", unit::N, says);
+  }
+};
+
+struct DeadTraction {
+  std::optional<HistoryConfig> x, y, z;
+  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  static void fields(auto& v) {
+    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
+    v(&DeadTraction::x, "x", unit::MPa, says);
+    v(&DeadTraction::y, "y", unit::MPa, says);
+    v(&DeadTraction::z, "z", unit::MPa, says);
   }
 };
 
 struct LoadConfig {
   std::string on;
-  Displacement displacement;
+  std::optional<Displacement> displacement;
+  std::optional<DeadForce> force;
+  std::optional<DeadTraction> traction;
+  std::optional<HistoryConfig> pressure;
   static void fields(auto& v) {
-    v(&LoadConfig::on, "on", unit::none, "node set of the mesh", required);
-    v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement, grows in proportion to the path", required);
+    v(&LoadConfig::on, "on", unit::none, "node set of the mesh; of a force, a traction or a pressure one that covers facets",
+      required);
+    v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement");
+    v(&LoadConfig::force, "force", unit::none, "dead force on the whole set, spread evenly over its area at rest");
+    v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");
+    v(&LoadConfig::pressure, "pressure", unit::MPa,
+      "pressure that follows the surface, positive into the body; at the end of the path, in proportion to t; or a history");
+  }
+  bool on_surface() const { return !displacement; }
+  // components along an axis; none where there is none
+  std::optional<HistoryConfig> imposed(int axis) const { return displacement ? displacement->along(axis) : std::nullopt; }
+  std::optional<HistoryConfig> dead(int axis) const {
+    return force ? force->along(axis) : traction ? traction->along(axis) : std::nullopt;
+  }
+  std::map<std::string, HistoryConfig> histories_by_key() const {
+    std::map<std::string, HistoryConfig> all;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const auto& [kind, one] :
+           {std::pair("displacement.", imposed(axis)), std::pair(force ? "force." : "traction.", dead(axis))})
+        if (one) all[std::string(kind) + "xyz"[axis]] = *one;
+    if (pressure) all["pressure"] = *pressure;
+    return all;
+  }
+  std::vector<HistoryConfig> histories() const {
+    std::vector<HistoryConfig> all;
+    for (const auto& [key, history] : histories_by_key()) all.push_back(history);
+    return all;
   }
   std::vector<Complaint> complaints() const {
-    if (displacement.x || displacement.y || displacement.z) return {};
-    return {{"displacement", "found no component", "x, y or z", ""}};
+    constexpr const char* kinds = "exactly one of displacement, force, traction, pressure";
+    const int n = displacement.has_value() + force.has_value() + traction.has_value() + pressure.has_value();
+    if (n != 1) return {{"", n == 0 ? "found no load" : "found several kinds of load", kinds, ""}};
+    if (!histories().empty()) return {};
+    return {{displacement ? "displacement" : force ? "force" : "traction", "found no component", "x, y or z", ""}};
   }
 };
 
@@ -63,10 +121,27 @@ struct WaypointConfig {
   std::array<double, 3> to{};
   std::optional<double> s;
   static void fields(auto& v) {
-    v(&WaypointConfig::t, "t", unit::none, "place on the path, 0 to 1", Range{0, 1, false, true});
-    v(&WaypointConfig::s, "s", unit::s, "in place of t, where path.seconds tells how long the path takes: since its beginning",
-      positive);
+    list_place<WaypointConfig>(v);
     v(&WaypointConfig::to, "to", unit::mm, "displacement of the indenter from its start", required);
+  }
+};
+
+struct ControlConfig {
+  HistoryConfig force;
+  std::array<double, 3> along{0, -1, 0};
+  static void fields(auto& v) {
+    v(&ControlConfig::force, "force", unit::N,
+      "with which the indenter is pushed against the body, at the end of the path, in proportion to t; or a history", required);
+    v(&ControlConfig::along, "along", unit::none, "direction in which it is pushed; any length");
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> found;
+    bool pulls = force.points.empty() && force.value < 0;
+    for (const HistoryPointConfig& point : force.points) pulls = pulls || point.to < 0;
+    if (pulls) found.push_back({"force", "found a pull", "a force of at least 0 N", "nothing holds an indenter that is pulled"});
+    if (!force.moves()) found.push_back({"force", "found no force", "a force above 0 N somewhere on the path", ""});
+    if (along == std::array<double, 3>{}) found.push_back({"along", "found [0, 0, 0]", "a direction", ""});
+    return found;
   }
 };
 
@@ -75,29 +150,28 @@ struct ContactConfig {
   Indenter rigid;
   double friction = 0;
   std::vector<WaypointConfig> motion;
+  std::optional<ControlConfig> control = {};
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{"Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
            "tan 34 = 0.67; at 10 everything sticks; leave the key out for frictionless contact"});
-    v(&ContactConfig::motion, "motion", unit::none, "where the indenter goes, straight from point to point", required);
+    v(&ContactConfig::motion, "motion", unit::none,
+      "where the indenter goes, straight from point to point; beside control only across its direction");
+    v(&ContactConfig::control, "control", unit::none, "the indenter is pushed with a given force, and its travel is found");
   }
   std::vector<Complaint> complaints() const {
-    std::vector<Complaint> found;
-    if (motion.empty()) found.push_back({"motion", "found an empty list", "at least {t: 1, to: [x, y, z]}", ""});
-    bool in_t = false, in_s = false;
-    for (std::size_t i = 0; i < motion.size(); ++i) {
-      const WaypointConfig& w = motion[i];
-      if (w.t.has_value() == w.s.has_value())
-        found.push_back({"motion[" + std::to_string(i) + "]", w.t ? "found t and s" : "found neither t nor s", "one of the two",
-                         "t: 0 to 1 along the path; s: seconds, with path: {seconds: ...}"});
-      in_t = in_t || w.t, in_s = in_s || w.s;
-      if (i > 0 && (w.t <= motion[i - 1].t && w.s <= motion[i - 1].s))
-        found.push_back({"motion", "times that do not increase",
-                         std::string("each ") + (in_s ? "s" : "t") + " greater than the one before", ""});
+    if (control && motion.empty()) return {};
+    std::vector<Complaint> found = place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place");
+    for (std::size_t i = 0; control && i < motion.size(); ++i) {
+      double dot = 0, size = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        dot += motion[i].to[k] * control->along[k], size += std::abs(motion[i].to[k] * control->along[k]);
+      if (std::abs(dot) > 1e-12 * size)
+        found.push_back({"motion", "moves the indenter along the direction of its force", "movements across it",
+                         "how far it goes there follows from control.force"});
     }
-    if (in_t && in_s && found.empty()) found.push_back({"motion", "t and s in one list", "one of the two", ""});
     return found;
   }
 };
@@ -195,7 +269,7 @@ struct SolveConfig {
     v(&SolveConfig::formulation, "formulation", unit::none,
       "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27 and tet15");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
-    v(&SolveConfig::loads, "loads", unit::none, "imposed displacements");
+    v(&SolveConfig::loads, "loads", unit::none, "imposed displacements, forces, tractions and pressures");
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
@@ -254,38 +328,50 @@ struct SolveConfig {
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
       found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
     complain_of_seconds(found);
+    const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : estimates ? "estimate" : nullptr) {
+      const bool pushed = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.second.control; });
+      const bool moved = std::any_of(loads.begin(), loads.end(), [](const LoadConfig& l) { return !l.on_surface(); });
+      if (pushed)
+        found.push_back({key, "found beside an indenter under force control", "one that moves as told",
+                         "errors are told of its force, which is given here"});
+      else if (contacts.empty() && !moved && (accuracy || fidelity || refines))
+        found.push_back({key, "found where forces alone load the body", "an indenter or an imposed displacement",
+                         "errors are told of the force that it needs; estimate: recovery tells that of the stress"});
+    }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
     return found;
   }
 
  private:
-  // histories in seconds go from the begin of the path to its end
+  // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
-    for (const auto& [name, contact] : contacts) {
-      const std::string key = "contacts." + name + ".motion";
-      if (contact.motion.empty() || !contact.motion.back().s) continue;
-      const double end = *contact.motion.back().s;
-      const std::string last = key + "[" + std::to_string(contact.motion.size() - 1) + "].s";
+    const auto look_at = [&](const auto& points, const std::string& key) {
+      if (points.empty() || !points.back().s) return;
+      const double end = *points.back().s;
+      const std::string last = key + "[" + std::to_string(points.size() - 1) + "].s";
       if (!path.seconds)
         found.push_back({last, "found seconds, and the path has none", "path: {seconds: ...}, or t in place of s", ""});
       else if (end > *path.seconds * (1 + 1e-9))
         found.push_back({last, "found a time behind the end of the path", "path.seconds at most", ""});
       else if (end < *path.seconds * (1 - 1e-9))
         found.push_back({last, "found a history shorter than the path", "one that ends at path.seconds",
-                         "a point more where the indenter rests to the end"});
+                         "a point more where the value stays to the end"});
+    };
+    for (const auto& [name, contact] : contacts) {
+      look_at(contact.motion, "contacts." + name + ".motion");
+      if (contact.control) look_at(contact.control->force.points, "contacts." + name + ".control.force");
     }
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      for (const auto& [key, history] : loads[i].histories_by_key())
+        look_at(history.points, "loads[" + std::to_string(i) + "]." + key);
   }
 };
 
 // whether an estimate by refinement may follow the solve
 inline bool by_refinement(const SolveConfig& config) {
   return config.estimate == EstimateBy::refinement || config.estimate == EstimateBy::automatic;
-}
-
-// where on the path
-inline double place(const WaypointConfig& w, const LoadPathOptions& path) {
-  return w.s ? *w.s / path.seconds.value() : w.t.value();
 }
 
 inline bool has_friction(const SolveConfig& config) {

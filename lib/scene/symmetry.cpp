@@ -132,6 +132,7 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene, const std::ve
   scene_.formulation = scene.formulation, scene_.materials = scene.materials, scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(quotient_.cell);
   take_supports(scene);
+  take_loads(scene);
   const std::vector<Symmetry> group = group_of(mesh, generators);
   find_turned_families(mesh, scene, group);
   for (const auto& images : contacts)
@@ -162,9 +163,22 @@ void ReducedScene::take_supports(const Scene& scene) {
   for (const Prescribed& p : scene.dofs.prescribed) {
     const Image& image = q.node_image[p.dof / 3];
     if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
-      prescribed.push_back({3 * image.of + p.dof % 3, p.value});
+      prescribed.push_back({3 * image.of + p.dof % 3, p.value, p.factor});
   }
   scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
+}
+
+// facets of kept cells: a cell's share counts theirs
+void ReducedScene::take_loads(const Scene& scene) {
+  std::map<int, int> kept;
+  for (std::size_t e = 0; e < quotient_.cell.size(); ++e) kept[quotient_.cell[e]] = static_cast<int>(e);
+  for (const SurfaceLoad& whole : scene.loads) {
+    SurfaceLoad part = whole;
+    part.facets.clear();
+    for (const Facet& facet : whole.facets)
+      if (const auto at = kept.find(facet.cell); at != kept.end()) part.facets.push_back({at->second, facet.local});
+    scene_.loads.push_back(std::move(part));
+  }
 }
 
 void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(int, int)>& stands_for) {
@@ -172,7 +186,7 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
   std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
-    RigidContact part{whole.name, whole.shape, whole.mu, {}, whole.motion};
+    RigidContact part{whole.name, whole.shape, whole.mu, {}, whole.motion, whole.control};
     std::vector<double> share;
     std::vector<std::array<int, 2>> origin;
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
@@ -259,7 +273,10 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
 
 void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) const {
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
-  if (!contacts_.empty()) record.u_ind = indenter_displacement(contacts_[0], record.t);
+  if (!contacts_.empty()) {
+    const auto travel = record.scalars.find("travel_" + contacts_[0].name);
+    record.u_ind = indenter_displacement(contacts_[0], record.t, travel == record.scalars.end() ? 0 : travel->second);
+  }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     ContactRecord& contact = record.contacts[contacts_[c].name] = {};
     Vec3 force = Vec3::Zero();
@@ -309,6 +326,8 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
       const auto& [contact, candidate] = origin_[c][i];
       r.push_back(candidate_share_[c][i] * whole.contacts.at(contacts_[contact].name).r[candidate]);
     }
+    const RigidContact& contact = scene_.contacts[c];
+    if (contact.control) state.travel = whole.scalars.at("travel_" + contact.name);
   }
   return state;
 }

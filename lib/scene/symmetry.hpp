@@ -55,6 +55,7 @@ class ReducedScene {
   void take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
                  const std::vector<std::vector<int>>& contacts);
   void take_supports(const Scene& scene);
+  void take_loads(const Scene& scene);
   void take_contacts(const Scene& scene, const std::function<Touch(int contact, int node)>& stands_for);
   void find_turned_families(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& group);
   void tell_contacts(const StepRecord& reduced, StepRecord& record) const;

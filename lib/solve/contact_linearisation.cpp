@@ -1,6 +1,7 @@
 #include "solve/contact_linearisation.hpp"
 
 #include <Eigen/Dense>
+#include <limits>
 
 #include "base/traps.hpp"
 #include "contact/supported_problem.hpp"
@@ -17,11 +18,13 @@ struct Near {
 
 // Far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away. Those with springs
 // are all needed, to take the springs out.
-std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor, const VecX& move) {
+// travel: of the indenter under force control, which may take as much of the gap as well
+std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor, const VecX& move, double travel) {
   std::vector<Near> near;
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const RigidContact& contact = state.contacts[k];
-    const Vec3 c = indenter_displacement(contact, state.t), c0 = indenter_displacement(contact, state.t_start);
+    const Vec3 c = state.c[k], c0 = state.c_start[k];
+    const double further = static_cast<int>(k) == state.controlled ? travel : 0;
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
       const Vec3 x = state.X[node] + state.u.segment<3>(3 * node), x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
@@ -30,7 +33,7 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
         const int row = factor.last_of(3 * node + j);
         d[j] = row >= 0 ? move[row] : 0;
       }
-      const double reach = (c - c0).norm() + 2 * d.norm() + 0.05;
+      const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
       if (!factor.with_springs() && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, state.r[k][i]), {}, {}};
       n.r = n.law.frame.transpose() * state.r[k][i];
@@ -47,6 +50,8 @@ struct Condensed {
   VecX move, present, q, mu;     // q: positions without movement
   std::vector<Mat3> T, E;        // the law feels q + T d; force that follows the movement: turning frame, and springs
   bool follows = false;          // some E is not 0
+  VecX along;                    // under force control: of its candidates its direction, of others 0; else empty
+  std::vector<Mat3> springs;     // their part of E, where there are any
   MatX slipping(MatX M) const {  // T times the rows of each contact
     for (std::size_t p = 0; p < T.size(); ++p) {
       const auto row = 3 * static_cast<Eigen::Index>(p);
@@ -58,7 +63,7 @@ struct Condensed {
 
 Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near) {
   const auto m = static_cast<Eigen::Index>(near.size()), n_last = static_cast<Eigen::Index>(factor.last().size());
-  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}};
+  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}, false, {}, {}};
   const auto node_of = [&](const Near& n) { return state.contacts[n.contact].nodes[n.candidate]; };
   std::vector<int> sharing(factor.last().size(), 0);  // candidates of several contacts share a node's springs
   for (Eigen::Index p = 0; p < m; ++p)
@@ -74,12 +79,19 @@ Condensed condensed(const ContactState& state, const TangentFactor& factor, cons
       Mat3 springs = Mat3::Zero();
       for (int j = 0; j < 3; ++j)
         if (const int row = factor.last_of(3 * node_of(n) + j); row >= 0) springs(j, j) = factor.gamma() / sharing[row];
-      E += n.law.frame.transpose() * springs * n.law.frame;
+      const Mat3 turned = n.law.frame.transpose() * springs * n.law.frame;
+      E += turned;
+      if (state.controlled >= 0) out.springs.push_back(turned);
     }
     out.T.push_back(n.law.T), out.E.push_back(E);
     out.follows = out.follows || !E.isZero(0);
   }
   out.W = factor.linear().compliance(out.B);
+  if (state.controlled < 0) return out;
+  out.along = VecX::Zero(3 * m);
+  for (Eigen::Index p = 0; p < m; ++p)
+    if (static_cast<int>(near[p].contact) == state.controlled)
+      out.along.segment<3>(3 * p) = near[p].law.frame.transpose() * state.contacts[near[p].contact].control->along;
   return out;
 }
 
@@ -94,53 +106,164 @@ void take(const LocalReport& local, Answer& answer) {
   answer.solved = local.converged && answer.r.allFinite();
 }
 
-Answer solve_fixed(const Condensed& c) {
-  Answer answer{{}, c.present};
-  take(solve_local({c.slipping(c.W), c.q + c.slipping(c.move - c.W * c.present), c.mu}, answer.r), answer);
-  answer.s = answer.r - c.present;
-  return answer;
+// The law on the near candidates, for any travel of the indenter under force control.
+class Law {
+ public:
+  explicit Law(const Condensed& c) : c_(c) {
+    if (!c.follows) {
+      W_r_ = c.W, direct_ = true;
+    } else {
+      A_ = MatX::Identity(c.move.size(), c.move.size());  // r = b + A s
+      for (std::size_t p = 0; p < c.E.size(); ++p)
+        if (const auto row = 3 * static_cast<Eigen::Index>(p); !c.E[p].isZero(0))
+          A_.middleRows<3>(row) -= c.E[p] * c.W.middleRows<3>(row);
+      lu_.compute(A_);
+      direct_ = rcond(lu_) > 1e-9;  // s = A^-1 (r - b)
+      if (direct_) {
+        const MatX W_t = c.W.transpose(), W_r_t = lu_.transpose().solve(W_t);
+        W_r_ = W_r_t.transpose();
+      }
+    }
+    if (direct_) slipping_ = c.slipping(W_r_);
+  }
+
+  // r: to start from
+  Answer at(double travel, const VecX& r) const {
+    const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along) : c_.move;  // of the nodes past the indenter
+    const VecX b = without_change(travel, move);
+    Answer answer{VecX(c_.move.size()), r};
+    if (direct_) {
+      take(solve_local({slipping_, c_.q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
+      if (!c_.follows) answer.s = answer.r - c_.present;
+      if (answer.solved && c_.follows) answer.s = lu_.solve(answer.r - b);
+      if (answer.solved || !c_.follows) return answer;
+    }
+    answer.s = VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
+    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, c_.q + c_.slipping(move), b, c_.mu}, answer.s);
+    answer.r = b + A_ * answer.s;
+    for (std::size_t p = 0; p < c_.E.size(); ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
+      if (local.status[p] == ContactStatus::open) answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
+    take(local, answer);
+    return answer;
+  }
+
+  // What the indenter under force control then bears along its direction [N].
+  double force(const Answer& answer) const {
+    double sum = c_.along.dot(c_.present + answer.s);
+    if (c_.springs.empty()) return sum;
+    const VecX moved = c_.move + c_.W * answer.s;
+    for (std::size_t p = 0; p < c_.springs.size(); ++p) {
+      const auto row = 3 * static_cast<Eigen::Index>(p);
+      sum -= c_.along.segment<3>(row).dot(c_.springs[p] * moved.segment<3>(row));
+    }
+    return sum;
+  }
+
+  // Where it just touches, if its candidates bear nothing: the largest travel without a force.
+  double touch(const Answer& free) const {
+    const VecX moved = c_.q + c_.slipping(c_.move + c_.W * free.s);
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index p = 0; p < c_.mu.size(); ++p)
+      if (c_.along[3 * p] > 1e-9) least = std::min(least, moved[3 * p] / c_.along[3 * p]);
+    return least;
+  }
+
+ private:
+  // reactions without a force change on the body
+  VecX without_change(double travel, const VecX& move) const {
+    VecX b = c_.present;
+    for (std::size_t p = 0; p < c_.E.size() && c_.follows; ++p)
+      if (const auto row = 3 * static_cast<Eigen::Index>(p); !c_.E[p].isZero(0))
+        b.segment<3>(row) -= c_.E[p] * move.segment<3>(row);
+    for (std::size_t p = 0; p < c_.springs.size(); ++p) {  // springs stand still when the indenter moves
+      const auto row = 3 * static_cast<Eigen::Index>(p);
+      b.segment<3>(row) -= travel * (c_.springs[p] * c_.along.segment<3>(row));
+    }
+    return b;
+  }
+
+  const Condensed& c_;
+  MatX A_, W_r_, slipping_;
+  Eigen::PartialPivLU<MatX> lu_;
+  bool direct_ = false;
+};
+
+struct Pushed {
+  Answer answer;
+  double travel = 0;
+};
+
+// the candidates of the indenter bear nothing
+Answer without_indenter(const Law& law, const Condensed& c) {
+  VecX none = c.present;
+  for (Eigen::Index i = 0; i < none.size(); i += 3)
+    if (!c.along.segment<3>(i).isZero(0)) none.segment<3>(i).setZero();
+  return law.at(-1e3 * (1 + c.q.lpNorm<Eigen::Infinity>() + c.move.lpNorm<Eigen::Infinity>()), none);
 }
 
-Answer solve_following(const Condensed& c) {
-  const auto n = c.move.size();
-  MatX A = MatX::Identity(n, n);  // r = b + A s
-  VecX b = c.present;
-  for (std::size_t p = 0; p < c.E.size(); ++p)
-    if (const auto row = 3 * static_cast<Eigen::Index>(p); !c.E[p].isZero(0)) {
-      A.middleRows<3>(row) -= c.E[p] * c.W.middleRows<3>(row);
-      b.segment<3>(row) -= c.E[p] * c.move.segment<3>(row);
-    }
-  Answer answer{VecX(n), c.present};
-  const Eigen::PartialPivLU<MatX> lu(A);
-  if (rcond(lu) > 1e-9) {  // s = A^-1 (r - b)
-    const MatX W_t = c.W.transpose(), W_r_t = lu.transpose().solve(W_t), W_r = W_r_t.transpose();
-    take(solve_local({c.slipping(W_r), c.q + c.slipping(c.move - W_r * b), c.mu}, answer.r), answer);
-    if (answer.solved) answer.s = lu.solve(answer.r - b);
+// The travel at which the indenter bears the given force: the root of a function that does not fall, and is linear while no contact
+// changes. Secants within the bounds known so far; the cone law holds exactly at each.
+Pushed pushed_by(const Law& law, const Condensed& c, double force) {
+  constexpr double exact = 1e-12, enough = 1e-9, infinite = std::numeric_limits<double>::infinity();
+  double low = -infinite, high = infinite;
+  struct Point {
+    double travel, miss;
+  };
+  std::optional<Point> last;
+  Pushed best{{{}, c.present}, 0};
+  double least = infinite, next = 0;
+  int sweeps = 0;
+  if (force == 0 || c.along.dot(c.present) == 0) {  // from the touch on
+    best.answer = without_indenter(law, c);
+    low = best.travel = law.touch(best.answer);
+    if (force == 0 || !best.answer.solved || !std::isfinite(low)) return best;
+    sweeps = best.answer.sweeps, last = {low, -force}, next = low + 1e-3;
   }
-  if (answer.solved) return answer;
-  answer.s = VecX::Zero(n);  // W_r indefinite, or none: stable only through its contacts
-  const LocalReport local = solve_supported({c.slipping(c.W), A, c.q + c.slipping(c.move), b, c.mu}, answer.s);
-  answer.r = b + A * answer.s;
-  for (std::size_t p = 0; p < c.E.size(); ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
-    if (local.status[p] == ContactStatus::open) answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
-  take(local, answer);
-  return answer;
+  for (int i = 0; i < 100 && least > exact * force; ++i) {
+    Answer answer = law.at(next, best.answer.r);
+    sweeps += answer.sweeps;
+    if (!answer.solved) {  // too far
+      (next > 0 ? high : low) = next, next *= 0.5;
+      continue;
+    }
+    const Point here{next, law.force(answer) - force};
+    if (std::abs(here.miss) < least) least = std::abs(here.miss), best = {std::move(answer), next};
+    (here.miss < 0 ? low : high) = next;
+    const double slope = last ? (here.miss - last->miss) / (here.travel - last->travel) : 0;
+    const double furthest = last ? 100 * std::abs(here.travel - last->travel) : 1e-3;
+    const double step = slope > 0 ? std::abs(here.miss) / slope : furthest;
+    next += here.miss < 0 ? std::min(step, furthest) : -std::min(step, furthest);
+    if (std::isfinite(low) && std::isfinite(high) && (!(next > low && next < high) || i % 8 == 7)) next = 0.5 * (low + high);
+    if (std::isfinite(low) && high - low <= 1e-16 * (1 + std::abs(low))) break;
+    last = here;
+  }
+  best.answer.sweeps = sweeps;
+  best.answer.solved = least <= enough * force;
+  return best;
 }
 
 }  // namespace
 
 std::optional<ContactChange> linearised_contact(const ContactState& state, const TangentFactor& factor, const VecX& move) {
   ContactChange change{VecX::Zero(static_cast<Eigen::Index>(factor.last().size())), state.r};
-  const std::vector<Near> near = near_candidates(state, factor, move);
-  if (near.empty()) return change;
-  const Condensed c = condensed(state, factor, near);
-  const Answer answer = c.follows ? solve_following(c) : solve_fixed(c);
-  if (!answer.s.allFinite() || !answer.r.allFinite()) return std::nullopt;
-  change.force = c.B * answer.s;
-  change.sweeps = answer.sweeps;
-  for (std::size_t p = 0; p < near.size(); ++p)
-    change.r[near[p].contact][near[p].candidate] = near[p].law.frame * answer.r.segment<3>(3 * static_cast<Eigen::Index>(p));
-  return change;
+  for (double travel = 0.1;; travel = 2 * change.travel) {
+    const std::vector<Near> near = near_candidates(state, factor, move, travel);
+    if (near.empty() && state.controlled < 0) return change;
+    if (near.empty()) return std::nullopt;
+    const Condensed c = condensed(state, factor, near);
+    const Law law(c);
+    const Pushed found = state.controlled < 0 ? Pushed{law.at(0, c.present), 0} : pushed_by(law, c, state.force);
+    const Answer& answer = found.answer;
+    if (!answer.s.allFinite() || !answer.r.allFinite()) return std::nullopt;
+    if (state.controlled >= 0 && !answer.solved) return std::nullopt;
+    change.travel = found.travel;
+    if (change.travel > travel) continue;  // more candidates may close
+    change.force = c.B * answer.s;
+    change.sweeps += answer.sweeps;
+    for (std::size_t p = 0; p < near.size(); ++p)
+      change.r[near[p].contact][near[p].candidate] = near[p].law.frame * answer.r.segment<3>(3 * static_cast<Eigen::Index>(p));
+    return change;
+  }
 }
 
 }  // namespace langer

@@ -22,7 +22,7 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
   const auto defects = statics.defects();
   for (std::size_t k = 0; k < defects.size(); ++k) {
     const RigidContact& contact = statics.contacts()[k];
-    const Vec3 c = indenter_displacement(contact, state.t);
+    const Vec3 c = indenter_displacement(contact, state.t, state.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       if (defects[k].status[i] == ContactStatus::open) continue;
       const int node = contact.nodes[i];

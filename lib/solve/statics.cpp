@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/stopwatch.hpp"
+#include "contact/touch.hpp"
 #include "mesh/reference.hpp"
 
 namespace langer {
@@ -25,6 +26,8 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
       factor_(timed_factor(equilibrium_, contacts_, options_.threads, cost_.analysis)) {
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (contacts_[k].control) controlled_ = static_cast<int>(k);
   before_ = now_;
   u_ = now_.u, r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
@@ -40,20 +43,40 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   now_ = accepted;
   before_ = before ? *before : accepted;
   K_current_ = factor_serves_ = again_ = false;
-  t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r;
+  t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
+  equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
 }
 
 void Statics::begin(double t) {
   t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false;
   factor_.begin_increment();
-  u_ = now_.u, r_ = r_next_ = now_.r;
+  u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
+  equilibrium_.load_to(t);
   equilibrium_.pressures_from(now_.u);
-  const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0;  // then the last movement does not go on
-  if (const double last = now_.t - before_.t; last > 0 && !rests) extrapolate(std::min((t - now_.t) / last, 2.0));
+  const bool pushed = controlled_ >= 0 && controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
+  // then the last movement does not go on
+  const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
+  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on(last)) extrapolate(std::min((t - now_.t) / last, 2.0));
+  if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
+}
+
+// Behind a kink of what moves nodes the last movement says nothing.
+bool Statics::goes_on(double last) const {
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) {
+    if (!p.factor) continue;
+    const double rate = (p.at(t_) - p.at(now_.t)) / (t_ - now_.t), before = (p.at(now_.t) - p.at(before_.t)) / last;
+    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
+  }
+  if (controlled_ >= 0) {
+    const History& force = controlled()->control->force;
+    const double rate = (force.at(t_) - force.at(now_.t)) / (t_ - now_.t), before = (force.at(now_.t) - force.at(before_.t)) / last;
+    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
+  }
+  return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
 }
 
 void Statics::extrapolate(double s) {
@@ -61,6 +84,21 @@ void Statics::extrapolate(double s) {
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
   u_ += step;
+  travel_ += s * (now_.travel - before_.travel);
+}
+
+std::vector<Vec3> Statics::indenters(double t, double travel) const {
+  std::vector<Vec3> c;
+  for (const RigidContact& contact : contacts_) c.push_back(indenter_displacement(contact, t, travel));
+  return c;
+}
+
+// Out of touch no travel balances a force: the first one that does is behind the touch. Without a force it rests there.
+void Statics::bring_to_touch() {
+  const auto k = static_cast<std::size_t>(controlled_);
+  if (std::any_of(r_[k].begin(), r_[k].end(), [](const Vec3& r) { return !r.isZero(0); })) return;
+  const auto position = [&](int node) { return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node)); };
+  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch;
 }
 
 // A node that is open where the increment begins slips only from where it touches: at the share of the extrapolated movement that
@@ -70,7 +108,7 @@ void Statics::slip_from_touch() {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
     if (contact.mu == 0) continue;
-    const Vec3 c = indenter_displacement(contact, t_), c0 = indenter_displacement(contact, now_.t);
+    const Vec3 c = indenter_displacement(contact, t_, travel_), c0 = indenter_displacement(contact, now_.t, now_.travel);
     for (int node : contact.nodes) {
       const auto u0 = now_.u.segment<3>(3 * node), u = u_.segment<3>(3 * node);
       const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
@@ -93,20 +131,22 @@ void Statics::replay(const BodyState& next) {
 void Statics::accept() {
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
-  now_ = {t_, u_, r_};
+  now_ = {t_, u_, r_, travel_};
 }
 
 double Statics::motion(double t0) const {
   double largest = 0;
+  const double travel = t0 == now_.t ? now_.travel : before_.travel;
   for (const RigidContact& contact : contacts_)
-    largest = std::max(largest, (indenter_displacement(contact, t_) - indenter_displacement(contact, t0)).norm());
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) largest = std::max(largest, std::abs(p.value * (t_ - t0)));
+    largest = std::max(largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm());
+  for (const Prescribed& p : equilibrium_.dofs().prescribed)
+    largest = std::max(largest, std::abs(p.factor ? p.at(t_) - p.at(t0) : p.value * (t_ - t0)));
   return largest;
 }
 
 VecX Statics::remaining_prescribed(const VecX& u) const {
   VecX du = VecX::Zero(u.size());
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) du[p.dof] = p.value * t_ - u[p.dof];
+  for (const Prescribed& p : equilibrium_.dofs().prescribed) du[p.dof] = p.at(t_) - u[p.dof];
   return du;
 }
 
@@ -120,6 +160,7 @@ VecX Statics::on_free_rows(const VecX& all) const {
 VecX Statics::free_residual() const {
   VecX f = -equilibrium_.f_int();
   if (F_ext_.size() > 0) f += t_ * F_ext_;
+  if (!equilibrium_.loads().empty()) f += equilibrium_.f_ext();
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   return on_free_rows(f);
@@ -131,18 +172,28 @@ double Statics::force_scale() const {
   for (const auto& r : r_)
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
   if (F_ext_.size() > 0) sum += (t_ * F_ext_).squaredNorm();
+  if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
   return std::sqrt(sum);
 }
 
 bool Statics::contact_law_holds(const VecX& u) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactDefect d =
-        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k], indenter_displacement(contacts_[k], t_),
-                       indenter_displacement(contacts_[k], now_.t), r_[k], motion(now_.t));
+        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k], indenter_displacement(contacts_[k], t_, travel_),
+                       indenter_displacement(contacts_[k], now_.t, now_.travel), r_[k], motion(now_.t));
     if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance)
       return false;
   }
   return true;
+}
+
+bool Statics::force_is_given() const {
+  const ForceControl& control = *controlled()->control;
+  Vec3 sum = Vec3::Zero();
+  double size = control.force.at(t_);
+  const double given = size;
+  for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)]) sum += r, size = std::max(size, r.norm());
+  return std::abs(sum.dot(control.along) - given) <= options_.law_tolerance * size;
 }
 
 Assessment Statics::assess(const VecX& u, bool with_tangent) {
@@ -164,6 +215,8 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   out.floor = 3 * equilibrium_.rounding_floor();
   if (!contact_law_holds(u))
     out.missing = "the contact law does not hold";
+  else if (controlled_ >= 0 && !force_is_given())
+    out.missing = "the force on the indenter is not the given one";
   else if (!(du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>())))
     out.missing = "prescribed displacements not reached";
   else if (factor_.held_by_contact() && slips_away())
@@ -176,7 +229,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
 bool Statics::slips_away() const {
   bool in_the_way = false;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const Vec3 c = indenter_displacement(contacts_[k], t_);
+    const Vec3 c = indenter_displacement(contacts_[k], t_, travel_);
     for (std::size_t i = 0; i < r_[k].size(); ++i) {
       if (!r_[k][i].isZero(0)) return false;
       const int node = contacts_[k].nodes[i];
@@ -247,10 +300,13 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
     std::optional<ContactChange> change;
     {
       const Stopwatch watch(cost_.contact);
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, t_, now_.t, r_}, factor_, half.last);
+      const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+      const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
+      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force}, factor_,
+                                  half.last);
     }
     if (!change) return std::nullopt;
-    r_next_ = std::move(change->r), cost_.sweeps += change->sweeps;
+    r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
     const Stopwatch watch(cost_.solve);
     if (factor_.kind() == TangentFactor::Kind::whole) {
       move = linear.finish(half, change->force);
@@ -270,15 +326,17 @@ void Statics::moved(const VecX& du, double step) {
   equilibrium_.predict_pressures(du, step, again_);
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const Vec3 c = indenter_displacement(contacts_[k], t_);
+    const Vec3 c = indenter_displacement(contacts_[k], t_, travel_),
+               dc = indenter_displacement(contacts_[k], t_, travel_ + step * travel_next_) - c;
     for (std::size_t i = 0; i < r_[k].size(); ++i) {
       if (r_next_[k][i].isZero(0) && r_[k][i].isZero(0)) continue;
       const int node = contacts_[k].nodes[i];
-      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c, moved_x = x + step * du.segment<3>(3 * node);
+      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c, moved_x = x + step * du.segment<3>(3 * node) - dc;
       const Vec3 r = step == 1 ? r_next_[k][i] : Vec3(r_[k][i] + step * (r_next_[k][i] - r_[k][i]));
       r_[k][i] = turn_with_normal(r, shape_at(contacts_[k].shape, x).normal, shape_at(contacts_[k].shape, moved_x).normal);
     }
   }
+  if (controlled_ >= 0) travel_ += step * travel_next_;
 }
 
 Problem Statics::problem() {
@@ -323,17 +381,21 @@ FreeBalance Statics::free_balance() {
 }
 
 std::vector<ContactDefect> Statics::defects() const {
-  const double t0 = now_.t == t_ ? before_.t : now_.t;
+  const bool accepted = now_.t == t_;
+  const double t0 = accepted ? before_.t : now_.t, travel0 = accepted ? before_.travel : now_.travel;
   std::vector<ContactDefect> out;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
-    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k], indenter_displacement(contacts_[k], t_),
-                                 indenter_displacement(contacts_[k], t0), r_[k], motion(t0)));
+    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k],
+                                 indenter_displacement(contacts_[k], t_, travel_), indenter_displacement(contacts_[k], t0, travel0),
+                                 r_[k], motion(t0)));
   return out;
 }
 
 VecX Statics::reactions() const {
   VecX out = VecX::Zero(equilibrium_.dofs().n);
   for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] = equilibrium_.f_int()[p.dof];
+  if (!equilibrium_.loads().empty())
+    for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] -= equilibrium_.f_ext()[p.dof];
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < r_[k].size(); ++i) out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   return out;

@@ -25,6 +25,7 @@ struct BodyState {
   double t = 0;
   VecX u;  // (3 n) [mm]
   Reactions r;
+  double travel = 0;  // of the indenter under force control [mm]
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
@@ -62,6 +63,7 @@ class Statics {
   const BodyState& accepted() const { return now_; }
   std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
+  const RigidContact* controlled() const { return controlled_ >= 0 ? &contacts_[static_cast<std::size_t>(controlled_)] : nullptr; }
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
@@ -77,7 +79,8 @@ class Statics {
   const LinearSolver& linear() const { return factor_.linear(); }
 
  private:
-  void extrapolate(double s);  // by s times the last increment
+  bool goes_on(double last) const;  // imposed displacements, as in the last increment
+  void extrapolate(double s);       // by s times the last increment
   void slip_from_touch();
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
@@ -92,6 +95,9 @@ class Statics {
   bool slips_away() const;
   void moved(const VecX& du, double step);
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
+  std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
+  void bring_to_touch();                                       // the indenter under force control, where it bears nothing
+  bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
   VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
   VecX on_free_rows(const VecX& all) const;  // of (3 n)
@@ -105,7 +111,9 @@ class Statics {
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;
-  Reactions r_, r_next_;        // on trial; r_next_: what the last linear solve found
+  int controlled_ = -1;                  // contact under force control
+  double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
+  Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
   std::vector<VecX> u_start_;   // by contact, (3 n): what the increment's slip is measured from, the indenter where it began
   VecX factored_at_;            // u of the tangent that was factorized last
   bool K_current_ = false;      // K is that of the trial

@@ -46,6 +46,7 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"force_*_y", "N", "of the body on that indenter, positive along +y"},
     {"force_*_z", "N", "of the body on that indenter, positive along +z"},
     {"force_*", "N", "of several: of the body on that indenter, against its displacement; positive where the body resists"},
+    {"travel_*", "mm", "of that indenter along the direction of its given force"},
     {"contact_open", "-", "number of candidates that do not touch"},
     {"contact_stick", "-", "number of candidates that stick"},
     {"contact_slip", "-", "number of candidates that slip"},

@@ -136,7 +136,7 @@ TEST_CASE("scenes unlike the study's are known as such, and begin coarse without
   CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Plane{{0, 4, 0}, {0, -1, 0}}; }));
   CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Ellipsoid{{3, 1, 2}, {0, 5, 0}}; }));
   CHECK(!shown([](SolveConfig& c) { c.mesh->bodies = {{"fat", 2}, {"dermis", 2}}; }));
-  CHECK(!shown([](SolveConfig& c) { c.loads.push_back({"x_max", {0.1, {}, {}}}); }));
+  CHECK(!shown([](SolveConfig& c) { c.loads.push_back({"x_max", Displacement{HistoryConfig{0.1}, {}, {}}}); }));
 }
 
 TEST_CASE("the footprint of indenters is where they cut the top") {

@@ -97,7 +97,7 @@ TEST_CASE("none is offered for what is not: place, path, supports at the sides, 
         c.contacts["other"] = {"", Sphere{1, {3, 3, 0}}, 0, {{1, {0, -0.2, 0}}}};
       },
       [](SolveConfig& c) {
-        c.contacts.clear(), c.loads = {{"top", {{}, -0.1, {}}}};
+        c.contacts.clear(), c.loads = {{"top", Displacement{{}, HistoryConfig{-0.1}, {}}}};
       },
       [](SolveConfig& c) {
         c.supports.push_back({"x_min", {Axis::x}});
@@ -109,10 +109,10 @@ TEST_CASE("none is offered for what is not: place, path, supports at the sides, 
         c.supports = {{"bottom", {Axis::x, Axis::y}}};
       },
       [](SolveConfig& c) {
-        c.loads = {{"bottom", {0.1, {}, {}}}};
+        c.loads = {{"bottom", Displacement{HistoryConfig{0.1}, {}, {}}}};
       },
       [](SolveConfig& c) {
-        c.loads = {{"x_max", {{}, 0.1, {}}}};
+        c.loads = {{"x_max", Displacement{{}, HistoryConfig{0.1}, {}}}};
       },
       [](SolveConfig& c) {
         c.material->fibres = {Fibre{HgoFibre{0.2, 0.3}, 0}};

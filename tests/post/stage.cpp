@@ -115,6 +115,19 @@ TEST_CASE("the table has one row per state, the unloaded one first, and columns 
   CHECK(file.curves.columns[6].values == std::vector<double>{0, 2, 2, 2, 2});
 }
 
+TEST_CASE("zero_at takes a column's value at a state from all of them, and wants a state at which the path stops") {
+  const std::string where = folder("zero_at");
+  REQUIRE(
+      post(where, "columns:\n- {quantity: u_ind}\n- {quantity: force, zero_at: t=0.5}\n- {history: energy, zero_at: 1}\n").code ==
+      0);
+  const CurvesFile file = read_curves(where + "/out/curves.h5");
+  CHECK(file.curves.columns[1].values == std::vector<double>{-1, -0.5, 0, 0.5, 1});
+  CHECK(file.curves.columns[2].values == std::vector<double>{-0.0625, 0, 0.1875, 0.5, 0.9375});
+  const Run between = post(where, "columns:\n- {quantity: u_ind, zero_at: t=0.4}\n");
+  CHECK(between.code == 2);
+  CHECK(between.said.find("post.yaml:2:21: columns[0].zero_at: t=0.4; expected a state of the solution") != std::string::npos);
+}
+
 TEST_CASE("the summary is the last row with what stands beyond the table, every column is a curve over the first") {
   const std::string where = folder("summary");
   REQUIRE(post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n").code == 0);

@@ -22,7 +22,12 @@ Mesh mesh_of(const std::string& text) {
 
 // what fits a scene: its own section, or few cells with the sets that it names
 Mesh mesh_for(const std::string& name, const SolveConfig& config) {
-  if (name == "axisymmetric") return test::mesh_in(config);
+  if (config.mesh) return test::mesh_in(config);
+  if (name == "suction_angles")
+    return mesh_of(
+        "{geometry: {block: {origin: [-10, 0, -10], size: [20, 4, 20], divisions: [8, 2, 8]}}, "
+        "sets: {hole: {of: top, within: {cylinder: {axis: y, radius: 3.6}}}, "
+        "ring: {of: top, within: {cylinder: {axis: y, radius: 8, beyond: 3.6}}}}}");
   if (name == "scratch")
     return mesh_of(
         "{geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [14, 3, 14], centre: {edge: 0.6, within: 3}}}, "

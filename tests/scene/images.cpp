@@ -223,7 +223,7 @@ Pair pair_of(Random& random, const Vec3& signs, bool own_nodes, double apart) {
   const Vec3 to(between_of(random, -0.1, 0.1), -between_of(random, 0.2, 0.3), between_of(random, -0.1, 0.1));
   const std::vector<Waypoint> motion{{0.5, Vec3(0, to[1], 0)}, {1, to}};
   std::vector<Waypoint> image = motion;
-  for (Waypoint& w : image) w.u_ind = signs.cwiseProduct(w.u_ind);
+  for (Waypoint& w : image) w.to = signs.cwiseProduct(w.to);
   const double mu = one_of_n(random, 2) ? 0.25 : 0;
   p.scene.contacts = {indenter("left", shape, p.mesh, motion, mu), indenter("right", moved(shape, signs), p.mesh, image, mu)};
   p.scene.stops = {0.5};
@@ -301,10 +301,10 @@ TEST_CASE("indenters that only look alike are not images: shape, place, friction
         right.mu += away;
         break;
       case 3:
-        right.motion.back().u_ind[1] -= away;
+        right.motion.back().to[1] -= away;
         break;
       case 4:
-        right.motion.back().u_ind[n % 3 == 1 ? 2 : 0] *= -1;
+        right.motion.back().to[n % 3 == 1 ? 2 : 0] *= -1;
         break;
       case 5:
         right.motion.front().t += away;
