@@ -24,6 +24,7 @@ class Nodes {
  public:
   Nodes(const Mesh& mesh, const Find& where)
       : mesh_(mesh), where_(where), named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())), to_(named_by_.size()) {}
+  Place place_of(const std::string& key) const { return where_(key); }
 
   const std::vector<int>& of_set(const std::string& set, const std::string& key) {
     static const std::vector<int> none;
@@ -153,6 +154,24 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
   return nodes;
 }
 
+// The path stops at every point of a history, but not twice within what it tells apart (solve/load_path.cpp).
+template <class Point>
+void take_stops(const std::vector<Point>& points, std::optional<double> seconds, const std::string& key, std::vector<double>& stops,
+                Nodes& nodes) {
+  constexpr double shortest = 1e-9;
+  double before = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double here = place(points[i], seconds);
+    stops.push_back(here);
+    const std::string at = fmt::format("{}[{}]", key, i);
+    if (here - before < shortest)
+      nodes.errors.push_back({nodes.place_of(at), at,
+                              fmt::format("{:.3g} of the path behind the point before, or its beginning", here - before),
+                              fmt::format("at least {:g}", shortest), "a longer ramp, or a shorter path"});
+    before = here;
+  }
+}
+
 void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>& stops) {
   for (std::size_t i = 0; i < config.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
@@ -165,8 +184,8 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>&
     std::array<std::optional<History>, 3> to;
     for (int axis = 0; axis < 3; ++axis)
       if (const auto along = load.imposed(axis)) to[axis] = history_of(*along, config.path.seconds);
-    for (const HistoryConfig& history : load.histories())
-      for (const HistoryPointConfig& point : history.points) stops.push_back(place(point, config.path.seconds));
+    for (const auto& [at, history] : load.histories_by_key())
+      take_stops(history.points, config.path.seconds, key + "." + at, stops, nodes);
     bool agrees = true;
     for (int node : nodes.of_set(load.on, key + ".on"))
       for (int axis = 0; axis < 3 && agrees; ++axis)
@@ -202,7 +221,6 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
 void take_control(Scene& scene, RigidContact& rigid, const ContactConfig& contact, std::optional<double> seconds,
                   const std::string& key, const Find& where, std::vector<Error>& errors) {
   rigid.control = ForceControl{vec(contact.control->along).normalized(), history_of(contact.control->force, seconds)};
-  for (const HistoryPointConfig& point : contact.control->force.points) scene.stops.push_back(place(point, seconds));
   if (contact.on.empty())
     errors.push_back({where(key), key + ".on", "missing, beside control", "a node set that may touch the indenter",
                       "how far a force pushes the indenter is not known before"});
@@ -216,7 +234,8 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
     RigidContact rigid = indenter_of(name, contact, config.path.seconds);
-    for (const Waypoint& w : rigid.motion) scene.stops.push_back(w.t);
+    take_stops(contact.motion, config.path.seconds, key + ".motion", scene.stops, nodes);
+    if (contact.control) take_stops(contact.control->force.points, config.path.seconds, key + ".control.force", scene.stops, nodes);
     if (contact.control) take_control(scene, rigid, contact, config.path.seconds, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");

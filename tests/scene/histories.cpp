@@ -156,3 +156,19 @@ TEST_CASE("a node that two keys move by different histories is refused, by the s
   CHECK(says(first + "[{t: 0.4, to: 0.2}, {t: 1, to: 0}]}}]").find("by another history") != std::string::npos);
   CHECK(says(first + "0.2}}]").find("loads[1].displacement") != std::string::npos);
 }
+
+TEST_CASE("a stage that the path would pass over is refused at its point") {
+  const std::string block =
+      "mesh: {geometry: {block: {size: [2, 1, 1], divisions: [2, 1, 1]}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
+      "supports: [{on: x_min, hold: [x, y, z]}]\npath: {seconds: 1.0e+6}\nloads: [{on: x_max, displacement: {x: ";
+  const auto says = [&](const std::string& history) {
+    const std::string text = block + history + "}}]\n";
+    return test::said_of_scene(text, test::mesh_in(test::config_of(text)));
+  };
+  CHECK(says("[{s: 0.01, to: 0.1}, {s: 1.0e+6, to: 0.1}]") == "accepted");
+  CHECK(says("[{s: 0.0001, to: 0.1}, {s: 1.0e+6, to: 0.1}]").find("loads[0].displacement.x[0]: 1e-10 of the path") !=
+        std::string::npos);
+  CHECK(says("[{s: 5, to: 0.1}, {s: 5.0001, to: 0.2}, {s: 1.0e+6, to: 0.1}]").find("loads[0].displacement.x[1]") !=
+        std::string::npos);
+}
