@@ -28,6 +28,28 @@ std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int regio
   return sum;
 }
 
+// Greatest difference of the von Mises stress between a cell and the average, over the nodes of all cells at a node: at the node itself,
+// where a corner belongs to one cell alone or cells mirror each other, there may be none.
+double spread_around(const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth, int region, int node) {
+  const Mesh& mesh = body.mesh();
+  const ReferenceCell& cell = mesh.cell();
+  std::vector<char> is_near(mesh.X.size(), 0);
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    if (const auto nodes = mesh.cell(e); body.region(e) == region && std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+      for (int n : nodes) is_near[n] = 1;
+  double spread = 0;
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    if (body.region(e) != region) continue;
+    for (int a = 0; a < cell.n_nodes; ++a) {
+      const int n = mesh.cell(e)[a];
+      if (!is_near[n]) continue;
+      const Vec6 here = (cell.at_nodes.row(a) * gauss[e].leftCols<6>()).transpose();
+      spread = std::max(spread, std::abs(von_mises(tensor(here)) - von_mises(tensor(smooth[n]))));
+    }
+  }
+  return spread;
+}
+
 double deviatoric(const Vec6& stress) { return std::pow(von_mises(tensor(stress)), 2) / 1.5; }  // |dev s|^2
 
 }  // namespace
@@ -58,15 +80,7 @@ RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
       }
     }
     if (worst < 0) continue;
-    out.von_mises_spread = 0;
-    for (int e = 0; e < mesh.n_cells(); ++e) {
-      if (body.region(e) != region) continue;
-      const auto nodes = mesh.cell(e);
-      const auto at = std::find(nodes.begin(), nodes.end(), worst);
-      if (at == nodes.end()) continue;
-      const Vec6 here = (cell.at_nodes.row(at - nodes.begin()) * gauss[e].leftCols<6>()).transpose();
-      out.von_mises_spread = std::max(out.von_mises_spread, std::abs(von_mises(tensor(here)) - out.von_mises_max));
-    }
+    out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
   }
   out.eta = whole > 0 ? std::sqrt(error / whole) : 0;
   return out;

@@ -13,7 +13,7 @@ namespace langer {
 struct RecoveredError {
   double eta = 0;               // relative error of the deviatoric stress, weighted as energy [-]
   double von_mises_max = 0;     // greatest of the nodal averages [MPa]
-  double von_mises_spread = 0;  // there: the greatest difference between the cells that meet in that node and their average [MPa]
+  double von_mises_spread = 0;  // around it: the greatest difference between a cell and the average at a node of its cells [MPa]
   double energy_share() const { return eta * eta; }
 };
 RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u);  // u (n) [mm]

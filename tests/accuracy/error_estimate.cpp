@@ -214,3 +214,16 @@ TEST_CASE("a homogeneous state has no error to recover") {
   CHECK(error.eta < 1e-6);
   CHECK(error.von_mises_spread < 1e-6 * error.von_mises_max);
 }
+
+TEST_CASE("the greatest von Mises stress at a corner of one cell alone has an error too") {
+  const SolveConfig config = test::config_of(
+      "mesh: {geometry: {block: {size: [3, 1, 1], divisions: [6, 3, 3]}}}\n"
+      "material: {matrix: {yeoh: {a1: 0.3, a2: 0.1, a3: 0}}, volume: {quadratic: {d: 1.0e-3}}}\n"
+      "supports: [{on: x_min, hold: [x, y, z]}]\n"
+      "loads: [{on: x_max, displacement: {x: 0.3}}]\npath: {first: 1, largest: 1}\n");
+  const Mesh mesh = test::mesh_in(config);
+  const Scene scene = make_scene(config, mesh, config.material, nowhere);
+  const StepRecord last = test::solved(mesh, scene, std::nullopt, {config.path, config.solver}).last();
+  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), last.u);
+  CHECK(error.von_mises_spread > 0.05 * error.von_mises_max);
+}
