@@ -10,6 +10,10 @@ namespace langer {
 Loads::Loads(const Mesh& mesh, std::vector<SurfaceLoad> loads, std::vector<double> cell_share)
     : mesh_(&mesh), loads_(std::move(loads)), cell_share_(std::move(cell_share)) {}
 
+bool Loads::follow() const {
+  return std::any_of(loads_.begin(), loads_.end(), [](const SurfaceLoad& load) { return load.pressure != 0; });
+}
+
 bool Loads::moves(double t0, double t) const {
   return std::any_of(loads_.begin(), loads_.end(),
                      [&](const SurfaceLoad& load) { return factor_at(load.factor, t0) != factor_at(load.factor, t); });

@@ -26,6 +26,7 @@ class Loads {
   Loads(const Mesh& mesh, std::vector<SurfaceLoad> loads, std::vector<double> cell_share = {});
 
   bool empty() const { return loads_.empty(); }
+  bool follow() const;                                         // some of them are pressures
   bool moves(double t0, double t) const;                       // some load changes from t0 to t
   bool goes_on(double before, double now, double next) const;  // at the same rates in both intervals
 
