@@ -3,7 +3,6 @@
 #include "accuracy/accuracy.hpp"
 #include "accuracy/say_errors.hpp"
 #include "accuracy/section_in_place.hpp"
-#include "base/memory.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 #include "run/run_words.hpp"
@@ -13,6 +12,8 @@
 namespace langer {
 namespace {
 
+using Law = std::optional<Material>;
+
 struct Solved {
   enum class At { the_end, not_homogeneous, too_coarse, other_section } at = At::the_end;
   std::vector<Summary> summary = {};
@@ -21,53 +22,32 @@ struct Solved {
 
 // Not homogeneous: a body that was solved at a point ceases to deform alike everywhere; its steps before are kept, to continue from.
 // Too coarse, other section: accuracy, or what may stand for the block, has another config now.
-Solved solve_by(const Job<SolveConfig>& job, const std::optional<Material>& material, SectionInPlace& section, Accuracy& accuracy,
-                bool at_a_point) {
+Solved solve_by(const Job<SolveConfig>& job, const Law& material, SectionInPlace& section, Accuracy& accuracy, bool at_a_point) {
   const SolveConfig config = accuracy.config();
   Run run(body_mesh(config, job.has("mesh") ? job.input("mesh") : "", job.where), config, material, job.where, at_a_point);
   const double jump = say_scene(job.voice(), run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
-  if (job.dry_run) {
-    if (watch.of_mesh())
-      job.say("the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
-              run.reduction.mesh_of_point()->dofs().n_free());
-    const double estimate = estimate_forecast(config, material, job.where, run);
-    return {.summary = dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, job.quiet)};
-  }
-  need_memory(run.statics, config.threads);
-  if (watch.of_mesh()) need_memory(*watch.of_mesh(), config.threads);
+  if (job.dry_run) return {.summary = say_forecast(job.voice(), config, material, job.where, run, watch)};
+  need_memory(run.statics, watch.of_mesh(), config.threads);
   const std::string loose = held_by_contact(run, job.where);
   Recording recording(run, watch, config, job.identity, job.output);
   Progress progress(job.voice(), run);
-  if (!loose.empty()) job.say("{}: only contact holds it", loose);
-  if (recording.with_other_settings())
-    job.say("these steps were made with other settings: /provenance/earlier of the result holds them");
-
   const Interruptible at_the_end_of_a_step;
-  const RunEnd end = recording.follow(progress);
+  const RunEnd end = recording.follow(job.voice(), progress, loose);
   if (end.at == RunEnd::At::not_homogeneous) return {Solved::At::not_homogeneous};
-  for (const std::string& line : watch.warnings()) job.warn("{}", line);
-  if (end.path.complete)
-    for (const std::string& line : watch.contact_warnings()) job.warn("{}", line);
-  recording.need_the_end(end, loose);
-
   const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
-  const std::vector<ErrorEstimate>& errors = estimate.at_end;
+  const auto& errors = estimate.at_end;
   if (!section.accurate(errors)) return {Solved::At::other_section};
   if (accuracy.refine(errors)) return {Solved::At::too_coarse};
-  const std::vector<Summary> said =
-      joined({summary_of(errors), section.summary(errors), accuracy.summary(errors), watch.contact_summary()});
-  recording.finish(recording.continues() ? std::nullopt : std::optional(Cost{cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}),
-                   said, histories_of(estimate));
+  const auto said = joined({summary_of(errors), section.summary(errors), accuracy.summary(errors), watch.contact_summary()});
+  recording.finish(said, histories_of(estimate));
   progress.finished(end.path, run.statics, recording.seconds());
-  return {Solved::At::the_end,
-          joined({summary_of(run, end, recording.n_steps()), said, {{"fibre_jump", jump, "deg"}}, watch.stability_summary()}),
-          errors};
+  const std::vector<Summary> of_path = summary_of(run, end, recording.n_steps()), of_fibres{{"fibre_jump", jump, "deg"}};
+  return {Solved::At::the_end, joined({of_path, said, of_fibres, watch.stability_summary()}), errors};
 }
 
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
-  const std::optional<Material> material =
-      job.has("material") ? std::optional(material_of_body(job.input("material"))) : job.config.material;
+  const Law material = job.has("material") ? Law(material_of_body(job.input("material"))) : job.config.material;
   SolveConfig own = job.config;
   if (job.has("mesh")) own.mesh.reset();  // another mesh is solved
   SectionInPlace section(job.voice(), own, material, job.where, job.dry_run);
@@ -77,7 +57,12 @@ std::vector<Summary> solve(const Job<SolveConfig>& job) {
   Accuracy accuracy = accuracy_of();
   bool at_a_point = job.config.homogeneous == Homogeneous::automatic;
   for (;;) {
-    const Solved solved = solve_by(job, material, section, accuracy, at_a_point);
+    Solved solved{Solved::At::too_coarse};
+    try {
+      solved = solve_by(job, material, section, accuracy, at_a_point);
+    } catch (const Failure& failure) {
+      if (!accuracy.begin_anew(failure)) throw;
+    }
     if (solved.at == Solved::At::not_homogeneous) {
       job.say("homogeneous: the mesh no longer balances, and is solved from there on");
       at_a_point = false;

@@ -245,29 +245,16 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
     : voice_(voice), config_(config), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
-  if (chosen_->shown || !chosen_->level.in_contact_radii || config_.estimate != EstimateBy::refinement) return;
-  voice_.say("accuracy: the study has no scene of this kind; these cells tell which ones it needs{}",
-             dry ? " (not with --dry-run)" : "");
-  if (dry) return;
-  while (!piloted(material)) {
-  }
+  begins_ = !chosen_->shown && chosen_->level.in_contact_radii && config_.estimate == EstimateBy::refinement;
+  if (begins_)
+    voice_.say("accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
+               dry ? " (not with --dry-run)" : "");
 }
 
-bool Accuracy::piloted(const std::optional<Material>& material) {
-  const EstimateListener listener = [&](const Run& run, int n, int of) { return estimate_progress(voice_, run, n, of); };
-  try {
-    const auto found = end_of_path(config_, material, where_, [&](const Run& run) { return listener(run, 0, 0); });
-    const auto errors = estimate_errors(config_, material, where_, found, 0, listener);
-    const ReachedAccuracy there = reached(*chosen_, errors);
-    const auto finer = there.met ? std::nullopt : finer_level(*chosen_, errors);
-    if (finer) take(*finer);
-    voice_.say("accuracy: {:.2g} % there; {}", there.percent, in_words(chosen_->level));
-    return true;
-  } catch (const Failure& failure) {
-    if (failure.code() != Exit::not_converged) throw;
-    voice_.say("accuracy: no estimate there, {}", failure.what());
-    return !shorter_cells();
-  }
+bool Accuracy::begin_anew(const Failure& failure) {
+  if (!begins_ || failure.code() != Exit::not_converged) return false;
+  voice_.say("accuracy: {}", failure.what());
+  return shorter_cells();
 }
 
 // once, where no error is known that would say which
@@ -288,6 +275,7 @@ void Accuracy::take(const AccuracyLevel& level) {
 bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
   if (!chosen_ || config_.estimate != EstimateBy::refinement) return false;
   if (estimates.empty()) return shorter_cells();
+  begins_ = false;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates);
   if (!finer) return false;

@@ -63,20 +63,20 @@ void put(const ChosenLevel& chosen, SolveConfig& config);  // its cells and incr
 class Accuracy {
  public:
   using Where = std::function<Place(const std::string&)>;
-  // config as it was written. Scenes unlike those of the study are solved on coarse cells first, unless `dry`, to find where to begin.
-  // Throws Failure(not_converged) where they have no equilibrium there, or one with the signal's code.
+  // config as it was written. Scenes unlike those of the study begin with coarse cells, whose estimate tells which ones they need.
   Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry);
 
   const SolveConfig& config() const { return config_; }  // to be solved
   // Whether to solve again, with config() as it is now. Says so.
   bool refine(const std::vector<ErrorEstimate>& estimates);
+  // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says so.
+  bool begin_anew(const Failure& failure);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
   // Throws Failure(not_accurate) where the estimates exceed what was asked for.
   void need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const;
 
  private:
   void take(const AccuracyLevel& level);
-  bool piloted(const std::optional<Material>& material);  // false: to be tried again, with config() as it is now
   bool shorter_cells();
 
   Voice voice_;
@@ -84,6 +84,7 @@ class Accuracy {
   Where where_;
   std::optional<ChosenLevel> chosen_;
   int without_estimate_ = 0;
+  bool begins_ = false;  // with cells that no study and no estimate stands for
 };
 
 }  // namespace langer

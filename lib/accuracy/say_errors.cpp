@@ -16,6 +16,14 @@ constexpr double worth_it = 1.0 / 3;  // of the solve
 
 bool has_numbers(const SolveConfig& config) { return config.mesh && has_numbers_of_cells(config.mesh->geometry); }
 
+// CPU seconds that it will take, about; 0 where nothing is solved again
+double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run) {
+  if (!by_refinement(config) || !has_numbers(config)) return 0;
+  const double estimate = estimate_seconds(config, material, where);
+  if (config.estimate == EstimateBy::refinement) return estimate;
+  return estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds() ? estimate : 0;
+}
+
 bool wanted(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where,
             Run& run) {
   if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(EstimateBy::none) != EstimateBy::none;
@@ -57,11 +65,13 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::
   return found;
 }
 
-double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run) {
-  if (!by_refinement(config) || !has_numbers(config)) return 0;
-  const double estimate = estimate_seconds(config, material, where);
-  if (config.estimate == EstimateBy::refinement) return estimate;
-  return estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds() ? estimate : 0;
+std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                                  const Run::Where& where, Run& run, const RunWatch& watch) {
+  if (watch.of_mesh())
+    voice.say("the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
+              run.reduction.mesh_of_point()->dofs().n_free());
+  const double estimate = estimate_forecast(config, material, where, run);
+  return dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, voice.quiet);
 }
 
 SolutionWriter::Histories histories_of(const PathErrors& estimate) {

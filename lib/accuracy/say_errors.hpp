@@ -16,8 +16,9 @@ namespace langer {
 PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
                       const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording);
 
-// CPU seconds that it will take, about; 0 where nothing is solved again
-double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run);
+// What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
+std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                                  const Run::Where& where, Run& run, const RunWatch& watch);
 
 // of PathErrors::along, by their names in /history of a solution
 SolutionWriter::Histories histories_of(const PathErrors& estimate);

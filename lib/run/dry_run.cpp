@@ -27,7 +27,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-void need_memory(const Statics& statics, int threads) {
+void need_memory(const Statics& statics, const Statics* beside, int threads) {
+  if (beside) need_memory(*beside, nullptr, threads);
   // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it cannot have it
   constexpr double blas = 135e6;
   const double factor = statics.linear().size().factor_bytes, mapped = factor + blas * threads;

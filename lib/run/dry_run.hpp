@@ -10,8 +10,8 @@
 
 namespace langer {
 
-// Throws Failure(config) where the factor of the tangent exceeds the memory that is free or allowed.
-void need_memory(const Statics& statics, int threads);
+// Throws Failure(config) where the factor of the tangent, or that of a mesh beside it, exceeds the memory that is free or allowed.
+void need_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
 Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops);

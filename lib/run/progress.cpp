@@ -75,7 +75,7 @@ Problem Progress::watched(Problem problem, double t) {
 }
 
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of) {
-  const std::string who = of > 0 ? fmt::format("errors: scene {} of {}", n, of) : "coarse cells";
+  const std::string who = fmt::format("errors: scene {} of {}", n, of);
   voice.say("{}, {}", who, sizes(run));
   RunListener listener;
   listener.watched = [voice, who, seen = !voice.quiet && (voice.verbose || rewrites(voice))](Problem problem, double t) {

@@ -26,7 +26,7 @@ class Progress {
   double start_;     // seconds, when the first step began
 };
 
-// Goes along with the n-th scene of those that an estimate solves, or (of = 0) with coarse cells before the solve: a line for each, its iterations as above. A signal ends it within an
+// Goes along with the n-th scene of those that an estimate solves: a line for each, its iterations as above. A signal ends it within an
 // iteration: nothing of it is kept.
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of);
 

@@ -36,7 +36,19 @@ bool Recording::with_other_settings() const {
                      [&](const EarlierRun& earlier) { return earlier.config != config_; });
 }
 
-RunEnd Recording::follow(Progress& progress) {
+RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::string& loose) {
+  if (!loose.empty()) voice.say("{}: only contact holds it", loose);
+  if (with_other_settings()) voice.say("these steps were made with other settings: /provenance/earlier of the result holds them");
+  const RunEnd end = along_the_path(progress);
+  if (end.at == RunEnd::At::not_homogeneous) return end;
+  for (const std::string& line : watch_.warnings()) voice.warn(line);
+  if (end.path.complete)
+    for (const std::string& line : watch_.contact_warnings()) voice.warn(line);
+  need_the_end(end, loose);
+  return end;
+}
+
+RunEnd Recording::along_the_path(Progress& progress) {
   RunListener listener;
   listener.watched = [&](Problem problem, double t) { return progress.watched(std::move(problem), t); };
   listener.failed = [&](double t, const SolveReport& report) { progress.failed(t, report); };
@@ -70,6 +82,11 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
     fail(exit_code_of(interrupted()),
          fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()), end.path.t, n_steps()), "",
          fmt::format("kept: {}.part (the next run continues from there)", output_));
+  const char* cure =
+      run_.body.loads().follow()
+          ? "the next run continues from there); the tangent of a pressure whose rim is free is not symmetric, and Newton's "
+            "method has the symmetric part of it: solver: {kinsol: {strategy: picard}} goes further, and begins anew"
+          : "the next run continues from there); try path.smallest or solver.newton.iterations";
   if (end.at == RunEnd::At::no_equilibrium)
     fail(Exit::not_converged,
          fmt::format(
@@ -79,7 +96,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
          "",
          fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
                      loose.empty()
-                         ? "the next run continues from there); try path.smallest or solver.newton.iterations"
+                         ? cure
                          : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
                            "turning, one beside it, where contact does not: that begins anew"));
 }

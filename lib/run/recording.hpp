@@ -18,24 +18,27 @@ class Recording {
 
   int n_steps() const { return file_.n_steps(); }
   bool continues() const { return resumed_.has_value(); }
-  bool with_other_settings() const;  // the steps that it continues were made
 
-  // Every step is written before the next one begins. Throws Failure(config, not_converged) for a state that is not to be kept.
-  RunEnd follow(Progress& progress);
+  // To the end of the path; what the watch warns of is said. Every step is written before the next one begins.
+  // loose: motions that only contact holds, in words.
+  // Throws Failure(config, not_converged) for a state that is not to be kept, Failure(not_converged) or one with the signal's code where
+  // the end was not reached.
+  RunEnd follow(const Voice& voice, Progress& progress, const std::string& loose);
   double seconds() const { return seconds_; }  // of CPU, for writing
   // at each step, those that were kept too; empty where the config asks for no estimate by refinement
   const std::vector<StepForces>& forces() const { return forces_; }
 
-  // Failure(not_converged), or one with the signal's code, where the end of the path was not reached; loose: motions that only
-  // contact holds, in words.
-  void need_the_end(const RunEnd& end, const std::string& loose) const;
   [[noreturn]] void stopped_in_estimate() const;
 
-  void finish(const std::optional<Cost>& cost, const std::vector<Summary>& said, const SolutionWriter::Histories& found_later) {
-    file_.finish(cost, said, found_later);
+  void finish(const std::vector<Summary>& said, const SolutionWriter::Histories& found_later) {
+    file_.finish(continues() ? std::nullopt : std::optional(cost_so_far()), said, found_later);
   }
 
  private:
+  bool with_other_settings() const;  // the steps that it continues were made
+  RunEnd along_the_path(Progress& progress);
+  void need_the_end(const RunEnd& end, const std::string& loose) const;
+
   Run& run_;
   RunWatch& watch_;
   std::string output_, config_;
