@@ -36,7 +36,7 @@ struct Kind<std::uint8_t> {
   static hid_t memory() { return H5T_NATIVE_UINT8; }
   static constexpr H5T_class_t kind = H5T_INTEGER;
   static constexpr const char* name = "integers (u8)";
-  static constexpr std::uint8_t blank = 255;
+  [[maybe_unused]] static constexpr std::uint8_t blank = 255;  // no table of these grows
 };
 
 std::size_t product(const Shape& shape) {
