@@ -80,7 +80,7 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
                const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
   const Loads loads = loads_of(solution.reader.header());
-  EnergyPath path(solution.body.mesh(), indenters, kinks_of(solution.reader.header()));
+  EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
   for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
   Table table;

@@ -56,7 +56,8 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
 bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
   const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
   if (!block || config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
-  if (!std::holds_alternative<Sphere>(config.contacts.begin()->second.rigid)) return false;
+  const ContactConfig& contact = config.contacts.begin()->second;
+  if (!std::holds_alternative<Sphere>(contact.rigid) || contact.rotation) return false;
   const double a = std::max(print->half(0), print->half(1));
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
@@ -204,8 +205,8 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
   if (estimated)
-    found.words =
-        fmt::format("asked for {:g} %, and the error of the force is estimated at {:.2g} %", chosen.wanted, found.percent);
+    found.words = fmt::format("asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
+                              forces.front().of.of_force() ? "force" : "displacement", found.percent);
   else if (chosen.shown)
     found.words = fmt::format("asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
                               chosen.wanted, found.percent);

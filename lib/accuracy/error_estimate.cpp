@@ -82,7 +82,7 @@ bool is_clamped(const SolveConfig& config) {
   for (const SupportConfig& support : config.supports) given[support.on].insert(support.hold.begin(), support.hold.end());
   for (const LoadConfig& load : config.loads) {
     for (int axis = 0; axis < 3; ++axis)
-      if (load.imposed(axis)) given[load.on].insert(static_cast<Axis>(axis));
+      if (load.tells(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
   return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
 }
@@ -93,8 +93,9 @@ double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
   return std::any_of(config.contacts.begin(), config.contacts.end(),
                      [](const auto& contact) {
-                       return std::holds_alternative<Plane>(contact.second.rigid) ||
-                              std::holds_alternative<Cylinder>(contact.second.rigid);
+                       const Indenter& rigid = contact.second.rigid;
+                       return std::holds_alternative<Plane>(rigid) || std::holds_alternative<Cylinder>(rigid) ||
+                              std::holds_alternative<Aperture>(rigid);
                      })
              ? 1
              : 2;
@@ -105,13 +106,16 @@ const Valued& quantity(const ErrorEstimate& estimate) { return estimate.of; }
 
 template <class Item>
 std::vector<Item> forces_among(const std::vector<Item>& all) {
-  for (const char* begins : {"force_", "force", "reaction_"}) {
-    std::vector<Item> found;
+  std::vector<Item> found;
+  const auto take = [&](const char* begins) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
                  [&](const Item& item) { return quantity(item).name.starts_with(begins); });
-    if (!found.empty()) return found;
-  }
-  return {};
+  };
+  for (const char* begins : {"force_", "force", "reaction_"})
+    if (found.empty()) take(begins);
+  take("torque_");
+  if (found.empty()) take("displacement_");
+  return found;
 }
 
 }  // namespace
@@ -146,7 +150,8 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
-  for (const auto& [name, newtons] : step_forces(config, scene, mesh, state).of) found.push_back({name, "N", newtons});
+  for (const auto& [name, size] : step_forces(config, scene, mesh, state).of)
+    found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
   // the stress of a viscous body follows from all of its steps, and one is here
   if (const Body body(mesh, scene.materials, scene.directions, scene.formulation); !body.viscous()) {
     const GaussValues gauss = gauss_values(body, state.u);

@@ -38,10 +38,10 @@ namespace langer {
 struct Valued {
   std::string name, unit;
   double value = 0;
-  bool of_force() const { return unit == langer::unit::N; }
+  bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
 };
 // of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
-// moved, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
+// moved, torque_<name> of what turns, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // A config that holds its mesh, solved without a file.
@@ -77,7 +77,7 @@ struct ErrorEstimate {
 };
 
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
-// reactions.
+// reactions; and torques; where forces alone load the body, the displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "mesh/bounds.hpp"
+
 namespace langer {
 
 namespace {
@@ -55,17 +57,11 @@ bool before(const Vec3& a, const Vec3& b, double tolerance) {
   return false;
 }
 
-double size_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  return (high - low).norm();
-}
-
 }  // namespace
 
 std::optional<Symmetry> find_symmetry(const Mesh& mesh, const Vec3& signs, const Vec3& centre) {
   Symmetry s{signs, centre, {}, {}};
-  const double size = size_of(mesh), tolerance = 1e-9 * size;
+  const double size = bounds(mesh.X).size().norm(), tolerance = 1e-9 * size;
   const Places places(mesh.X, size / std::cbrt(static_cast<double>(mesh.X.size())));
   for (const Vec3& X : mesh.X) {
     const int image = places.at(centre + signs.cwiseProduct(X - centre), tolerance);
@@ -179,7 +175,7 @@ void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group, const std::
 }  // namespace
 
 Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
-  const double tolerance = 1e-7 * size_of(mesh);
+  const double tolerance = 1e-7 * bounds(mesh.X).size().norm();
   const std::vector<Symmetry> group = group_of(mesh, generators);
   Quotient q;
   keep_cells(mesh, group, tolerance, q);

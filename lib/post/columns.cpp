@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "mesh/section.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/curves.hpp"
 #include "post/steps.hpp"
@@ -112,9 +113,11 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, 
   for (const ColumnChoice& c : columns) names.push_back(column_name(c));
   for (const ColumnChoice& c : columns) {
     out.push_back(c);
-    if (!c.quantity) continue;
-    const std::string_view word = line_of(*c.quantity).word;
-    const std::string history = error_of(word == "force"                         ? "force"
+    const bool of_torque = c.history && c.history->starts_with("torque_");
+    if (!c.quantity && !of_torque) continue;
+    const std::string_view word = of_torque ? *c.history : line_of(*c.quantity).word;
+    const std::string history = error_of(of_torque                               ? *c.history
+                                         : word == "force"                       ? "force"
                                          : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at
                                                                                  : "");
     const std::string name = error_of(column_name(c));
@@ -171,6 +174,9 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                    did_you_mean(*c.at, sets));
         else
           m.nodes = set->second;
+        if (line.needs.facets && !m.nodes.empty()) m.facets = surface_of(body.mesh(), *c.at);
+        if (line.needs.facets && !m.nodes.empty() && m.facets.empty())
+          complain("at", fmt::format("found \"{}\", a set without facets", *c.at), "a set that covers facets", "");
       }
       m.family = c.family - 1;
       if (is<OfPoint>(line) && line.needs.fibres && c.family > body.n_families())

@@ -62,6 +62,7 @@ struct Measure {
   std::string history;
   std::optional<std::array<std::string, 2>> quotient;
   std::vector<int> nodes;
+  std::vector<Facet> facets;  // where they are needed
   std::optional<std::string> zero_at;
   std::string key;  // of the column
   int family = 0;   // from 0

@@ -1,8 +1,9 @@
 // Energy along the path of a solution: the work of what moves the body, and what friction takes of it.
-//   work        of the indenters, of imposed displacements and of forces on the surface, the integral of force over movement
+//   work        of the indenters (force along their way and torque over their angle), of imposed displacements and of forces on the surface, the integral of force over movement
 //               [N mm]: a parabola through each three neighbouring states of a straight piece of the path (trapezoids would err by
 //               the step squared)
-//   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]
+//   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]; of
+//               an indenter that turns the slip seen from half of its angle on, as long as the arc
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
 //   hysteresis  work since the first indenter last began to go on after it had come back: at the end of a cycle what that has cost [N mm]
@@ -12,6 +13,7 @@
 
 #include <vector>
 
+#include "assembly/dofs.hpp"
 #include "contact/contact.hpp"
 #include "mesh/mesh.hpp"
 
@@ -24,7 +26,8 @@ struct PathSums {
 class EnergyPath {
  public:
   // kinks: places on the path at which an imposed displacement or a load changes its rate
-  EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks = {});
+  EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks = {},
+             std::vector<TurnedSet> turned = {});
 
   struct State {
     double t = 0;
@@ -43,13 +46,19 @@ class EnergyPath {
     double way, dissipated;
     double travel, force;  // of the first indenter at the end: distance from its start, length of the force
   };
+  struct Ends {
+    std::vector<Vec3> begin, end;  // (n)
+  };
+  void add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) const;
+  Ends imposed(const State& now) const;  // movement in the interval, at the rates of its two ends [mm]
   const Mesh& mesh_;
   std::vector<RigidContact> contacts_;
   std::vector<double> kinks_;
+  std::vector<TurnedSet> turned_;
   State last_;
   std::vector<Interval> intervals_;
   std::vector<double> stored_;
-  std::vector<Vec3> rates_;  // of the indenters in the last interval, per t
+  std::vector<Vec3> rates_;  // of the indenters in the last interval, per t: movement, and rotation after it
 };
 
 }  // namespace langer

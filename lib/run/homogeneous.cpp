@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/bounds.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reference.hpp"
 #include "run/run.hpp"
@@ -15,8 +16,7 @@ namespace {
 
 constexpr double same = 1e-9;
 
-struct Hull {
-  Vec3 low, high;
+struct Hull : Bounds {
   double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
   bool on(const Vec3& X, int axis, int side) const { return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm(); }
 };
@@ -37,7 +37,10 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
 // What whole faces are told, as values of the box's corners; nothing where a node is told something that is not its face's.
 std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs, const Hull& hull) {
   std::map<int, History> imposed, explained;
-  for (const Prescribed& p : dofs.prescribed) imposed[p.dof] = {p.value, p.factor};
+  for (const Prescribed& p : dofs.prescribed) {
+    if (p.turn) return std::nullopt;
+    imposed[p.dof] = {p.value, p.factor};
+  }
   std::vector<Prescribed> corners;
   for (int axis = 0; axis < 3; ++axis)
     for (int side : {-1, 1}) {
@@ -83,9 +86,8 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   if (mesh.section || !scene.contacts.empty() || !scene.loads.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene))
     return false;
-  Hull hull{mesh.X[0], mesh.X[0]};
-  for (const Vec3& X : mesh.X) hull.low = hull.low.cwiseMin(X), hull.high = hull.high.cwiseMax(X);
-  const double volume = (hull.high - hull.low).prod();
+  const Hull hull{bounds(mesh.X)};
+  const double volume = hull.size().prod();
   if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
   const auto corners = told_to_faces(mesh, scene.dofs, hull);
   if (!corners) return false;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "config/reader.hpp"
+#include "mesh/bounds.hpp"
 #include "mesh/section.hpp"
 #include "run/step_record.hpp"
 #include "scene/loads.hpp"
@@ -155,15 +156,13 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const auto& [name, contact] : solve.contacts) {
       if (!header.contact_nodes.count(name)) return {};
-      RigidContact indenter{name, contact.rigid, contact.friction, header.contact_nodes.at(name), {}};
+      RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
+      indenter.nodes = header.contact_nodes.at(name);
       if (auto* facets = std::get_if<Facets>(&indenter.shape)) {
         const auto surface = header.indenter_surfaces.find(name);
         if (surface == header.indenter_surfaces.end()) continue;
         facets->tree = std::make_shared<TriangleTree>(surface->second);
       }
-      if (contact.control) indenter.control = ForceControl{vec(contact.control->along).normalized(), {}};
-      for (const WaypointConfig& w : contact.motion)
-        indenter.motion.push_back({place(w, solve.path.seconds), Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
     }
   } catch (const Failure&) {
@@ -184,17 +183,17 @@ void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& 
   }
 }
 
-std::vector<double> kinks_of(const SolutionHeader& header) {
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header) {
   std::vector<double> kinks;
   try {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const LoadConfig& load : solve.loads)
       for (const HistoryConfig& history : load.histories())
         for (const HistoryPointConfig& point : history.points) kinks.push_back(place(point, solve.path.seconds));
+    return {mesh, std::move(indenters), std::move(kinks), turned_sets(solve, header.mesh)};
   } catch (const Failure&) {
-    return {};  // written by another version of solve
+    return {mesh, std::move(indenters)};  // written by another version of solve
   }
-  return kinks;
 }
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
@@ -208,9 +207,8 @@ std::vector<std::string> indenters_missing(const SolutionHeader& header, const s
 }
 
 Shown shown_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  return {0.5 * (low + high), (high - low).norm()};
+  const Bounds box = bounds(mesh.X);
+  return {box.middle(), box.size().norm()};
 }
 
 Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {

@@ -3,6 +3,7 @@
 #include "base/interrupt.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/step_record.hpp"
+#include "scene/torque.hpp"
 
 namespace langer {
 
@@ -85,6 +86,7 @@ RunEnd Run::follow(const RunListener& listener) {
       end.at = RunEnd::At::not_homogeneous;
       return false;
     }
+    tell_torques(*whole, mesh, scene);
     if (listener.of_whole) listener.of_whole(*whole, reduction.report(report, *whole));
     if (at_end) end.last = std::move(*whole);
     return !interrupted();

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "scene/torque.hpp"
+
 namespace langer {
 
 namespace {
@@ -27,6 +29,7 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
   if (!scene.contacts.empty()) forces.of["force"] = whole.force_ind.norm();
   if (scene.contacts.size() > 1)
     for (const RigidContact& contact : scene.contacts) forces.of["force_" + contact.name] = force_of(whole, contact.name);
+  forces.of.merge(torques_of(whole, scene));
   for (const std::string& set : moved_sets(config)) {
     Vec3 reaction = Vec3::Zero();
     for (int n : mesh.node_sets.at(set)) reaction += whole.reaction[static_cast<std::size_t>(n)];

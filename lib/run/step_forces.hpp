@@ -2,6 +2,7 @@
 //   force             on the indenter, of several the length of their sum [N]
 //   force_<contact>   of several indenters: on each of them [N]
 //   reaction_<set>    of each set that is moved [N]
+//   torque_<name>     of each indenter that turns and each set that is turned [N mm]
 #pragma once
 
 #include <functional>
@@ -15,7 +16,7 @@ namespace langer {
 
 struct StepForces {
   double t = 0;
-  std::map<std::string, double> of;  // [N]
+  std::map<std::string, double> of;
 };
 StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& whole);
 

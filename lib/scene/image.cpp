@@ -63,13 +63,22 @@ std::string broken_fibres(const Symmetry& g, const Isometry& op, const Mesh& mes
   return "";
 }
 
+// of one component of a displacement, whose sign the symmetry keeps or changes
+bool is_image(const Prescribed& image, const Prescribed& of, double sign) {
+  const auto near = [&](double a, double b, double size) { return std::abs(a - sign * b) <= same * size; };
+  if (!near(image.value, of.value, std::abs(of.value)) || !same_factor(image.factor, of.factor)) return false;
+  if (!image.turn || !of.turn) return !image.turn && !of.turn;
+  const Turn &a = *image.turn, &b = *of.turn;
+  const double size = b.radius() + same;  // a component of a node on the axis is rounding
+  return a.angle == b.angle && near(a.along, b.along, size) && near(a.across, b.across, size);
+}
+
 std::string broken_supports(const Symmetry& g, const Scene& scene) {
   std::map<int, Prescribed> imposed;
   for (const Prescribed& p : scene.dofs.prescribed) imposed[p.dof] = p;
   for (const auto& [dof, p] : imposed) {
     const auto other = imposed.find(3 * g.node[dof / 3] + dof % 3);
-    if (other == imposed.end() || std::abs(other->second.value - g.signs[dof % 3] * p.value) > same * std::abs(p.value) ||
-        !same_factor(other->second.factor, p.factor))
+    if (other == imposed.end() || !is_image(other->second, p, g.signs[dof % 3]))
       return fmt::format("what holds or moves node {} along {}", dof / 3, "xyz"[dof % 3]);
   }
   return "";
@@ -105,6 +114,16 @@ bool same_motion(const std::vector<Waypoint>& a, const std::vector<Waypoint>& b,
                     [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.to, q.to, op); });
 }
 
+// Turns are no arrows: a mirror that leaves the axis in place turns the other way.
+bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry& op) {
+  if (!a.rotation || !b.rotation) return !a.rotation && !b.rotation;
+  const History &angle = a.rotation->angle, &image = b.rotation->angle;
+  const double hand = cross(op.turn.col(0), op.turn.col(1)).dot(op.turn.col(2));
+  return same_factor(angle.factor, image.factor) &&
+         (hand * angle.value * (op.turn * a.rotation->axis.along) - image.value * b.rotation->axis.along).norm() <=
+             same * std::abs(angle.value);
+}
+
 // what keeps b from being the image of a; empty where nothing
 std::string difference(const RigidContact& a, const RigidContact& b, const Symmetry& g, const Isometry& op) {
   if (!becomes(a.shape, b.shape, op)) return fmt::format("the shape or place of the indenter \"{}\"", a.name);
@@ -113,6 +132,7 @@ std::string difference(const RigidContact& a, const RigidContact& b, const Symme
   const bool alike = both_free || (&a == &b && (op.turn * a.control->along - a.control->along).norm() <= same);
   if (!alike) return fmt::format("the force on the indenter \"{}\"", a.name);
   if (!same_motion(a.motion, b.motion, op)) return fmt::format("the path of the indenter \"{}\"", a.name);
+  if (!same_rotation(a, b, op)) return fmt::format("the rotation of the indenter \"{}\"", a.name);
   std::vector<char> candidate(g.node.size(), 0);
   for (int node : b.nodes) candidate[node] = 1;
   const bool all = a.nodes.size() == b.nodes.size() &&

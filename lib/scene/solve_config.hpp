@@ -72,9 +72,26 @@ struct DeadTraction {
   }
 };
 
+struct RotationConfig {
+  HistoryConfig angle;
+  std::array<double, 3> axis{0, 1, 0};
+  std::optional<std::array<double, 3>> through = {};
+  static void fields(auto& v) {
+    v(&RotationConfig::angle, "angle", unit::deg,
+      "by the right hand about the axis, at the end of the path, in proportion to t; or a history", required);
+    v(&RotationConfig::axis, "axis", unit::none, "direction of the axis; any length");
+    v(&RotationConfig::through, "through", unit::mm, "a point of the axis; none: the middle of the box that holds the set");
+  }
+  std::vector<Complaint> complaints() const {
+    if (axis == std::array<double, 3>{}) return {{"axis", "found [0, 0, 0]", "a direction", ""}};
+    return {};
+  }
+};
+
 struct LoadConfig {
   std::string on;
   std::optional<Displacement> displacement;
+  std::optional<RotationConfig> rotation = {};
   std::optional<DeadForce> force;
   std::optional<DeadTraction> traction;
   std::optional<HistoryConfig> pressure;
@@ -82,14 +99,17 @@ struct LoadConfig {
     v(&LoadConfig::on, "on", unit::none, "node set of the mesh; of a force, a traction or a pressure one that covers facets",
       required);
     v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement");
+    v(&LoadConfig::rotation, "rotation", unit::none,
+      "the set is turned as a rigid body, as what is glued to it; displacement beside it moves that as a whole");
     v(&LoadConfig::force, "force", unit::none, "dead force on the whole set, spread evenly over its area at rest");
     v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");
     v(&LoadConfig::pressure, "pressure", unit::MPa,
       "pressure that follows the surface, positive into the body; at the end of the path, in proportion to t; or a history");
   }
-  bool on_surface() const { return !displacement; }
+  bool on_surface() const { return !displacement && !rotation; }
   // components along an axis; none where there is none
   std::optional<HistoryConfig> imposed(int axis) const { return displacement ? displacement->along(axis) : std::nullopt; }
+  bool tells(int axis) const { return rotation || imposed(axis); }  // where the set's nodes go along it
   std::optional<HistoryConfig> dead(int axis) const {
     return force ? force->along(axis) : traction ? traction->along(axis) : std::nullopt;
   }
@@ -99,6 +119,7 @@ struct LoadConfig {
       for (const auto& [kind, one] :
            {std::pair("displacement.", imposed(axis)), std::pair(force ? "force." : "traction.", dead(axis))})
         if (one) all[std::string(kind) + "xyz"[axis]] = *one;
+    if (rotation) all["rotation.angle"] = rotation->angle;
     if (pressure) all["pressure"] = *pressure;
     return all;
   }
@@ -108,8 +129,8 @@ struct LoadConfig {
     return all;
   }
   std::vector<Complaint> complaints() const {
-    constexpr const char* kinds = "exactly one of displacement, force, traction, pressure";
-    const int n = displacement.has_value() + force.has_value() + traction.has_value() + pressure.has_value();
+    constexpr const char* kinds = "exactly one of displacement (with or without rotation), force, traction, pressure";
+    const int n = !on_surface() + force.has_value() + traction.has_value() + pressure.has_value();
     if (n != 1) return {{"", n == 0 ? "found no load" : "found several kinds of load", kinds, ""}};
     if (!histories().empty()) return {};
     return {{displacement ? "displacement" : force ? "force" : "traction", "found no component", "x, y or z", ""}};
@@ -151,6 +172,7 @@ struct ContactConfig {
   double friction = 0;
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
+  std::optional<HistoryConfig> rotation = {};
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
@@ -160,10 +182,15 @@ struct ContactConfig {
     v(&ContactConfig::motion, "motion", unit::none,
       "where the indenter goes, straight from point to point; beside control only across its direction");
     v(&ContactConfig::control, "control", unit::none, "the indenter is pushed with a given force, and its travel is found");
+    v(&ContactConfig::rotation, "rotation", unit::deg,
+      "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
+      "history, as a displacement");
   }
   std::vector<Complaint> complaints() const {
-    if (control && motion.empty()) return {};
-    std::vector<Complaint> found = place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place");
+    std::vector<Complaint> found = of_rotation();
+    if (control && motion.empty()) return found;
+    for (Complaint& complaint : place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
+      found.push_back(std::move(complaint));
     for (std::size_t i = 0; control && i < motion.size(); ++i) {
       double dot = 0, size = 0;
       for (std::size_t k = 0; k < 3; ++k)
@@ -173,6 +200,18 @@ struct ContactConfig {
                          "how far it goes there follows from control.force"});
     }
     return found;
+  }
+
+ private:
+  std::vector<Complaint> of_rotation() const {
+    if (!rotation) return {};
+    if (!axis_of(rigid))
+      return {{"rotation", "found with a shape that has no axis of revolution",
+               "a sphere, a plane, a cylinder, an ellipsoid with two equal half axes",
+               "another shape is another one once it has turned"}};
+    if (friction == 0)
+      return {{"rotation", "found without friction", "friction above 0", "what turns without it does not reach the body"}};
+    return {};
   }
 };
 
@@ -335,9 +374,11 @@ struct SolveConfig {
       if (pushed)
         found.push_back({key, "found beside an indenter under force control", "one that moves as told",
                          "errors are told of its force, which is given here"});
-      else if (contacts.empty() && !moved && (accuracy || fidelity || refines))
-        found.push_back({key, "found where forces alone load the body", "an indenter or an imposed displacement",
-                         "errors are told of the force that it needs; estimate: recovery tells that of the stress"});
+      else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) && (accuracy || fidelity || refines))
+        found.push_back(
+            {key, "found where forces alone load the body", "an indenter, an imposed displacement, or points in the mesh",
+             "errors are told of the force that it needs, or of the displacement of mesh.points; estimate: recovery tells "
+             "that of the stress"});
     }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
@@ -362,6 +403,7 @@ struct SolveConfig {
     for (const auto& [name, contact] : contacts) {
       look_at(contact.motion, "contacts." + name + ".motion");
       if (contact.control) look_at(contact.control->force.points, "contacts." + name + ".control.force");
+      if (contact.rotation) look_at(contact.rotation->points, "contacts." + name + ".rotation");
     }
     for (std::size_t i = 0; i < loads.size(); ++i)
       for (const auto& [key, history] : loads[i].histories_by_key())

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "element/solid.hpp"
+#include "mesh/bounds.hpp"
 #include "mesh/section.hpp"
 #include "scene/image.hpp"
 #include "scene/section.hpp"
@@ -90,19 +91,13 @@ std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>&
   return group;
 }
 
-Vec3 middle_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  return 0.5 * (low + high);
-}
-
 }  // namespace
 
 std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
                                                const std::function<Place(const std::string&)>& where) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
-  const Vec3 centre = middle_of(mesh);
+  const Vec3 centre = bounds(mesh.X).middle();
   Found found(mesh, scene, centre);
   for (const auto& operations : operations(wanted)) {
     std::vector<const Generator*> generators;
@@ -163,7 +158,7 @@ void ReducedScene::take_supports(const Scene& scene) {
   for (const Prescribed& p : scene.dofs.prescribed) {
     const Image& image = q.node_image[p.dof / 3];
     if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
-      prescribed.push_back({3 * image.of + p.dof % 3, p.value, p.factor});
+      prescribed.push_back(p), prescribed.back().dof = 3 * image.of + p.dof % 3;
   }
   scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
 }
@@ -186,7 +181,8 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
   std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
-    RigidContact part{whole.name, whole.shape, whole.mu, {}, whole.motion, whole.control};
+    RigidContact part = whole;
+    part.nodes.clear();
     std::vector<double> share;
     std::vector<std::array<int, 2>> origin;
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {

@@ -59,23 +59,18 @@ void Statics::begin(double t) {
   const bool pushed = controlled_ >= 0 && controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
   // then the last movement does not go on
   const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
-  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on(last)) extrapolate(std::min((t - now_.t) / last, 2.0));
+  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
 }
 
 // Behind a kink of what moves nodes the last movement says nothing.
-bool Statics::goes_on(double last) const {
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) {
-    if (!p.factor) continue;
-    const double rate = (p.at(t_) - p.at(now_.t)) / (t_ - now_.t), before = (p.at(now_.t) - p.at(before_.t)) / last;
-    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
-  }
-  if (controlled_ >= 0) {
-    const History& force = controlled()->control->force;
-    const double rate = (force.at(t_) - force.at(now_.t)) / (t_ - now_.t), before = (force.at(now_.t) - force.at(before_.t)) / last;
-    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
-  }
+bool Statics::goes_on() const {
+  for (const Prescribed& p : equilibrium_.dofs().prescribed)
+    if (!p.in_proportion() && !p.goes_on(before_.t, now_.t, t_)) return false;
+  if (controlled_ >= 0 && !controlled()->control->force.goes_on(before_.t, now_.t, t_)) return false;
+  for (const RigidContact& contact : contacts_)
+    if (contact.rotation && !contact.rotation->angle.goes_on(before_.t, now_.t, t_)) return false;
   return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
 }
 
@@ -103,18 +98,25 @@ void Statics::bring_to_touch() {
 
 // A node that is open where the increment begins slips only from where it touches: at the share of the extrapolated movement that
 // its gap takes to close. Without this its reaction is that of a slip it never made, an error of first order in the increment.
+// What touches an indenter that turns is carried along from there.
 void Statics::slip_from_touch() {
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
     if (contact.mu == 0) continue;
     const Vec3 c = indenter_displacement(contact, t_, travel_), c0 = indenter_displacement(contact, now_.t, now_.travel);
+    const double angle = contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0;
     for (int node : contact.nodes) {
       const auto u0 = now_.u.segment<3>(3 * node), u = u_.segment<3>(3 * node);
       const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
-      if (!(gap > options_.gap_tolerance)) continue;
-      const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
-      u_start_[k].segment<3>(3 * node) = u0 + (closed > gap ? gap / closed : 1) * (u - u0 - (c - c0));
+      auto start = u_start_[k].segment<3>(3 * node);
+      double touches = 0;  // at this share of the increment
+      if (gap > options_.gap_tolerance) {
+        const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
+        touches = closed > gap ? gap / closed : 1;
+        start = u0 + touches * (u - u0 - (c - c0));
+      }
+      if (contact.rotation) start += carried(contact, (1 - touches) * angle, X[node] + start, c0);
     }
   }
 }
@@ -138,9 +140,24 @@ double Statics::motion(double t0) const {
   double largest = 0;
   const double travel = t0 == now_.t ? now_.travel : before_.travel;
   for (const RigidContact& contact : contacts_)
-    largest = std::max(largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm());
+    largest = std::max({largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm(),
+                        turning(contact, t0, indenter_displacement(contact, t0, travel))});
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    largest = std::max(largest, std::abs(p.factor ? p.at(t_) - p.at(t0) : p.value * (t_ - t0)));
+    largest = std::max(largest, std::abs(p.in_proportion() ? p.value * (t_ - t0) : p.at(t_) - p.at(t0)));
+  return largest;
+}
+
+double Statics::turning(const RigidContact& contact, double t0, const Vec3& c0) const {
+  if (!contact.rotation) return 0;
+  const double angle = contact.rotation->angle.at(t_) - contact.rotation->angle.at(t0);
+  const std::vector<Vec3>& r = r_[static_cast<std::size_t>(&contact - contacts_.data())];
+  double largest = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const int node = contact.nodes[i];
+    if (r[i].isZero(0)) continue;
+    const Vec3 x = equilibrium_.mesh().X[node] + u_.segment<3>(3 * node);
+    largest = std::max(largest, carried(contact, angle, x, c0).norm());
+  }
   return largest;
 }
 

@@ -79,8 +79,8 @@ class Statics {
   const LinearSolver& linear() const { return factor_.linear(); }
 
  private:
-  bool goes_on(double last) const;  // imposed displacements, as in the last increment
-  void extrapolate(double s);       // by s times the last increment
+  bool goes_on() const;        // imposed displacements, as in the last increment
+  void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
@@ -95,8 +95,9 @@ class Statics {
   bool slips_away() const;
   void moved(const VecX& du, double step);
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
-  std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
-  void bring_to_touch();                                       // the indenter under force control, where it bears nothing
+  double turning(const RigidContact& contact, double t0, const Vec3& c0) const;  // the same of what turns with it
+  std::vector<Vec3> indenters(double t, double travel) const;                    // displacement of each
+  void bring_to_touch();  // the indenter under force control, where it bears nothing
   bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
   VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
