@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
 
@@ -19,7 +19,7 @@ Vec3 vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace
 
-double size(const Mesh& mesh) { return bounds(mesh.X).size().norm(); }
+double size(const Mesh& mesh) { return bounding_box(mesh.X).size().norm(); }
 
 std::vector<int> all_nodes(const Mesh& mesh) {
   std::vector<int> nodes(mesh.X.size());
@@ -95,7 +95,7 @@ std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& fac
 std::vector<std::string> side_names() { return {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "bottom", "top"}; }
 
 void name_sides(Mesh& mesh) {
-  const Bounds b = bounds(mesh.X);
+  const BoundingBox b = bounding_box(mesh.X);
   const std::vector<Facet> outer = boundary(mesh);
   const std::vector<int> all = all_nodes(mesh);
   for (const char* axis : {"x", "y", "z"})

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 
 namespace langer {
 
@@ -61,7 +61,7 @@ bool before(const Vec3& a, const Vec3& b, double tolerance) {
 
 std::optional<Symmetry> find_symmetry(const Mesh& mesh, const Vec3& signs, const Vec3& centre) {
   Symmetry s{signs, centre, {}, {}};
-  const double size = bounds(mesh.X).size().norm(), tolerance = 1e-9 * size;
+  const double size = bounding_box(mesh.X).size().norm(), tolerance = 1e-9 * size;
   const Places places(mesh.X, size / std::cbrt(static_cast<double>(mesh.X.size())));
   for (const Vec3& X : mesh.X) {
     const int image = places.at(centre + signs.cwiseProduct(X - centre), tolerance);
@@ -175,7 +175,7 @@ void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group, const std::
 }  // namespace
 
 Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
-  const double tolerance = 1e-7 * bounds(mesh.X).size().norm();
+  const double tolerance = 1e-7 * bounding_box(mesh.X).size().norm();
   const std::vector<Symmetry> group = group_of(mesh, generators);
   Quotient q;
   keep_cells(mesh, group, tolerance, q);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reference.hpp"
 #include "run/run.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double same = 1e-9;
 
-struct Hull : Bounds {
+struct Hull : BoundingBox {
   double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
   bool on(const Vec3& X, int axis, int side) const { return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm(); }
 };
@@ -86,7 +86,7 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   if (mesh.section || !scene.contacts.empty() || !scene.loads.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene))
     return false;
-  const Hull hull{bounds(mesh.X)};
+  const Hull hull{bounding_box(mesh.X)};
   const double volume = hull.size().prod();
   if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
   const auto corners = told_to_faces(mesh, scene.dofs, hull);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "config/reader.hpp"
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
 #include "run/step_record.hpp"
 #include "scene/loads.hpp"
@@ -207,7 +207,7 @@ std::vector<std::string> indenters_missing(const SolutionHeader& header, const s
 }
 
 Shown shown_of(const Mesh& mesh) {
-  const Bounds box = bounds(mesh.X);
+  const BoundingBox box = bounding_box(mesh.X);
   return {box.middle(), box.size().norm()};
 }
 

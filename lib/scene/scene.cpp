@@ -10,7 +10,7 @@
 #include "contact/surface_check.hpp"
 #include "contact/touch.hpp"
 #include "geometry/read_surface.hpp"
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/reference.hpp"
 #include "scene/loads.hpp"
 #include "scene/section.hpp"
@@ -324,7 +324,7 @@ std::vector<TurnedSet> turned_sets(const SolveConfig& config, const Mesh& mesh) 
     const RotationConfig& turn = *load.rotation;
     TurnedSet& out = turned.emplace_back();
     out.name = load.on, out.nodes = set->second, out.angle = radians(turn.angle, config.path.seconds);
-    out.axis = {turn.through ? vec(*turn.through) : bounds(places).middle(), direction(turn.axis)};
+    out.axis = {turn.through ? vec(*turn.through) : bounding_box(places).middle(), direction(turn.axis)};
     for (int k = 0; k < 3; ++k)
       if (const auto to = load.imposed(k)) out.to[static_cast<std::size_t>(k)] = history_of(*to, config.path.seconds);
   }

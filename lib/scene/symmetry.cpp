@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "element/solid.hpp"
-#include "mesh/bounds.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
 #include "scene/image.hpp"
 #include "scene/section.hpp"
@@ -97,7 +97,7 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
                                                const std::function<Place(const std::string&)>& where) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
-  const Vec3 centre = bounds(mesh.X).middle();
+  const Vec3 centre = bounding_box(mesh.X).middle();
   Found found(mesh, scene, centre);
   for (const auto& operations : operations(wanted)) {
     std::vector<const Generator*> generators;
