@@ -164,8 +164,9 @@ struct Planned {
   std::vector<Step> steps;
 };
 
-Planned planned(const std::string& pipeline_file, std::string folder, bool with_data = false) {
+Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides, bool with_data = false) {
   Tree tree = load_yaml(pipeline_file);
+  apply(overrides, tree);
   set_base(tree, "");
   const Pipeline written = read_pipeline(tree);
   if (folder.empty()) folder = "runs/" + written.name;
@@ -180,13 +181,13 @@ Planned planned(const std::string& pipeline_file, std::string folder, bool with_
 
 }  // namespace
 
-PlanReport check_pipeline(const std::string& pipeline_file, std::string folder) {
-  return planned(pipeline_file, std::move(folder), true).report;
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder, const Overrides& overrides) {
+  return planned(pipeline_file, std::move(folder), overrides, true).report;
 }
 
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
-                bool slurm) {
-  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder));
+                bool slurm, const Overrides& overrides) {
+  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides);
   make_folder(report.folder);
   const std::string makefile = (fs::path(report.folder) / "Makefile").string();
   need_own_text(makefile, planned_by);
