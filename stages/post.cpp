@@ -7,12 +7,14 @@
 #include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
 #include "plot/pictures.hpp"
+#include "post/contact_surface.hpp"
 #include "run/post_config.hpp"
 #include "run/post_files.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
 #include "store/snapshot.hpp"
 #include "store/solution_file.hpp"
+#include "store/vtu.hpp"
 
 namespace langer {
 namespace {
@@ -76,6 +78,17 @@ struct Table {
   }
 };
 
+// the surfaces that may touch, where a column asks for them
+std::map<std::string, ContactSurface> surfaces_of(const Solution& solution, const std::vector<Measure>& measures) {
+  std::map<std::string, ContactSurface> surfaces;
+  if (std::none_of(measures.begin(), measures.end(),
+                   [](const Measure& m) { return m.quantity && is_of_contact_surface(line_of(*m.quantity).word); }))
+    return surfaces;
+  for (const auto& [name, nodes] : solution.reader.header().contact_nodes)
+    surfaces.emplace(name, ContactSurface(solution.reader.header().mesh, nodes));
+  return surfaces;
+}
+
 Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
                const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
@@ -83,10 +96,13 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
   EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
   for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
+  const auto surfaces = surfaces_of(solution, measures);
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
-    StepState state = state_of(solution.record(row));
+    const StepRecord record = solution.record(row);
+    StepState state = state_of(record);
+    add_contact_numbers(state.histories, surfaces, record);
     state.sums = sums[row];
     GaussValues gauss;
     const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
@@ -177,6 +193,26 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
   return render(scene, choice);
 }
 
+void write_series(const Job<PostConfig>& job, const Solution& solution) {
+  const SolutionHeader& header = solution.reader.header();
+  const std::string folder = job.beside("series");
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (!std::filesystem::is_directory(folder)) throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made", "", ""});
+  std::vector<std::pair<double, std::string>> files;
+  for (int row = 0; row <= solution.reader.n_steps(); ++row) {
+    StepRecord record = solution.record(row);
+    if (row == 0)  // every state has the same fields; the gap at rest is not recorded
+      for (const auto& [name, nodes] : header.contact_nodes)
+        record.contacts[name] = {std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
+                                 std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
+    const SnapshotFields fields = snapshot_fields(solution.body, header, record, job.config.stress);
+    files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
+    write_vtu(job.beside(files.back().second), header.mesh, record.t, fields.points, fields.cells);
+  }
+  write_pvd(job.beside("series.pvd"), files);
+}
+
 std::vector<Summary> post(const Job<PostConfig>& job) {
   PostConfig config = job.config;
   const Solution solution(job.input("solution"));
@@ -193,6 +229,12 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);
   std::vector<Complaint> complaints = shown.complaints;
+  for (const auto& [key, list] : {std::pair{"columns", &shown.measures}, {"further", &further.measures}})
+    for (std::size_t i = 0; header.mesh.section && i < list->size(); ++i)
+      if ((*list)[i].quantity && is_of_contact_surface(line_of(*(*list)[i].quantity).word))
+        complaints.push_back({fmt::format("{}[{}].quantity", key, i),
+                              fmt::format("{} of a section", line_of(*(*list)[i].quantity).word), "another quantity",
+                              "a section's reactions are those of the whole body"});
   for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body)})
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
@@ -212,8 +254,10 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   write_text_file(csv_file.string(), csv(curves.columns));
   for (int row : snapshots) {
     const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
-    write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity);
+    write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity,
+                   table.t[static_cast<std::size_t>(row)]);
   }
+  if (config.series) write_series(job, solution);
   Pictures pictures(std::filesystem::path(job.output).parent_path().string());
   for (const auto& [name, figure] : config.figures) {
     Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);

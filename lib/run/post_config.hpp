@@ -20,6 +20,7 @@ struct PostConfig {
   std::vector<ColumnChoice> columns, further;
   std::map<std::string, std::string> summary_at;
   std::vector<std::string> snapshots;
+  bool series = false;
   std::map<std::string, FigureChoice> figures;
   std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
@@ -33,6 +34,8 @@ struct PostConfig {
       "the table, t=0.5 or u_ind=0.5, and the path must stop there");
     v(&PostConfig::snapshots, "snapshots", unit::none,
       "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
+    v(&PostConfig::series, "series", unit::none,
+      "all states with their times for ParaView, PyVista and meshio: series.pvd, and series/step_<row>.vtu with what a snapshot has");
     v(&PostConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg and <name>.png");
     v(&PostConfig::maps, "maps", unit::none,
       "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");

@@ -8,6 +8,7 @@
 #include "config/reader.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
+#include "post/contact_surface.hpp"
 #include "run/step_record.hpp"
 #include "scene/loads.hpp"
 #include "scene/solve_config.hpp"
@@ -114,7 +115,15 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   }
   out.points = {std::move(u), std::move(reaction)};
   at_nodes.move_to(out.points);
-  for (const auto& [name, contact] : record.contacts) add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
+  for (const auto& [name, contact] : record.contacts) {
+    add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
+    if (mesh.section) continue;
+    const ContactState state = ContactSurface(mesh, header.contact_nodes.at(name)).at(record.u, contact);
+    Field traction = field("contact_traction_" + name, "MPa", 3, n);
+    for (std::size_t i = 0; i < n; ++i) put(traction, i, state.traction[i]);
+    out.points.push_back(std::move(traction));
+    out.points.push_back({"contact_pressure_" + name, "MPa", 1, state.pressure});
+  }
 
   StressFields means(n_cells, body.n_families());
   std::vector<Field> before, after;
