@@ -64,16 +64,19 @@ Signature signs(const MatX& M, bool zero_energy_too) {
 
 }  // namespace
 
+void Statics::need_factor_of_accepted(double within) {
+  const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
+  if (factor_.kind() != TangentFactor::Kind::none && (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= within * moved) return;
+  const TangentFactor::Counts needed = factor_.counts();
+  need_tangent();
+  factorize();
+  factor_.uncount(needed);  // they count what the solution needed
+}
+
 Signature Statics::signature() {
   const Dofs& dofs = equilibrium_.dofs();
-  const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
   using Kind = TangentFactor::Kind;
-  if (factor_.kind() == Kind::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 0.02 * moved) {
-    const TangentFactor::Counts needed = factor_.counts();
-    need_tangent();
-    factorize();
-    factor_.uncount(needed);  // they count what the solution needed
-  }
+  need_factor_of_accepted(0.02);
   if (factor_.kind() == Kind::whole && contacts_.empty()) return {};
   const auto contacts = contacts_.empty() ? std::vector<NodeContact>(equilibrium_.mesh().n_nodes())
                                           : node_contacts(*this, equilibrium_.mesh().X, equilibrium_.mesh().n_nodes());
