@@ -164,6 +164,12 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
+    chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
+    chosen.shown = false;
+    chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
+    return chosen;
+  }
   const SolveConfig written = config;
   Geometry& geometry = config.mesh->geometry;
   const std::optional<Footprint> print =
@@ -296,7 +302,8 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
-  if (estimates.empty() && config_.estimate != EstimateBy::refinement) return voice_.warn("accuracy: " + found.words);
+  if (estimates.empty() && config_.estimate != EstimateBy::refinement && config_.estimate != EstimateBy::dual)
+    return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
   throw Failure(Exit::not_accurate,
                 Error{where_(key), key, found.words, fmt::format("at most {:g} %", chosen_->wanted),

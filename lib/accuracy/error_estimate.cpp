@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "accuracy/dual_estimate.hpp"
 #include "accuracy/refinements.hpp"
 #include "accuracy/truncation.hpp"
 #include "assembly/equilibrium.hpp"
@@ -87,20 +88,6 @@ bool is_clamped(const SolveConfig& config) {
   return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
 }
 
-// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
-// do where a force is passed on by a clamped face; below an indenter such a face is far away.
-double order_of_force(const SolveConfig& config) {
-  if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
-  return std::any_of(config.contacts.begin(), config.contacts.end(),
-                     [](const auto& contact) {
-                       const Indenter& rigid = contact.second.rigid;
-                       return std::holds_alternative<Plane>(rigid) || std::holds_alternative<Cylinder>(rigid) ||
-                              std::holds_alternative<Aperture>(rigid);
-                     })
-             ? 1
-             : 2;
-}
-
 const Valued& quantity(const Valued& found) { return found; }
 const Valued& quantity(const ErrorEstimate& estimate) { return estimate.of; }
 
@@ -119,6 +106,20 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 }
 
 }  // namespace
+
+// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
+// do where a force is passed on by a clamped face; below an indenter such a face is far away.
+double order_of_force(const SolveConfig& config) {
+  if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
+  return std::any_of(config.contacts.begin(), config.contacts.end(),
+                     [](const auto& contact) {
+                       const Indenter& rigid = contact.second.rigid;
+                       return std::holds_alternative<Plane>(rigid) || std::holds_alternative<Cylinder>(rigid) ||
+                              std::holds_alternative<Aperture>(rigid);
+                     })
+             ? 1
+             : 2;
+}
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) { return forces_among(estimates); }
@@ -271,9 +272,10 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
   return estimate_along(config, material, where, {found, {}, 0}, residual, listener).at_end;
 }
 
-PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, const Run& run,
+PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, Run& run,
                      const StepRecord& last, const std::vector<StepForces>& path, const EstimateListener& listener) {
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
+  if (config.estimate == EstimateBy::dual) return {dual_errors(config, run, last, found), {}, 0};
   if (config.estimate == EstimateBy::recovery) return {recovered_errors(run.scene, run.mesh, last, found), {}, 0};
   return estimate_along(config, material, where, {found, path, 0}, last.residual, listener);
 }

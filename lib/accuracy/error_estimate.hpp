@@ -76,6 +76,8 @@ struct ErrorEstimate {
   double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };
 
+double order_of_force(const SolveConfig& config);  // p of its error
+
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
 // reactions; and torques; where forces alone load the body, the displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
@@ -107,7 +109,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
 
 // as config.estimate says, of the last state of its run and of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
-                     const std::function<Place(const std::string&)>& where, const Run& run, const StepRecord& last,
+                     const std::function<Place(const std::string&)>& where, Run& run, const StepRecord& last,
                      const std::vector<StepForces>& path, const EstimateListener& listener);
 
 // "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6"

@@ -252,8 +252,8 @@ enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
 // How the errors of a result are estimated (accuracy/error_estimate.hpp).
-enum class EstimateBy { none, recovery, refinement, automatic };
-constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto"}; }
+enum class EstimateBy { none, recovery, refinement, automatic, dual };
+constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto", "dual"}; }
 constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }
 
 // What a block or disc leaves out that stands for a larger body (accuracy/truncation.hpp).
@@ -293,8 +293,9 @@ struct SolveConfig {
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other "
       "increments; wants a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is "
-      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
-      "and stress, and in an indentation some times too large");
+      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. dual, on any mesh of an elastic body, without "
+      "friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration. recovery, on "
+      "any mesh and at once: what the stress lacks to be smooth; of force and stress, and in an indentation some times too large");
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
@@ -349,7 +350,7 @@ struct SolveConfig {
     const char* laid_out = "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
     if (estimate == EstimateBy::refinement && !numbers)
       found.push_back({"estimate", "refinement, and " + other_mesh, laid_out,
-                       "coarser cells are made from those numbers; estimate: recovery is for any mesh"});
+                       "coarser cells are made from those numbers; estimate: dual is for any mesh"});
     const bool indented = mesh && has_edge_in_contact_radii(mesh->geometry);
     if (!truncation.empty() && !indented)
       found.push_back({"truncation", "a mesh that is no indented_block or indented_disc", "one of the two",
@@ -364,8 +365,9 @@ struct SolveConfig {
       if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
         found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
     }
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
-      found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && estimate != EstimateBy::dual)
+      found.push_back(
+          {key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: dual beside it judges any mesh as it is"});
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : estimates ? "estimate" : nullptr) {
