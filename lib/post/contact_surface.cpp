@@ -15,7 +15,7 @@ ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates) : 
   facets_ = facets_within(mesh, boundary(mesh), sorted);
 }
 
-ContactState ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
+ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
   std::vector<Vec3> area(mesh_.X.size(), Vec3::Zero());  // inward
   for (const Facet& facet : facets_) {
     ElementNodes x = element_nodes(mesh_, facet.cell);
@@ -26,7 +26,7 @@ ContactState ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord&
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] += force.row(a).transpose();
   }
-  ContactState state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
+  ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates_[i]);
     const double size = area[node].norm();
@@ -46,7 +46,7 @@ void add_contact_numbers(std::map<std::string, double>& numbers, const std::map<
   for (const auto& [name, contact] : record.contacts) {
     const auto surface = surfaces.find(name);
     if (surface == surfaces.end()) continue;
-    const ContactState state = surface->second.at(record.u, contact);
+    const ContactPerArea state = surface->second.at(record.u, contact);
     area += state.area, pressure = std::max(pressure, state.pressure_max);
   }
   if (surfaces.empty()) return;

@@ -16,7 +16,7 @@
 
 namespace langer {
 
-struct ContactState {
+struct ContactPerArea {
   std::vector<Vec3> traction;                     // (n) [MPa]; 0 where nothing touches
   std::vector<double> pressure;                   // (n) [MPa]; 0 where nothing touches
   double area = 0, radius = 0, pressure_max = 0;  // [mm^2]; of a circle of that area [mm]; [MPa]
@@ -26,7 +26,7 @@ class ContactSurface {
  public:
   ContactSurface(const Mesh& mesh, std::vector<int> candidates);  // refers to the mesh
   bool empty() const { return facets_.empty(); }
-  ContactState at(const std::vector<Vec3>& u, const ContactRecord& contact) const;  // u (n) [mm]
+  ContactPerArea at(const std::vector<Vec3>& u, const ContactRecord& contact) const;  // u (n) [mm]
 
  private:
   const Mesh& mesh_;

@@ -43,7 +43,7 @@ std::vector<double> contact_pressure(const Surfaces& surfaces, const std::vector
   std::vector<double> pressure(u.size(), 0);
   for (const auto& [name, contact] : record.contacts)
     if (const auto surface = surfaces.find(name); surface != surfaces.end()) {
-      const ContactState state = surface->second.at(u, contact);
+      const ContactPerArea state = surface->second.at(u, contact);
       for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] = std::max(pressure[i], state.pressure[i]);
     }
   return pressure;

@@ -118,7 +118,7 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   for (const auto& [name, contact] : record.contacts) {
     add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
     if (mesh.section) continue;
-    const ContactState state = ContactSurface(mesh, header.contact_nodes.at(name)).at(record.u, contact);
+    const ContactPerArea state = ContactSurface(mesh, header.contact_nodes.at(name)).at(record.u, contact);
     Field traction = field("contact_traction_" + name, "MPa", 3, n);
     for (std::size_t i = 0; i < n; ++i) put(traction, i, state.traction[i]);
     out.points.push_back(std::move(traction));

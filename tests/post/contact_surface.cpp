@@ -38,7 +38,7 @@ struct Pressed {
 
 TEST_CASE("a uniform pressure comes back at every node, over the deformed area") {
   const Pressed p;
-  const ContactState state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
+  const ContactPerArea state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
   for (const int node : p.top) {
     CHECK(state.pressure[static_cast<std::size_t>(node)] == doctest::Approx(Pressed::pressure).epsilon(1e-12));
     CHECK(state.traction[static_cast<std::size_t>(node)].isApprox(Vec3(0, -Pressed::pressure, 0), 1e-12));
@@ -52,7 +52,7 @@ TEST_CASE("friction is in the traction and not in the pressure, and what does no
   Pressed p;
   for (std::size_t i = 0; i < p.top.size(); ++i) p.contact.r[i] += Vec3(0.1 * p.areas[p.top[i]], 0, 0);
   p.contact.status[0] = 0;
-  const ContactState state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
+  const ContactPerArea state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
   const auto open = static_cast<std::size_t>(p.top[0]), slips = static_cast<std::size_t>(p.top[1]);
   CHECK(state.pressure[open] == 0);
   CHECK(state.traction[open].norm() == 0);
