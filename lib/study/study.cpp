@@ -115,14 +115,6 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   return records;
 }
 
-// how much wider samples must be for rho and deviation that are estimated: the mean over the parameters
-double growth(const ResidualNoise& noise, const FitResult& fit) {
-  VecX with = interval_factors(fit.columns, fit.left_out, noise);
-  ResidualNoise known = noise;
-  known.freedom = std::numeric_limits<double>::infinity();
-  return with.cwiseQuotient(interval_factors(fit.columns, fit.left_out, known)).mean();
-}
-
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
                                const ProgressOf& progress) {
   const LeastSquares q = least_squares_problem(problem);
@@ -151,7 +143,9 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   if (config.bootstrap > 0) {
     BootstrapOptions options;
     options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
-    options.growth = growth(noise, fit), options.threads = config.threads, options.progress = say("bootstrap");
+    const VecX growth = growth_of_intervals(fit.columns, fit.left_out, noise);
+    options.growth = growth.mean(), options.threads = config.threads, options.progress = say("bootstrap");
+    if (noise.rho > 0) options.spread = growth / options.growth;
     const Bootstrap b = bootstrap([&] { return least_squares_problem(problem); }, p, noise, options);
     record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
   }

@@ -1,6 +1,6 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, paper, depths, grading, growth
+//                               only when named: coverage, relaxation, paper, depths, grading, growth
 #include <fmt/format.h>
 
 #include <array>
@@ -23,6 +23,7 @@ using namespace langer;
 
 void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
+void measure_relaxation_coverage();
 
 namespace {
 
@@ -153,6 +154,7 @@ int main(int argc, char** argv) {
   }
   if (wanted("fit")) measure_fit();
   if (asked.count("coverage")) measure_coverage();
+  if (asked.count("relaxation")) measure_relaxation_coverage();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))
     for (int threads : {1, 2}) {
