@@ -227,6 +227,16 @@ void Equilibrium::add_loads(const VecX& u, bool with_tangent, const VecX* du_pre
   });
 }
 
+VecX Equilibrium::skew_pressures(const VecX& u, const VecX& du) const {
+  VecX out = VecX::Zero(dofs_.n);
+  const auto at = [this](const VecX& values) { return [this, &values](int e) { return element_displacements(values, e); }; };
+  loads_.each_skew(t_loads_, at(u), at(du), [&](int e, const ElementNodes& change) {
+    const auto nodes = mesh_.cell(e);
+    for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], !tied_.empty() && tied_[e], change.row(a).transpose());
+  });
+  return out;
+}
+
 void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
   if (pattern_.scattered(e)) {
     const int* slot = pattern_.slots(e);

@@ -32,6 +32,10 @@ class Equilibrium {
   void load_to(double t) { t_loads_ = t; }
   const VecX& f_ext() const { return f_ext_; }  // (3 n) [N]; empty without loads
 
+  // What the forces of pressures change by where the body, at u, moves by du, less what K() has of it: (3 n) [N]. That is the free rim of
+  // a pressed region; 0 without pressures.
+  VecX skew_pressures(const VecX& u, const VecX& du) const;
+
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
   bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);

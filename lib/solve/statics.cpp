@@ -7,6 +7,7 @@
 #include "base/stopwatch.hpp"
 #include "contact/touch.hpp"
 #include "mesh/reference.hpp"
+#include "solve/krylov.hpp"
 
 namespace langer {
 
@@ -301,13 +302,27 @@ std::optional<VecX> Statics::correction_again() {
   return corrected(free_residual() + on_free_rows(equilibrium_.turned_dilatations()));
 }
 
+// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to the whole for a few iterations.
+VecX Statics::with_free_rims(const VecX& rhs) {
+  constexpr double accurate = 1e-6;  // of the correction
+  LinearSolver& linear = factor_.linear();
+  if (!equilibrium_.loads().follow()) return linear.solve(rhs);
+  const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
+  const auto product = [&](const VecX& x) {
+    VecX du = VecX::Zero(u_.size());
+    for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
+    return VecX(x - linear.solve(on_free_rows(equilibrium_.skew_pressures(u_, du))));
+  };
+  return solve_near_identity(product, linear.solve(known), accurate, 40);
+}
+
 std::optional<VecX> Statics::corrected(const VecX& rhs) {
   const Dofs& dofs = equilibrium_.dofs();
   LinearSolver& linear = factor_.linear();
   VecX move;
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = linear.solve(rhs);
+    move = with_free_rims(rhs);
   } else {
     LinearSolver::Half half;
     {

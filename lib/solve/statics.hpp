@@ -102,6 +102,7 @@ class Statics {
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
   std::optional<VecX> corrected(const VecX& rhs);
+  VecX with_free_rims(const VecX& rhs);
   void need_tangent();
   bool factorize();
   void need_factor_of_accepted(double within);  // a share of the step's movement
