@@ -186,7 +186,6 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
   if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
-  if (config.symmetry == SymmetryChoice::none && !is_section(geometry)) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)
     chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",

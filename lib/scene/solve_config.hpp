@@ -181,7 +181,7 @@ struct SolveConfig {
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
-  SymmetryChoice symmetry = SymmetryChoice::none;
+  SymmetryChoice symmetry = SymmetryChoice::automatic;
   Reduce reduce = Reduce::none;
   Homogeneous homogeneous = Homogeneous::automatic;
   int threads = 1, blas_threads = 1;
@@ -222,7 +222,7 @@ struct SolveConfig {
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
-      "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
+      "supports, loads and contacts have. Unsymmetric instabilities are not seen then: none solves the whole body");
     v(&SolveConfig::reduce, "reduce", unit::none,
       "auto: an indented_block with free sides whose scene is the same around its axis is solved as an axisymmetric section, a disc "
       "of its area, where the discs inside and around the block tell that its sides change the force by less than accuracy or "
