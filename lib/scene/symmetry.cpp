@@ -9,6 +9,7 @@
 
 #include "element/solid.hpp"
 #include "mesh/bounding_box.hpp"
+#include "mesh/image.hpp"
 #include "mesh/section.hpp"
 #include "scene/image.hpp"
 #include "scene/section.hpp"
@@ -61,7 +62,8 @@ class Found {
     if (known != known_.end()) return known->second ? &*known->second : nullptr;
     std::optional<Generator>& found = known_[op.name];
     auto g = find_symmetry(mesh_, op.signs, centre_);
-    SceneImage image = g ? image_of(*g, mesh_, scene_) : SceneImage{"the mesh", {}};
+    SceneImage image =
+        g ? image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene_, scene_) : SceneImage{"the mesh", {}};
     if (!image.broken.empty())
       breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
     else
