@@ -3,6 +3,7 @@
 #include "accuracy/accuracy.hpp"
 #include "accuracy/say_errors.hpp"
 #include "accuracy/section_in_place.hpp"
+#include "mirror/mirror.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 #include "run/run_words.hpp"
@@ -46,10 +47,24 @@ Solved solve_by(const Job<SolveConfig>& job, const Law& material, SectionInPlace
   return {Solved::At::the_end, joined({of_path, said, of_fibres, watch.stability_summary()}), errors};
 }
 
+// of the solution given as --mirror, where this one is its image
+std::optional<std::vector<Summary>> copied(const Job<SolveConfig>& job, const SolveConfig& own, const Law& material) {
+  if (!job.has("mirror") || job.dry_run) return {};
+  const std::string of = job.input("mirror"), mesh = job.has("mesh") ? job.input("mesh") : "";
+  const Mirrored image = mirrored({own, material, job.where, job.identity, mesh, of, job.output});
+  if (image.words.empty()) {
+    job.say("not the image of {}, which differs in: {}", of, image.why_not);
+    return {};
+  }
+  job.say("{}: not solved again", image.words);
+  return image.summary;
+}
+
 std::vector<Summary> solve(const Job<SolveConfig>& job) {
   const Law material = job.has("material") ? Law(material_of_body(job.input("material"))) : job.config.material;
   SolveConfig own = job.config;
   if (job.has("mesh")) own.mesh.reset();  // another mesh is solved
+  if (const auto image = copied(job, own, material)) return *image;
   SectionInPlace section(job.voice(), own, material, job.where, job.dry_run);
   const auto accuracy_of = [&] {
     return Accuracy(job.voice(), section.taken() ? section.config() : job.config, material, job.where, job.dry_run);

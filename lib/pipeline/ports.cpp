@@ -22,7 +22,12 @@ const std::vector<StageSpec>& stages() {
          .made_by = {"fit"},
          .required = false,
          .or_key = true,
-         .takes_yaml = true}},
+         .takes_yaml = true},
+        {.name = "mirror",
+         .says =
+             "a solution of the same scene with other fibre angles: where this one is its mirror image, or turned, it is copied",
+         .made_by = {"solve"},
+         .required = false}},
        "solution.h5",
        true},
       {"post",

@@ -227,6 +227,10 @@ void SolutionWriter::State::contact(const StepRecord& record) {
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
+void SolutionWriter::say_image_of(const std::string& which) {
+  state_->file.root().group("provenance").write_text("image_of", which);
+}
+
 namespace {
 // steps that were made by other settings than those of the config in the file
 void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs, const std::string& config) {
