@@ -258,7 +258,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
                    table.t[static_cast<std::size_t>(row)]);
   }
   if (config.series) write_series(job, solution);
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.draw == Draw::always);
   for (const auto& [name, figure] : config.figures) {
     Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);
     plot.rows = static_cast<int>(table.t.size());
@@ -277,8 +277,9 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   identity.solution_cost = header.identity.solution_cost;
   for (const Summary& s : solution.reader.summary()) curves.summary.push_back(s);  // its errors
   write_curves(job.output, curves, identity);
-  job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
-          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size());
+  job.say("{} rows, {} columns in {}; {} snapshots, {} figures{}", table.t.size(), curves.columns.size(),
+          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size(),
+          config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
   return curves.summary;
 }
 

@@ -1,6 +1,7 @@
 // What the post stage's YAML may say.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +16,10 @@
 
 namespace langer {
 
+// When gnuplot draws: members of a large sweep are seldom looked at.
+enum class Draw { always, on_request };
+constexpr auto names(Draw) { return std::array{"always", "on_request"}; }
+
 struct PostConfig {
   StressAt stress = StressAt::nodal_average;
   std::vector<ColumnChoice> columns, further;
@@ -25,6 +30,7 @@ struct PostConfig {
   std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
   std::map<std::string, RenderChoice> renders;
+  Draw draw = Draw::always;
   static void fields(auto& v) {
     v(&PostConfig::stress, "stress", unit::none, "how stress at a node is taken from the Gauss points around it");
     v(&PostConfig::columns, "columns", unit::none, "the table, curves.csv and curves.h5; one row per state", required);
@@ -41,6 +47,9 @@ struct PostConfig {
       "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");
     v(&PostConfig::render, "render", unit::none, "picture of the deformed body, render.svg and render.png");
     v(&PostConfig::renders, "renders", unit::none, "more such pictures by name, <name>.svg and <name>.png");
+    v(&PostConfig::draw, "draw", unit::none,
+      "on_request: figures are left as scripts, and `gnuplot <name>.gp` in their folder draws one; for members of a large sweep, whose "
+      "pictures take more time than they do");
   }
   std::vector<Complaint> complaints() const;
 };
