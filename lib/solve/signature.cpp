@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.hpp"
 #include "solve/statics.hpp"
 
 namespace langer {
@@ -73,7 +74,31 @@ void Statics::need_factor_of_accepted(double within) {
   factor_.uncount(needed);  // they count what the solution needed
 }
 
+// Where contact stands in the tangent: it is positive definite, or its pivots tell.
+Signature Statics::signature_with_contact() {
+  const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
+  std::vector<std::vector<ContactStatus>> status;
+  for (ContactDefect& defect : defects()) status.push_back(std::move(defect.status));
+  ContactInTangent& contact = *factor_.in_tangent();
+  const bool recent = factor_.kind() != TangentFactor::Kind::none && factored_at_.size() == now_.u.size() &&
+                      (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
+  if (recent && factor_.kind() == TangentFactor::Kind::whole && contact.factored(status)) return {};
+  need_tangent();
+  const std::vector<Vec3> c = indenters(now_.t, now_.travel), c_start = indenters(before_.t, before_.travel);
+  const std::vector<double> values =
+      contact.constrained({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_.K(), status);
+  const TangentFactor::Counts needed = factor_.counts();
+  {
+    const Stopwatch watch(cost_.factor);
+    factored_at_ = u_, factor_serves_ = false;
+    factor_.factorize_with_contact(values);
+  }
+  factor_.uncount(needed);
+  return factor_.kind() == TangentFactor::Kind::whole ? Signature{} : Signature{factor_.linear().negative_pivots(values), 0};
+}
+
 Signature Statics::signature() {
+  if (contact_in_tangent()) return signature_with_contact();
   const Dofs& dofs = equilibrium_.dofs();
   using Kind = TangentFactor::Kind;
   need_factor_of_accepted(0.02);

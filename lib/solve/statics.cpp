@@ -13,9 +13,10 @@ namespace langer {
 
 namespace {
 
-TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, double& seconds) {
+TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, const StaticsOptions& options,
+                           double& seconds) {
   const Stopwatch watch(seconds);
-  return {body, contacts, threads};
+  return {body, contacts, options.threads, options.contact_by};
 }
 
 }  // namespace
@@ -24,7 +25,7 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),
       options_(options),
-      factor_(timed_factor(equilibrium_, contacts_, options_.threads, cost_.analysis)) {
+      factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)) {
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
@@ -288,18 +289,53 @@ double Statics::price() const {
 std::optional<VecX> Statics::correction() {
   need_tangent();
   again_ = false;
-  if (!factorize()) return std::nullopt;
+  const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
+  std::optional<VecX> du;
+  if (contact_in_tangent())
+    du = corrected_with_contact(rhs);
+  else if (!factorize())
+    return std::nullopt;
   // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
   factor_serves_ = factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
-  return corrected(free_residual() - on_free_rows(equilibrium_.K_du()));
+  return contact_in_tangent() ? du : corrected(rhs);
 }
 
 // K at another state of this increment stands for the one here, in the mixed equations of u and p.
 std::optional<VecX> Statics::correction_again() {
   if (!factor_serves_ || !remaining_prescribed(u_).isZero(0)) return std::nullopt;
   again_ = true;
-  return corrected(free_residual() + on_free_rows(equilibrium_.turned_dilatations()));
+  const VecX rhs = free_residual() + on_free_rows(equilibrium_.turned_dilatations());
+  return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
+}
+
+VecX Statics::with_prescribed(const VecX& free) const {
+  VecX du = remaining_prescribed(u_);
+  for (Eigen::Index row = 0; row < free.size(); ++row) du[equilibrium_.dofs().free[row]] = free[row];
+  return du;
+}
+
+// Contact in the tangent itself; again_: by the last one.
+std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
+  const double factor_before = cost_.factor;
+  std::optional<ContactInTangent::Answer> answer;
+  {
+    const Stopwatch watch(cost_.contact);
+    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+    const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
+    const auto factorize = [this](const std::vector<double>& values) {
+      const Stopwatch factoring(cost_.factor);
+      factored_at_ = u_;
+      return factor_.factorize_with_contact(values);
+    };
+    ContactInTangent& contact = *factor_.in_tangent();
+    answer = again_ ? contact.solve_again(state, rhs, factor_.linear())
+                    : contact.solve(state, equilibrium_.K(), rhs, factor_.linear(), factorize);
+  }
+  cost_.contact -= cost_.factor - factor_before;
+  if (!answer) return std::nullopt;
+  r_next_ = std::move(answer->r), cost_.sweeps += answer->solutions;
+  return with_prescribed(answer->move);
 }
 
 // The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to the whole for a few iterations.
@@ -317,7 +353,6 @@ VecX Statics::with_free_rims(const VecX& rhs) {
 }
 
 std::optional<VecX> Statics::corrected(const VecX& rhs) {
-  const Dofs& dofs = equilibrium_.dofs();
   LinearSolver& linear = factor_.linear();
   VecX move;
   if (contacts_.empty()) {
@@ -348,9 +383,7 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       move = linear.solve(all);
     }
   }
-  VecX du = remaining_prescribed(u_);
-  for (int row = 0; row < dofs.n_free(); ++row) du[dofs.free[row]] = move[row];
-  return du;
+  return with_prescribed(move);
 }
 
 void Statics::moved(const VecX& du, double step) {

@@ -55,6 +55,7 @@ struct StaticsOptions {
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one
   double seconds = 0;            // of the path, for viscous bodies
+  ContactBy contact_by = ContactBy::by_count;
 };
 
 class Statics {
@@ -79,7 +80,7 @@ class Statics {
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
-  // Nothing where a node lies between two indenters, or the tangent is singular. Wants an indenter that moves as told.
+  // Nothing where a node lies between two indenters, the tangent is singular or has contact in it. Wants an indenter that moves as told.
   std::optional<Movement> movement(const Disturbance& by);
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
@@ -91,6 +92,7 @@ class Statics {
   };
   Cost cost() const;
   const LinearSolver& linear() const { return factor_.linear(); }
+  bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
 
  private:
   bool goes_on() const;        // imposed displacements, as in the last increment
@@ -103,6 +105,9 @@ class Statics {
   std::optional<VecX> correction_again();
   std::optional<VecX> corrected(const VecX& rhs);
   VecX with_free_rims(const VecX& rhs);
+  std::optional<VecX> corrected_with_contact(const VecX& rhs);
+  VecX with_prescribed(const VecX& free) const;
+  Signature signature_with_contact();
   void need_tangent();
   bool factorize();
   void need_factor_of_accepted(double within);  // a share of the step's movement
