@@ -1,6 +1,6 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, relaxation, paper, depths, grading, growth
+//                               only when named: coverage, relaxation, paper, depths, grading, growth, wide
 #include <fmt/format.h>
 
 #include <array>
@@ -24,6 +24,7 @@ using namespace langer;
 void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
+void measure_wide();  // wide.cpp
 
 namespace {
 
@@ -165,6 +166,7 @@ int main(int argc, char** argv) {
   if (asked.count("depths")) measure_depths(fine);
   if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);
+  if (asked.count("wide")) measure_wide();
   if (asked.count("grading")) {
     test::Indentation scene;
     scene.nx = scene.nz = 36, scene.ny = 12, scene.h = 0.2;
