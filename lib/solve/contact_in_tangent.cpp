@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "solve/gmres.hpp"
+#include "solve/krylov.hpp"
 
 namespace langer {
 
@@ -249,9 +249,9 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(const LinearS
         if (is_given[static_cast<std::size_t>(row)]) out[row] = K_[pattern_.column_start[row]] * v[row];
       return out;
     };
-    const auto found = gmres(system, by_factor, b, {1e-10, 1e-5, 40});
-    if (!found) return std::nullopt;
-    z = *found;
+    constexpr double accurate = 1e-10, enough = 1e-5;
+    z = solve_near_identity([&](const VecX& v) { return by_factor(system(v)); }, by_factor(b), accurate, 40);
+    if (!((b - system(z)).norm() <= enough * b.norm())) return std::nullopt;
   }
   if (!z.allFinite()) return std::nullopt;
   for (Eigen::Index row = 0; row < z.size(); ++row)

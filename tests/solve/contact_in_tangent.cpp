@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "solve/gmres.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 
@@ -74,16 +73,4 @@ TEST_CASE("contact in the tangent: a plane on all candidates, a sphere that scra
     back.motion = {{0.5, Vec3(0, -0.4, 0)}, {1, Vec3(0, -0.2, 0)}};
     compare(back, test::neo_hooke(0.3, 1e-3));
   }
-}
-
-TEST_CASE("GMRES solves an unsymmetric system to what is asked, and says where it cannot") {
-  MatX A = MatX::Zero(30, 30);
-  for (int i = 0; i < 30; ++i) A(i, i) = 1 + 0.1 * i, A(i, (i * 7 + 3) % 30) += 0.3;
-  const VecX x = VecX::LinSpaced(30, -1, 2), b = A * x;
-  const Product product = [&](const VecX&v) { return VecX(A * v); },
-                jacobi = [&](const VecX&v) { return VecX(v.cwiseQuotient(A.diagonal())); };
-  const auto found = gmres(product, jacobi, b, {1e-12, 1e-12, 30});
-  REQUIRE(found.has_value());
-  CHECK((*found - x).norm() < 1e-9);
-  CHECK_FALSE(gmres(product, jacobi, b, {1e-12, 1e-12, 2}).has_value());
 }
