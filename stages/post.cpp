@@ -56,7 +56,7 @@ using Columns = std::vector<Column>;
 
 // One row per state, the first is the unloaded one.
 struct Table {
-  std::vector<double> t, u_ind;
+  std::vector<double> t, u_ind, seconds;
   Columns columns;
 
   int row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
@@ -108,6 +108,10 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
     const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
     for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
     table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
+    if (const auto time = state.histories.find("time"); time != state.histories.end())
+      table.seconds.push_back(time->second);
+    else if (row == 0)
+      table.seconds.push_back(0);
   }
   for (std::size_t c = 0; c < measures.size(); ++c) {
     if (!measures[c].zero_at) continue;
@@ -118,6 +122,27 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
   return table;
 }
 
+void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summary>& summary) {
+  const auto column = [&](const std::string& name) -> const Column& {
+    return *std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == name; });
+  };
+  for (const auto& [name, choice] : job.config.cycles) {
+    const double lasts = table.seconds.size() == table.t.size() ? table.seconds.back() : 0;
+    if (!(lasts >= choice.period * (1 - 1e-9)))
+      refuse(job, {{"cycles." + name + ".period", fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
+                    "a cycle that the path has gone through, in seconds", "path.seconds of the solve says how long it takes"}});
+    const Column &of = column(choice.of), &over = column(choice.over);
+    const Cycle cycle = last_cycle(table.seconds, over.values, of.values, choice.period);
+    const std::string unit = of.unit == over.unit ? "-" : over.unit == "-" ? of.unit : of.unit + "/" + over.unit;
+    summary.push_back({"storage_" + name, cycle.storage, unit});
+    summary.push_back({"loss_" + name, cycle.loss, unit});
+    summary.push_back({"tan_delta_" + name, cycle.tan_delta(), "-"});
+    if (cycle.change > 0.01)
+      job.say("warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not yet those of many cycles",
+              name, 100 * cycle.change);
+  }
+}
+
 std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, const std::vector<SurfaceMap>& maps) {
   std::vector<Summary> summary;
   for (const Column& c : table.columns) summary.push_back({c.name, c.values.back(), c.unit});
@@ -125,6 +150,7 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, 
     const int row = table.exact_row(job, "summary_at." + name, step);
     for (const Column& c : table.columns) summary.push_back({c.name + "_" + name, c.values[row], c.unit});
   }
+  add_cycles(job, table, summary);
   for (const SurfaceMap& map : maps) {
     const auto [low, high] = std::minmax_element(map.values.begin(), map.values.end());
     summary.push_back({map.name + "_min", *low, map.unit});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "post/curves.hpp"
+#include "post/cycle.hpp"
 #include "post/figure.hpp"
 #include "post/map.hpp"
 #include "post/render.hpp"
@@ -24,6 +25,7 @@ struct PostConfig {
   StressAt stress = StressAt::nodal_average;
   std::vector<ColumnChoice> columns, further;
   std::map<std::string, std::string> summary_at;
+  std::map<std::string, CycleChoice> cycles;
   std::vector<std::string> snapshots;
   bool series = false;
   std::map<std::string, FigureChoice> figures;
@@ -38,6 +40,8 @@ struct PostConfig {
     v(&PostConfig::summary_at, "summary_at", unit::none,
       "the summary, for tables over a sweep, is the last row; under <column>_<name> it also has these states by name: a row of "
       "the table, t=0.5 or u_ind=0.5, and the path must stop there");
+    v(&PostConfig::cycles, "cycles", unit::none,
+      "of periodic tests, by name: storage_<name>, loss_<name> and tan_delta_<name> of the last cycle, in the summary");
     v(&PostConfig::snapshots, "snapshots", unit::none,
       "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&PostConfig::series, "series", unit::none,
@@ -79,6 +83,14 @@ inline std::vector<Complaint> PostConfig::complaints() const {
   for (const auto& [name, step] : summary_at) {
     if (!parse_step(step)) all.push_back({"summary_at." + name, "\"" + step + "\"", steps, ""});
     if (!is_column_name(name)) all.push_back({"summary_at." + name, "\"" + name + "\"", column_letters, ""});
+  }
+  for (const auto& [name, cycle] : cycles) {
+    if (!is_column_name(name)) all.push_back({"cycles." + name, "\"" + name + "\"", column_letters, ""});
+    for (const auto& [key, column] : {std::pair{".of", &cycle.of}, {".over", &cycle.over}})
+      if (!seen.count(*column))
+        all.push_back({"cycles." + name + key, "\"" + *column + "\"", "the name of a column, without its unit", ""});
+    for (const char* part : {"storage_", "loss_", "tan_delta_"})
+      if (seen.count(part + name)) all.push_back({"cycles." + name, "a column is called " + (part + name), "another name", ""});
   }
   for (const auto& [name, map] : maps) {
     if (!is_column_name(name)) all.push_back({"maps." + name, "\"" + name + "\"", column_letters, ""});
