@@ -34,7 +34,7 @@ else()
   message("skipped: the notebooks, for want of nbclient, ipykernel or matplotlib (Debian: python3-nbclient python3-ipykernel python3-matplotlib)")
 endif()
 
-execute_process(COMMAND ${python} -c "import pip, setuptools, wheel" RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+execute_process(COMMAND ${python} -c "import setuptools, wheel, pip" RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
 if(NOT code EQUAL 0)
   message("skipped: pip install, for want of pip, setuptools or wheel (Debian: python3-pip python3-setuptools python3-wheel)")
   return()

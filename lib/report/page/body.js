@@ -326,7 +326,10 @@ L.bodyView = (place, all) => {
     }
     punches.visible && punches.children.forEach(p => {
       const points = p.geometry.attributes.position;
-      for (let i = 0; i < points.count; ++i) reach(new THREE.Vector3().fromBufferAttribute(points, i).add(p.position), 0);
+      for (let i = 0; i < points.count; ++i) {
+        const at = new THREE.Vector3().fromBufferAttribute(points, i).add(p.position);
+        if (at.distanceTo(middle) < 0.8 * size) reach(at, 0);  // of an indenter larger than the body what is near it
+      }
     });
     camera.zoom = 0.95 * Math.min((camera.right - camera.left - 170 * perPixel()) / (2 * w), (camera.top - camera.bottom - 80 * perPixel()) / (2 * h));
     camera.updateProjectionMatrix();

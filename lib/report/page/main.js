@@ -27,6 +27,8 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
   // what is said of several members in the same words stands once
   const alike = new Map(), key = v => v.level + v.text.replace(/[-\d.]+(e[-+]\d+)?/g, '#');
   sorted.forEach(v => alike.set(key(v), (alike.get(key(v)) || []).concat(v)));
+  // what holds is folded where there is much of it: it shall not stand before the picture
+  const much = 3;
   const line = v => L.el('div', { class: 'verdict ' + v.level, role: 'listitem' }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, v.text));
   const rows = [...alike.values()].map(group => {
     if (group.length === 1) return line(group[0]);
@@ -36,6 +38,11 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
     return row;
   });
   const most = 2, told = answers.length > most ? [...answers.slice(0, 1), L.el('details', {}, L.el('summary', {}, `${answers.length - 1} more members`), ...answers.slice(1))] : answers;
+  const held = rows.filter(row => row.classList.contains('good'));
+  if (held.length > much) {
+    const place = rows.indexOf(held[0]), fold = L.el('details', { class: 'verdict good fold' }, L.el('summary', {}, L.el('b', {}, levels.good), ` ${held.length} checks hold`), ...held);
+    rows.splice(place, held.length, fold);
+  }
   const verdicts = rows.length ? L.el('div', { class: 'verdicts', role: 'list', 'aria-label': 'verdicts' }, ...rows) : '';
   if (told.length || rows.length)
     section('summary', 'Summary', L.el('div', { class: told.length ? 'first' : 'first wide' }, told.length ? L.el('div', {}, ...told) : '', verdicts));
