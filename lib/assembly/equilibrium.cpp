@@ -22,6 +22,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
       dofs_(std::move(dofs)),
       pattern_(make_pattern(mesh, dofs_)),
       threads_(threads),
+      asked_(kernel),
       kernel_(kernel) {
   const int n = mesh.n_cells();
   geometry_.reserve(n);
@@ -60,17 +61,24 @@ void Equilibrium::make_blocks() {
       Block block;
       block.n = static_cast<int>(std::min<std::size_t>(Packet::lanes, cells.size() - first));
       const ElementGeometry* geometry[Packet::lanes];
-      std::vector<PacketFibre> families(fibres(cells[first]).size());
       for (int l = 0; l < Packet::lanes; ++l) {
         const int e = block.cells[l] = cells[first + std::min(l, block.n - 1)];
         geometry[l] = &geometry_[e];
-        for (std::size_t k = 0; k < families.size(); ++k)
-          for (int i = 0; i < 3; ++i) families[k].a[i].set(l, fibres(e)[k][i]);
       }
       blocks_.push_back(block);
       packet_geometry_.push_back(packed(geometry));
-      packet_fibres_.push_back(std::move(families));
     }
+  pack_fibres();
+}
+
+void Equilibrium::pack_fibres() {
+  packet_fibres_.resize(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    packet_fibres_[b].resize(fibres(blocks_[b].cells[0]).size());
+    for (int l = 0; l < Packet::lanes; ++l)
+      for (std::size_t k = 0; k < packet_fibres_[b].size(); ++k)
+        for (int i = 0; i < 3; ++i) packet_fibres_[b][k].a[i].set(l, fibres(blocks_[b].cells[l])[k][i]);
+  }
 }
 
 void Equilibrium::find_beginnings() {

@@ -51,7 +51,7 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
 }
 
 void Statics::begin(double t) {
-  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false;
+  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false, begun_ = {};
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
@@ -64,6 +64,7 @@ void Statics::begin(double t) {
   if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
+  begun_.travel = travel_;
 }
 
 // Behind a kink of what moves nodes the last movement says nothing.
@@ -80,7 +81,7 @@ void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
-  u_ += step;
+  u_ += step, begun_.extrapolated = s;
   travel_ += s * (now_.travel - before_.travel);
 }
 
@@ -95,31 +96,19 @@ void Statics::bring_to_touch() {
   const auto k = static_cast<std::size_t>(controlled_);
   if (std::any_of(r_[k].begin(), r_[k].end(), [](const Vec3& r) { return !r.isZero(0); })) return;
   const auto position = [&](int node) { return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node)); };
-  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch;
+  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch, begun_.at_touch = true;
 }
 
-// A node that is open where the increment begins slips only from where it touches: at the share of the extrapolated movement that
-// its gap takes to close. Without this its reaction is that of a slip it never made, an error of first order in the increment.
-// What touches an indenter that turns is carried along from there.
 void Statics::slip_from_touch() {
-  const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
     if (contact.mu == 0) continue;
     const Vec3 c = indenter_displacement(contact, t_, travel_), c0 = indenter_displacement(contact, now_.t, now_.travel);
     const double angle = contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0;
-    for (int node : contact.nodes) {
-      const auto u0 = now_.u.segment<3>(3 * node), u = u_.segment<3>(3 * node);
-      const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
-      auto start = u_start_[k].segment<3>(3 * node);
-      double touches = 0;  // at this share of the increment
-      if (gap > options_.gap_tolerance) {
-        const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
-        touches = closed > gap ? gap / closed : 1;
-        start = u0 + touches * (u - u0 - (c - c0));
-      }
-      if (contact.rotation) start += carried(contact, (1 - touches) * angle, X[node] + start, c0);
-    }
+    for (int node : contact.nodes)
+      u_start_[k].segment<3>(3 * node) =
+          slips_from(contact, {equilibrium_.mesh().X[node], now_.u.segment<3>(3 * node), u_.segment<3>(3 * node), c0, c, angle},
+                     options_.gap_tolerance);
   }
 }
 

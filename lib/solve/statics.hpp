@@ -95,6 +95,7 @@ class Statics {
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
 
  private:
+  friend class StateTangent;   // solve/state_tangent.hpp
   bool goes_on() const;        // imposed displacements, as in the last increment
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
@@ -133,6 +134,11 @@ class Statics {
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;
+  struct {
+    double extrapolated = 0;  // of the movement of the last increment, with which this one was begun
+    double travel = 0;        // [mm]
+    bool at_touch = false;    // where the indenter under force control was brought
+  } begun_;
   int controlled_ = -1;                  // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
