@@ -107,6 +107,15 @@ std::string label_of(const ColumnChoice& choice) {
 
 std::string error_of(const std::string& column) { return column + "_error"; }
 
+namespace {
+// what the names of its derivatives begin with (inverse/sensitivity.cpp); empty where there are none
+std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
+  if (word == "force" || word == "energy") return word == "force" ? "d_force_N_d_" : "d_energy_N_mm_d_";
+  if (word.starts_with("reaction_") && c.at) return "d_reaction_" + *c.at + "_" + word.back() + "_N_d_";
+  return "";
+}
+}  // namespace
+
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories) {
   std::vector<ColumnChoice> out;
   std::vector<std::string> names;
@@ -120,12 +129,18 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, 
                                          : word == "force"                       ? "force"
                                          : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at
                                                                                  : "");
-    const std::string name = error_of(column_name(c));
-    if (std::find(histories.begin(), histories.end(), history) == histories.end()) continue;
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    ColumnChoice error;
-    error.history = history, error.name = name;
-    out.push_back(error);
+    const auto add = [&](const std::string& taken, const std::string& name) {
+      if (std::find(histories.begin(), histories.end(), taken) == histories.end()) return;
+      if (std::find(names.begin(), names.end(), name) != names.end()) return;
+      ColumnChoice further;
+      further.history = taken, further.name = name;
+      out.push_back(further), names.push_back(name);
+    };
+    add(history, error_of(column_name(c)));
+    if (word == "force") add("force_deviation", column_name(c) + "_deviation");
+    const std::string derivatives = derivatives_of(word, c);
+    for (const std::string& one : histories)
+      if (!derivatives.empty() && one.starts_with(derivatives)) add(one, one);
   }
   return out;
 }

@@ -51,7 +51,7 @@ std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
 // What the solver has estimated of a column's error beside it, as one more column <name>_error: of force, and of reactions of the sets
-// that are moved.
+// that are moved. And its derivatives with respect to the numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
 

@@ -7,6 +7,7 @@
 // of_mesh(), which costs a factorization where a solution of the mesh takes several.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -31,8 +32,9 @@ class HomogeneousScene {
   BodyState reduced(const StepRecord& whole) const;              // to continue from
   // what a solution on the mesh that ends in this state reports of its residual, by the config's own tolerance
   SolveReport report(const SolveReport& of_point, const StepRecord& whole) const;
-  Equilibrium& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
-  void replay(const StepRecord& whole) const;       // a step that was found before
+  const std::vector<std::array<double, 8>>& weights() const { return N_; }  // by node of the mesh: of the corners
+  Equilibrium& of_mesh() const { return *whole_; }                          // at the state that whole() was asked for last
+  void replay(const StepRecord& whole) const;                               // a step that was found before
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);

@@ -1,12 +1,8 @@
 #include "run/step_forces.hpp"
 
-#include <set>
-
 #include "scene/torque.hpp"
 
 namespace langer {
-
-namespace {
 
 std::set<std::string> moved_sets(const SolveConfig& config) {
   std::set<std::string> moved;
@@ -15,6 +11,8 @@ std::set<std::string> moved_sets(const SolveConfig& config) {
       if (const auto to = load.imposed(axis); to && to->moves()) moved.insert(load.on);
   return moved;
 }
+
+namespace {
 
 double force_of(const StepRecord& state, const std::string& contact) {
   Vec3 force;

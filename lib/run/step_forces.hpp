@@ -7,12 +7,16 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "run/run.hpp"
 
 namespace langer {
+
+// sets with an imposed displacement other than 0
+std::set<std::string> moved_sets(const SolveConfig& config);
 
 struct StepForces {
   double t = 0;

@@ -163,6 +163,10 @@ constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_r
 enum class Truncation { sides, bottom };
 constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
 
+// Whether what a fit does not know of its parameters is carried into the forces (inverse/uncertainty.hpp).
+enum class UncertaintyBy { none, linear };
+constexpr auto names(UncertaintyBy) { return std::array{"none", "linear"}; }
+
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
   std::optional<std::string> accuracy;  // "1%"
@@ -184,6 +188,8 @@ struct SolveConfig {
   SymmetryChoice symmetry = SymmetryChoice::automatic;
   Reduce reduce = Reduce::none;
   Homogeneous homogeneous = Homogeneous::automatic;
+  std::vector<std::string> sensitivity;
+  std::optional<UncertaintyBy> uncertainty;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
@@ -230,6 +236,11 @@ struct SolveConfig {
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
       "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
       "solved in place of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
+    v(&SolveConfig::sensitivity, "sensitivity", unit::none,
+      "numbers of the scene, such as matrix.yeoh.a1, fibres[0].alpha, materials.dermis.matrix.yeoh.a1 or contacts.sphere.friction: at "
+      "every increment the derivatives of displacements, reactions and forces with respect to each");
+    v(&SolveConfig::uncertainty, "uncertainty", unit::none,
+      "linear: what the fit behind --material does not know of its parameters is carried into the forces");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",

@@ -56,14 +56,20 @@ struct Generator {
 // by name, each looked for once
 class Found {
  public:
-  Found(const Mesh& mesh, const Scene& scene, const Vec3& centre) : mesh_(mesh), scene_(scene), centre_(centre) {}
+  Found(const Mesh& mesh, const Scene& scene, const Scene* varied, const Vec3& centre)
+      : mesh_(mesh), scene_(scene), varied_(varied), centre_(centre) {}
   const Generator* operator()(const Operation& op) {
     const auto known = known_.find(op.name);
     if (known != known_.end()) return known->second ? &*known->second : nullptr;
     std::optional<Generator>& found = known_[op.name];
     auto g = find_symmetry(mesh_, op.signs, centre_);
-    SceneImage image =
-        g ? image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene_, scene_) : SceneImage{"the mesh", {}};
+    const auto image_in = [&](const Scene& scene) {
+      return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
+    };
+    SceneImage image = g ? image_in(scene_) : SceneImage{"the mesh", {}};
+    if (image.broken.empty() && varied_)
+      if (const SceneImage other = image_in(*varied_); !other.broken.empty())
+        image.broken = other.broken + ", where the numbers of `sensitivity` are others";
     if (!image.broken.empty())
       breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
     else
@@ -75,6 +81,7 @@ class Found {
  private:
   const Mesh& mesh_;
   const Scene& scene_;
+  const Scene* varied_;
   const Vec3 centre_;
   std::map<std::string, std::optional<Generator>> known_;
   std::string breaks_;
@@ -96,11 +103,11 @@ std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>&
 }  // namespace
 
 std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-                                               const std::function<Place(const std::string&)>& where) {
+                                               const std::function<Place(const std::string&)>& where, const Scene* varied) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
   const Vec3 centre = bounding_box(mesh.X).middle();
-  Found found(mesh, scene, centre);
+  Found found(mesh, scene, varied, centre);
   for (const auto& operations : operations(wanted)) {
     std::vector<const Generator*> generators;
     for (const Operation& op : operations)

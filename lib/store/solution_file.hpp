@@ -32,6 +32,7 @@ struct StepRecord {
   double residual = 0;                                     // relative
   std::vector<Vec3> u;                                     // (n) [mm]
   std::vector<Vec3> reaction;                              // (n) internal minus external force: supports and contact [N]
+  std::map<std::string, std::vector<Vec3>> point_fields;   // (n) further ones: derivatives of u and reaction
   std::map<std::string, std::vector<double>> cell_fields;  // (e): J, I4_bar, von_mises [MPa], pressure [MPa]
   std::map<std::string, double> scalars;                   // further /history values, e.g. penetration, cone, complementarity
   Vec3 u_ind = Vec3::Zero();                               // [mm]; only with contact

@@ -46,6 +46,9 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"torque_*", "N mm",
      "with which that indenter, or that set, turns the body about its axis; positive in the sense of a positive angle"},
     {"angle_*", "deg", "by which that indenter, or that set, has turned, by the right hand about its axis"},
+    {"force_deviation", "N", "standard deviation of the force by what a fit does not know of its parameters (uncertainty: linear)"},
+    {"force_*_deviation", "N", "of several indenters: the same of the force on that one"},
+    {"reaction_*_deviation", "N", "the same of the reaction of that set, which is moved"},
     {"force_*_x", "N", "of the body on that indenter, positive along +x"},
     {"force_*_y", "N", "of the body on that indenter, positive along +y"},
     {"force_*_z", "N", "of the body on that indenter, positive along +z"},
@@ -70,6 +73,8 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"isochoric_fibre_stretch_max", "-", "greatest sqrt(I4_bar) over all Gauss points; 1 at rest"},
     {"driving_force", "N mm", "work of imposed displacements per unit of t; positive where they do work on the body"},
     {"volume_change", "-", "greatest |V / V0 - 1| of a cell that is nearly incompressible; never negative"},
+    {"d_*", "-",
+     "of `sensitivity`: derivative of the quantity, in the unit of its name, with respect to the number behind _d_, per its unit"},
     // fields
     {"J", "-", "mean det F of a cell; 1 at rest"},
     {"pressure", "MPa", "tr(sigma)/3 of a cell, the mean stress: positive in tension"},

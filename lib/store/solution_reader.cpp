@@ -66,7 +66,9 @@ void check_units(const h5::Group& root) {
   const auto of_list = [](const std::string& name) { return solution::unit_of(name); };
   units_of(root.group("history"), of_list);
   units_of(root.group("VTKHDF").group("CellData"), of_list);
-  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) { return name == "u" ? "mm" : "N"; });
+  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) {
+    return name == "u" ? "mm" : name == "reaction" ? "N" : "-";
+  });
   if (!root.has("contact")) return;
   const h5::Group contacts = root.group("contact");
   for (const std::string& name : contacts.groups())
@@ -134,6 +136,8 @@ StepRecord SolutionReader::step(int index) const {
   const h5::Group points = grid.group("PointData"), cells = grid.group("CellData");
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
   record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
+  for (const std::string& name : points.datasets())
+    if (name != "u" && name != "reaction") record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
   for (const std::string& name : cells.datasets())
     if (!solution::is_static(name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
 

@@ -88,7 +88,8 @@ class Unpacker {
 enum Kind : char { of_task = 'T', of_run = 'R', of_step = 'S' };
 
 void each_field(auto& r, auto&& field) {
-  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u), field(r.reaction), field(r.cell_fields);
+  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u), field(r.reaction), field(r.point_fields),
+      field(r.cell_fields);
   field(r.scalars), field(r.u_ind), field(r.force_ind), field(r.contacts);
 }
 
