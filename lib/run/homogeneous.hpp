@@ -1,7 +1,7 @@
 // A body between plane faces that are held or moved as wholes may deform alike everywhere: then one hexahedron between the same
 // faces says what it does, on any mesh.
-//   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support and load on
-//               whole faces of the box, no forces on the surface
+//   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support, imposed
+//               displacement, traction, force and pressure on whole faces of the box
 //   proved      each state, expanded to the mesh, balances there: what is left at free nodes is rounding and the solver's tolerance
 // The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: whoever looks at stability looks at
 // of_mesh(), which costs a factorization where a solution of the mesh takes several.
