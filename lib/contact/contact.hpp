@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/history.hpp"
+#include "contact/adhesion.hpp"
 #include "contact/local_problem.hpp"
 #include "contact/rigid.hpp"
 
@@ -41,6 +42,8 @@ struct RigidContact {
   std::vector<Waypoint> motion;  // ascending t; under force control what is across its direction
   std::optional<ForceControl> control = {};
   std::optional<Rotation> rotation = {};
+  std::optional<Adhesion> adhesion = {};
+  std::vector<double> area = {};  // with adhesion: what each candidate has of the surface at rest [mm^2]
 };
 
 // travel: along the direction of its control [mm]

@@ -53,6 +53,9 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   for (const auto& [name, contact] : config.contacts)
     if (contact.rotation) refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
   for (const auto& [name, contact] : config.contacts)
+    if (contact.adhesion && contact.adhesion->work > 0)
+      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres", "one without adhesion: no deck has this law");
+  for (const auto& [name, contact] : config.contacts)
     if (contact.control) refuse(path, "contacts." + name + ".control", "an indenter under force control", "one that moves as told");
   for (const auto& [name, contact] : config.contacts)
     if (!std::holds_alternative<Sphere>(contact.rigid))

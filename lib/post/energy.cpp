@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "contact/touch.hpp"
 
@@ -20,6 +21,19 @@ Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPat
   return free < way ? Vec3(dc - free * contact.control->along) : dc;
 }
 
+// What bonds make of the force on the body that pulls it towards the indenter, along the mean normal of what bears [N].
+double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state, std::size_t k, const Vec3& c) {
+  Vec3 force = Vec3::Zero(), normal = Vec3::Zero();
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const Vec3 &r = state.r[k][i], &bond = state.bonds[k][i];
+    if (r.isZero(0) && bond.isZero(0)) continue;
+    const int node = contact.nodes[i];
+    const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
+    force += r + bond, normal += (r.norm() + bond.norm()) * n;
+  }
+  return normal.isZero(0) ? 0 : std::max(0.0, -force.dot(normal.normalized()));
+}
+
 }  // namespace
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks,
@@ -34,6 +48,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : now.r[0]) force += r;
     step.way = dc.norm(), step.travel = c.norm(), step.force = force.norm();
+    if (!now.bonds.empty() && !now.bonds[0].empty()) step.pull = pull_of(contact, mesh_, now, 0, c);
   }
   double angle = 0;
   if (contact.rotation) {
@@ -50,6 +65,10 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
     from_contact.begin[node] += r0, from_contact.end[node] += r1;
     step.begin += r0.dot(worked), step.end += r1.dot(worked);
+    for (const auto& [state, from, power] :
+         {std::tuple{&last_, &from_contact.begin, &step.begin}, {&now, &from_contact.end, &step.end}})
+      if (k < state->bonds.size() && !state->bonds[k].empty())
+        (*from)[node] += state->bonds[k][i], *power += state->bonds[k][i].dot(worked);
     // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
     const Vec3 x0 = mesh_.X[node] + last_.u[node];
     Vec3 v = now.u[node] - last_.u[node] - dc;
@@ -105,6 +124,10 @@ void EnergyPath::add(State now) {
   for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
     step.goes_on = (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
   for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
+  if (const double jump = now.jumps - last_.jumps; jump != 0 || jumped_) {
+    step.goes_on = false, jumped_ = jump != 0;
+    if (jumped_) step.begin = step.end = jump / step.dt, step.dissipated = 0;  // friction in a jump is part of what it releases
+  }
   intervals_.push_back(step);
   rates_ = std::move(rates);
   last_ = std::move(now);
@@ -138,6 +161,7 @@ std::vector<PathSums> EnergyPath::sums() const {
     sum.dissipated = all[k].dissipated + here.dissipated;
     sum.hysteresis = sum.work - work_at_begin;
     most_force = std::max(most_force, here.force);
+    sum.pull_off = std::max(all[k].pull_off, here.pull);
     if (most_force > 0) sum.relaxation = here.force / most_force;
     largest = std::max(largest, std::abs(sum.work));
     if (largest > 0) sum.balance = (sum.work - stored_[k + 1] - sum.dissipated) / largest;

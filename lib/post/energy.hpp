@@ -7,6 +7,7 @@
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
 //   hysteresis  work since the first indenter last began to go on after it had come back: at the end of a cycle what that has cost [N mm]
+//   pull_off    greatest pull so far of bonds on the first indenter, towards the body along the normal where they touch [N]
 //   relaxation  force of the first indenter over its greatest so far [-]
 // stored counts the work against viscous branches too (element/viscous_points.hpp), whether they still hold it or not.
 #pragma once
@@ -20,7 +21,7 @@
 namespace langer {
 
 struct PathSums {
-  double path = 0, work = 0, dissipated = 0, balance = 0, hysteresis = 0, relaxation = 1;
+  double path = 0, work = 0, dissipated = 0, balance = 0, hysteresis = 0, relaxation = 1, pull_off = 0;
 };
 
 class EnergyPath {
@@ -35,6 +36,9 @@ class EnergyPath {
     std::vector<std::vector<Vec3>> r;  // per contact and candidate: reaction on the body [N]
     double stored = 0;                 // [N mm]
     VecX loads = {};                   // (3 n) forces on the surface [N]; empty where there are none
+    // where indenters adhere: like r, what bonds do to the body (of a contact without them empty); work done in increments with a jump
+    std::vector<std::vector<Vec3>> bonds = {};
+    double jumps = 0;
   };
   void add(State state);               // in the order of the path, from the unloaded one
   std::vector<PathSums> sums() const;  // one for each state added
@@ -45,6 +49,7 @@ class EnergyPath {
     bool goes_on;           // in the direction of the interval before
     double way, dissipated;
     double travel, force;  // of the first indenter at the end: distance from its start, length of the force
+    double pull = 0;
   };
   struct Ends {
     std::vector<Vec3> begin, end;  // (n)
@@ -56,6 +61,7 @@ class EnergyPath {
   std::vector<double> kinks_;
   std::vector<TurnedSet> turned_;
   State last_;
+  bool jumped_ = false;  // in the last interval
   std::vector<Interval> intervals_;
   std::vector<double> stored_;
   std::vector<Vec3> rates_;  // of the indenters in the last interval, per t: movement, and rotation after it

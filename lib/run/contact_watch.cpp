@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/step_record.hpp"
+#include "scene/adhesion.hpp"
 
 namespace langer {
 
@@ -19,7 +20,7 @@ std::string text(const Vec3& X) { return fmt::format("({:.4g}, {:.4g}, {:.4g})",
 }  // namespace
 
 ContactWatch::ContactWatch(const Mesh& mesh, const Scene& scene, Where where)
-    : scene_(scene), where_(std::move(where)), check_(mesh), found_(scene.contacts.size()) {
+    : mesh_(mesh), scene_(scene), where_(std::move(where)), check_(mesh), found_(scene.contacts.size()) {
   const std::vector<Vec3> rest(mesh.X.size(), Vec3::Zero());
   for (const RigidContact& contact : scene.contacts) {
     const SurfaceLook look = check_.look(contact, rest, Vec3::Zero());
@@ -146,6 +147,13 @@ std::vector<std::string> ContactWatch::warnings() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
     const std::string name = "contacts." + scene_.contacts[k].name + ": ";
+    if (const RigidContact& contact = scene_.contacts[k]; contact.adhesion)
+      if (const BondZone zone = bond_zone(contact, mesh_, scene_.materials); !zone.resolved())
+        lines.push_back(name +
+                        fmt::format("bonds come loose over about {:.2g} mm (4 shear moduli over adhesion.stiffness), and the "
+                                    "shortest cells that touch are {:.2g} mm long: the pull depends on the cells; shorten "
+                                    "them to {:.2g} mm, or lower the stiffness",
+                                    zone.length, zone.cell, zone.longest_cell()));
     if (!f.touched)
       lines.push_back(
           name + fmt::format("the indenter never touches the body: nearest at t = {:.4g}, {:.3g} mm from {}; look at its place "

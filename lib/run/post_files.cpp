@@ -65,6 +65,12 @@ void add_contact(std::vector<Field>& points, std::size_t n, const std::string& n
     gap.values[node] = contact.gap[i];
   }
   for (Field* f : {&status, &force, &gap}) points.push_back(std::move(*f));
+  if (contact.beta.empty()) return;
+  Field beta = field("adhesion_" + name, "-", 1, n, -1), bonds = field("adhesive_force_" + name, "N", 3, n);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
+    put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);
+  for (Field* f : {&beta, &bonds}) points.push_back(std::move(*f));
 }
 
 }  // namespace
@@ -247,13 +253,15 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
     state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
+    state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{} : found->second.adhesive);
   }
+  if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end()) state.jumps = jumps->second;
   if (!loads.empty()) {
     VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
     for (std::size_t i = 0; i < record.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
     state.loads = loads.forces(record.t, u);
   }
-  for (const char* part : {"energy", "viscous_work"})
+  for (const char* part : {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})
     if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;
   return state;
 }

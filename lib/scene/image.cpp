@@ -132,6 +132,7 @@ bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry&
 std::string difference(const RigidContact& a, const RigidContact& b, const MeshImage& g, const Isometry& op) {
   if (!becomes(a.shape, b.shape, op)) return fmt::format("the shape or place of the indenter \"{}\"", a.name);
   if (a.mu != b.mu) return fmt::format("the friction of the indenter \"{}\"", a.name);
+  if (a.adhesion != b.adhesion) return fmt::format("the adhesion of the indenter \"{}\"", a.name);
   const bool both_free = !a.control && !b.control;
   const bool alike = both_free || (a.control && b.control && a.name == b.name && a.control->force == b.control->force &&
                                    (op.turn * a.control->along - b.control->along).norm() <= same);

@@ -12,6 +12,7 @@
 #include "geometry/read_surface.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/reference.hpp"
+#include "scene/adhesion.hpp"
 #include "scene/loads.hpp"
 #include "scene/section.hpp"
 
@@ -295,6 +296,7 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
     refuse_wide_hole(rigid, mesh, key + ".rigid.aperture", where, nodes.errors);
+    if (contact.adhesion) take_adhesion(rigid, contact, mesh, key, where, nodes.errors);
     const auto at_rest = [&](int node) { return mesh.X[static_cast<std::size_t>(node)]; };
     if (rigid.control && !rigid.nodes.empty() && !travel_to_touch(rigid, 0, 0, at_rest))
       nodes.errors.push_back({where(key + ".control"), key + ".control.along", "the indenter passes all of its nodes by",

@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "base/former.hpp"
 #include "base/history.hpp"
+#include "contact/adhesion.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "material/at_rest.hpp"
@@ -76,6 +77,7 @@ struct ContactConfig {
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
   std::optional<HistoryConfig> rotation = {};
+  std::optional<Adhesion> adhesion = {};
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
@@ -88,9 +90,16 @@ struct ContactConfig {
     v(&ContactConfig::rotation, "rotation", unit::deg,
       "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
       "history, as a displacement");
+    v(&ContactConfig::adhesion, "adhesion", unit::none, "bonds that hold what has touched the indenter, until they come loose");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found = of_rotation();
+    if (control && adhesion)
+      found.push_back({"control", "found beside adhesion", "one of the two",
+                       "a pull of given force jumps off without an end: move the indenter"});
+    if (rotation && adhesion)
+      found.push_back(
+          {"rotation", "found beside adhesion", "one of the two", "bonds are told where an indenter is, not how it is turned"});
     if (control && motion.empty()) return found;
     for (Complaint& complaint : place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
       found.push_back(std::move(complaint));
@@ -317,6 +326,12 @@ struct SolveConfig {
                          "a point more where the value stays to the end"});
     };
     for (const auto& [name, contact] : contacts) {
+      if (contact.adhesion && contact.adhesion->viscosity > 0 && !path.seconds)
+        found.push_back(
+            {"contacts." + name + ".adhesion.viscosity", "found on a path without seconds", "path: {seconds: ...}", ""});
+      if (contact.adhesion && std::holds_alternative<KinsolOptions>(solver))
+        found.push_back({"contacts." + name + ".adhesion", "found beside solver.kinsol", "solver: {newton: {}}",
+                         "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
       look_at(contact.motion, "contacts." + name + ".motion");
       if (contact.control) look_at(contact.control->force.points, "contacts." + name + ".control.force");
       if (contact.rotation) look_at(contact.rotation->points, "contacts." + name + ".rotation");

@@ -11,6 +11,7 @@
 #include "mesh/bounding_box.hpp"
 #include "mesh/image.hpp"
 #include "mesh/section.hpp"
+#include "scene/bond_records.hpp"
 #include "scene/image.hpp"
 #include "scene/section.hpp"
 
@@ -191,7 +192,7 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
     RigidContact part = whole;
-    part.nodes.clear();
+    part.nodes.clear(), part.area.clear();
     std::vector<double> share;
     std::vector<std::array<int, 2>> origin;
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
@@ -199,6 +200,7 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
       if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
       index[{c, kept.node}] = {static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
       part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
+      if (whole.adhesion) part.area.push_back(kept.share * whole.area[i]);
     }
     if (part.nodes.empty() && !whole.nodes.empty()) continue;  // another indenter stands for it
     scene_.contacts.push_back(std::move(part));
@@ -291,6 +293,11 @@ void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) 
       contact.status.push_back(kept.status[image.of]);
       contact.gap.push_back(kept.gap[image.of]);
       force -= contact.r.back();
+      if (kept.beta.empty()) continue;
+      contact.beta.push_back(kept.beta[image.of]);
+      contact.bonded_at.push_back(image.T * kept.bonded_at[image.of]);
+      contact.adhesive.push_back(image.T * kept.adhesive[image.of] / candidate_share_[image.contact][image.of]);
+      force -= contact.adhesive.back();
     }
     if (contacts_.size() < 2) continue;
     for (int k = 0; k < 3; ++k) {
@@ -333,7 +340,13 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     }
     const RigidContact& contact = scene_.contacts[c];
     if (contact.control) state.travel = whole.scalars.at("travel_" + contact.name);
+    if (!whole.scalars.count("adhesion_stored")) continue;
+    std::vector<Bond>& bonds = state.bonds.emplace_back();
+    for (const auto& [of, candidate] : origin_[c])
+      if (const ContactRecord& record = whole.contacts.at(contacts_[of].name); !record.beta.empty())
+        bonds.push_back(bond_of(record, static_cast<std::size_t>(candidate)));
   }
+  state.in_bonds = bond_energies(whole);
   return state;
 }
 

@@ -21,7 +21,7 @@ Eigen::Matrix2d across(const Eigen::Vector2d& e) { return Eigen::Matrix2d::Ident
 bool ContactInTangent::serves(const std::vector<RigidContact>& contacts) {
   std::set<int> nodes;
   for (const RigidContact& contact : contacts) {
-    if (contact.control) return false;
+    if (contact.control || contact.adhesion) return false;
     for (int node : contact.nodes)
       if (!nodes.insert(node).second) return false;
   }

@@ -23,7 +23,7 @@ namespace langer {
 
 class ContactInTangent {
  public:
-  // Candidates on it can be told apart: none belongs to two contacts, none is under force control.
+  // Candidates on it can be told apart: none belongs to two contacts, none is under force control or adheres.
   static bool serves(const std::vector<RigidContact>& contacts);
   // refers to the body's pattern; stiffness: of the order of what the body opposes to a movement of one node [N/mm]
   ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, double stiffness);

@@ -29,8 +29,10 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
         d[j] = row >= 0 ? move[row] : 0;
       }
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
-      if (!factor.with_springs() && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
+      const bool bonded = state.bonds && state.bonds->holds(k, i);
+      if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, state.r[k][i]), {}, {}};
+      if (bonded) n.law.D += n.law.frame.transpose() * state.bonds->tangent(k, i) * n.law.frame;
       n.r = n.law.frame.transpose() * state.r[k][i];
       n.move = n.law.frame.transpose() * d;
       near.push_back(n);

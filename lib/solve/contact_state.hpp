@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "solve/bonds.hpp"
 
 namespace langer {
 
@@ -19,7 +20,8 @@ struct ContactState {
   const Reactions& r;
   // of the contact under force control, if there is one
   int controlled = -1;
-  double force = 0;  // sum of its reactions along its direction [N]
+  double force = 0;              // sum of its reactions along its direction [N]
+  const Bonds* bonds = nullptr;  // of indenters that adhere
 };
 
 }  // namespace langer

@@ -116,6 +116,7 @@ std::optional<VecX> contact_forces(const std::vector<NodeLaw>& laws, const Tange
 }  // namespace
 
 std::optional<Movement> Statics::movement(const Disturbance& by) {
+  if (!bonds_.none()) return std::nullopt;        // their tangent is not in the factor
   if (contact_in_tangent()) return std::nullopt;  // the factor has the contacts in it
   const Dofs& dofs = equilibrium_.dofs();
   need_factor_of_accepted(1e-9);  // with the factor of another state the volume of cells would change, against kappa

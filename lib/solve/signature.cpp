@@ -20,13 +20,15 @@ struct NodeContact {
 std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector<Vec3>& X, std::size_t n_nodes) {
   std::vector<NodeContact> out(n_nodes);
   const BodyState& state = statics.accepted();
+  const Bonds& bonds = statics.bonds();
   const auto defects = statics.defects();
   for (std::size_t k = 0; k < defects.size(); ++k) {
     const RigidContact& contact = statics.contacts()[k];
     const Vec3 c = indenter_displacement(contact, state.t, state.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-      if (defects[k].status[i] == ContactStatus::open) continue;
       const int node = contact.nodes[i];
+      if (bonds.holds(k, i)) out[node].turning += bonds.tangent(k, i);
+      if (defects[k].status[i] == ContactStatus::open) continue;
       const ShapePoint shape = shape_at(contact.shape, X[node] + state.u.segment<3>(3 * node) - c);
       const Mat3 frame = contact_frame(shape.normal);
       out[node].held.push_back(frame.col(0));

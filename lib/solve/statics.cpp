@@ -25,11 +25,13 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),
       options_(options),
-      factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)) {
+      factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)),
+      bonds_(contacts_) {
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
+  now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
   before_ = now_;
   u_ = now_.u, r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
@@ -48,6 +50,7 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
+  if (!bonds_.none()) begin_bonds();
 }
 
 void Statics::begin(double t) {
@@ -55,6 +58,7 @@ void Statics::begin(double t) {
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
+  if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
   equilibrium_.load_to(t);
   equilibrium_.pressures_from(now_.u);
@@ -125,6 +129,7 @@ void Statics::accept() {
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_, travel_};
+  if (!bonds_.none()) accept_bonds();
 }
 
 double Statics::motion(double t0) const {
@@ -169,6 +174,7 @@ VecX Statics::free_residual() const {
   VecX f = -equilibrium_.f_int();
   if (F_ext_.size() > 0) f += t_ * F_ext_;
   if (!equilibrium_.loads().empty()) f += equilibrium_.f_ext();
+  if (!bonds_.none()) bonds_.add_forces(f);
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   return on_free_rows(f);
@@ -181,6 +187,7 @@ double Statics::force_scale() const {
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
   if (F_ext_.size() > 0) sum += (t_ * F_ext_).squaredNorm();
   if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
+  if (!bonds_.none()) sum += bonds_.squared_norm();
   return std::sqrt(sum);
 }
 
@@ -218,6 +225,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
                       : "an element is turned inside out";
     return out;
   }
+  if (!bonds_.none()) bonds_.evaluate(equilibrium_.mesh().X, u, indenters(t_, travel_));
   out.residual = free_residual().norm();
   out.reference = force_scale();
   out.floor = 3 * equilibrium_.rounding_floor();
@@ -358,8 +366,8 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       const Stopwatch watch(cost_.contact);
       const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
       const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force}, factor_,
-                                  half.last);
+      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, &bonds_},
+                                  factor_, half.last);
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
@@ -452,6 +460,7 @@ VecX Statics::reactions() const {
     for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] -= equilibrium_.f_ext()[p.dof];
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < r_[k].size(); ++i) out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+  if (!bonds_.none()) bonds_.add_forces(out);
   return out;
 }
 

@@ -13,6 +13,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "solve/bonds.hpp"
 #include "solve/contact_linearisation.hpp"
 #include "solve/free_balance.hpp"
 #include "solve/newton.hpp"
@@ -25,7 +26,9 @@ struct BodyState {
   double t = 0;
   VecX u;  // (3 n) [mm]
   Reactions r;
-  double travel = 0;  // of the indenter under force control [mm]
+  double travel = 0;      // of the indenter under force control [mm]
+  BondStates bonds = {};  // empty where nothing adheres
+  BondEnergy in_bonds = {};
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
@@ -68,6 +71,18 @@ class Statics {
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
+  // Where indenters adhere: bonds on trial, and what moves the trial within an increment (solve/release.hpp).
+  Bonds& bonds() { return bonds_; }
+  const Bonds& bonds() const { return bonds_; }
+  struct Trial {
+    VecX u;
+    Reactions r;
+  };
+  Trial kept_trial() const { return {u_, r_}; }
+  void back_to(const Trial& trial);
+  double stored() const;                         // in body and bonds, of the trial
+  double work_of_loads(const VecX& from) const;  // on the way to the trial, as they are now
+  void jumped(double work, double released) { jump_.work_of_jumps = work, jump_.released = released; }
   double time_error();                 // of the trial, once it is in equilibrium; before accept() of a viscous body
   void accept();                       // the trial becomes the accepted state
   void replay(const BodyState& next);  // accepts a state that was found before; a viscous body follows
@@ -80,7 +95,7 @@ class Statics {
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
-  // Nothing where a node lies between two indenters, the tangent is singular or has contact in it. Wants an indenter that moves as told.
+  // Nothing where a node lies between two indenters or one adheres, the tangent is singular or has contact in it. Wants an indenter that moves as told.
   std::optional<Movement> movement(const Disturbance& by);
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
@@ -119,6 +134,8 @@ class Statics {
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
   double turning(const RigidContact& contact, double t0, const Vec3& c0) const;  // the same of what turns with it
   std::vector<Vec3> indenters(double t, double travel) const;                    // displacement of each
+  void begin_bonds();
+  void accept_bonds();
   void bring_to_touch();  // the indenter under force control, where it bears nothing
   bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
@@ -130,7 +147,9 @@ class Statics {
   StaticsOptions options_;
   Cost cost_;
   TangentFactor factor_;
-  VecX F_ext_;              // empty without dead loads
+  VecX F_ext_;  // empty without dead loads
+  Bonds bonds_;
+  BondEnergy jump_;         // of the increment
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;

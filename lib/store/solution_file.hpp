@@ -23,6 +23,10 @@ struct ContactRecord {
   std::vector<Vec3> r;      // reaction on the body, global frame [N], one per candidate node
   std::vector<int> status;  // 0 open, 1 stick, 2 slip
   std::vector<double> gap;  // [mm]
+  // where the indenter adheres, else empty: intensity, -1 where nothing has bonded yet; displacement of the node less that of the
+  // indenter where it bonded [mm]; force of the bond on the body, beside r [N]
+  std::vector<double> beta = {};
+  std::vector<Vec3> bonded_at = {}, adhesive = {};
 };
 
 struct StepRecord {

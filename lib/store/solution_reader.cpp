@@ -72,7 +72,10 @@ void check_units(const h5::Group& root) {
   if (!root.has("contact")) return;
   const h5::Group contacts = root.group("contact");
   for (const std::string& name : contacts.groups())
-    units_of(contacts.group(name), [](const std::string& array) { return array == "r" ? "N" : array == "gap" ? "mm" : "-"; });
+    units_of(contacts.group(name), [](const std::string& array) {
+      const bool length = array == "gap" || array == "bonded_at";
+      return array == "r" || array == "adhesive" ? "N" : length ? "mm" : "-";
+    });
 }
 
 }  // namespace
@@ -153,6 +156,10 @@ StepRecord SolutionReader::step(int index) const {
       if (status < 0 || status > 2) group.refuse("status", std::to_string(status), "0 open, 1 stick or 2 slip");
       contact.status.push_back(static_cast<int>(status));
     }
+    if (!group.has("beta")) continue;
+    contact.beta = finite_rows(group, "beta", i, 1, {nodes.size()});
+    contact.bonded_at = vectors(finite_rows(group, "bonded_at", i, 1, {nodes.size(), 3}));
+    contact.adhesive = vectors(finite_rows(group, "adhesive", i, 1, {nodes.size(), 3}));
   }
   return record;
 }

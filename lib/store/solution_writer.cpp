@@ -230,6 +230,10 @@ void SolutionWriter::State::contact(const StepRecord& record) {
     extend<double>(group, "r", {k, 3}, 1, flat(contact.r), "N");
     extend<std::int64_t>(group, "status", {k}, 1, {contact.status.begin(), contact.status.end()});
     extend<double>(group, "gap", {k}, 1, contact.gap, "mm");
+    if (contact.beta.empty()) continue;
+    extend<double>(group, "beta", {k}, 1, contact.beta, "-");
+    extend<double>(group, "bonded_at", {k, 3}, 1, flat(contact.bonded_at), "mm");
+    extend<double>(group, "adhesive", {k, 3}, 1, flat(contact.adhesive), "N");
   }
   for (int s = 0; s < 3; ++s)
     add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
