@@ -5,7 +5,14 @@ namespace langer {
 const std::vector<StageSpec>& stages() {
   static const std::vector<StageSpec> table{
       {"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"},
-      {"fit", "Finds material parameters from a measured curve.", {}, "material.h5"},
+      {"fit",
+       "Finds material parameters from a measured curve.",
+       {{.name = "curves",
+         .says = "what was measured in a scene, of the items of data without a file, in their order",
+         .made_by = {"post"},
+         .required = false,
+         .several = true}},
+       "material.h5"},
       {"sensitivity",
        "Ranks material parameters: one at a time, by Morris, by Sobol.",
        {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},

@@ -30,6 +30,26 @@ void add_tests(ReportPage& page, const Source& source, const FitRecord& fit) {
   }
 }
 
+// what was measured in scenes; a field over x
+void add_curves_of_scenes(ReportPage& page, const Source& source, const FitRecord& fit) {
+  for (const FittedCurve& curve : fit.curves) {
+    std::vector<double> x = curve.x;
+    for (std::size_t i = 0; i < curve.places.size(); ++i) x[i] = curve.places[i][0];
+    const bool field = !curve.places.empty();
+    Chart chart{"fits",
+                fmt::format("{}: {}", source.label, curve.name),
+                field ? "x" : curve.x_name,
+                field ? "mm" : curve.x_unit,
+                curve.quantity,
+                curve.unit,
+                {},
+                false};
+    chart.series.push_back({"measured", x, curve.measured, true});
+    chart.series.push_back({"found", x, curve.model, field});
+    page.charts.push_back(std::move(chart));
+  }
+}
+
 // Standard deviation of a test's points about a smooth curve: each beside the cubic through its four neighbours. [MPa]; 0 below five points
 double scatter(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
@@ -71,8 +91,13 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
       break;
     }
   }
-  const std::string errors = fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest stress; R² = {:.5f}",
-                                         fit.mean_error_percent, fit.max_error_percent, fit.r2);
+  for (const FittedCurve& curve : fit.curves)
+    if (const double miss = root_mean_square(curve.measured, curve.model); miss > enough * curve.standard_deviation)
+      missed += fmt::format("{}{} by {:.2g} times its standard deviation", missed.empty() ? "" : "; ", curve.name,
+                            miss / curve.standard_deviation);
+  const std::string errors =
+      fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest {}; R² = {:.5f}", fit.mean_error_percent,
+                  fit.max_error_percent, fit.curves.empty() ? "stress" : "value", fit.r2);
   if (missed.empty())
     page.verdicts.push_back({Level::good, source.label, "the law follows the tests within their scatter: " + errors});
   else
@@ -186,6 +211,7 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
     if (const std::string least = said("identifiability", "words"); !least.empty())
       page.verdicts.push_back({Level::note, source.label, "least identifiable combination: " + least});
     add_tests(page, source, *fit);
+    add_curves_of_scenes(page, source, *fit);
     add_identifiability(page, source, *fit, file.root());
     add_stability(page, source, file.root());
   }
