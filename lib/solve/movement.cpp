@@ -117,9 +117,16 @@ std::optional<VecX> contact_forces(const std::vector<NodeLaw>& laws, const Tange
 
 std::optional<Movement> Statics::movement(const Disturbance& by) {
   if (!bonds_.none()) return std::nullopt;        // their tangent is not in the factor
-  if (contact_in_tangent()) return std::nullopt;  // the factor has the contacts in it
   const Dofs& dofs = equilibrium_.dofs();
-  need_factor_of_accepted(1e-9);  // with the factor of another state the volume of cells would change, against kappa
+  std::optional<TangentFactor> own;  // where contact stands in the tangent, which has no compliance of the candidates
+  if (contact_in_tangent()) {
+    own.emplace(equilibrium_, contacts_, options_.threads, ContactBy::compliance);
+    need_tangent();
+    if (!own->factorize(equilibrium_)) return std::nullopt;
+  } else {
+    need_factor_of_accepted(1e-9);  // with the factor of another state the volume of cells would change, against kappa
+  }
+  TangentFactor& factor = own ? *own : factor_;
   VecX f = by.force.size() > 0 ? on_free_rows(by.force) : VecX(VecX::Zero(dofs.n_free()));
   Movement out{VecX::Zero(dofs.n), {}};
   for (const RigidContact& contact : contacts_) out.r.emplace_back(contact.nodes.size(), Vec3::Zero());
@@ -127,17 +134,17 @@ std::optional<Movement> Statics::movement(const Disturbance& by) {
     equilibrium_.assemble(u_, true, &by.prescribed);
     f -= on_free_rows(equilibrium_.K_du()), out.u = by.prescribed;
   }
-  LinearSolver& linear = factor_.linear();
+  LinearSolver& linear = factor.linear();
   VecX move;
   if (contacts_.empty()) {
     move = linear.solve(f);
   } else {
     const LinearSolver::Half half = linear.start(f);
-    const auto laws = laws_of(*this, equilibrium_, by.indenters, factor_.with_springs());
-    const auto forces = laws ? contact_forces(*laws, factor_, half.last, out.u, out.r) : std::nullopt;
+    const auto laws = laws_of(*this, equilibrium_, by.indenters, factor.with_springs());
+    const auto forces = laws ? contact_forces(*laws, factor, half.last, out.u, out.r) : std::nullopt;
     if (!forces) return std::nullopt;
-    for (std::size_t i = 0; i < factor_.last().size(); ++i) f[factor_.last()[i]] += (*forces)[static_cast<Eigen::Index>(i)];
-    move = factor_.kind() == TangentFactor::Kind::whole ? linear.finish(half, *forces) : linear.solve(f);
+    for (std::size_t i = 0; i < factor.last().size(); ++i) f[factor.last()[i]] += (*forces)[static_cast<Eigen::Index>(i)];
+    move = factor.kind() == TangentFactor::Kind::whole ? linear.finish(half, *forces) : linear.solve(f);
   }
   if (!move.allFinite()) return std::nullopt;
   for (int row = 0; row < dofs.n_free(); ++row) out.u[dofs.free[row]] = move[row];
