@@ -103,6 +103,9 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (is_viscous(m)) refuse("and a material is viscous", "an elastic law", "derivatives do not follow what branches remember");
   std::vector<std::string> known;
   for (const RigidContact& contact : scene.contacts) {
+    if (contact.adhesion)
+      refuse("and the contact \"" + contact.name + "\" has adhesion", "contacts without bonds",
+             "derivatives do not follow what bonds remember");
     const std::string friction = "contacts." + contact.name + ".friction";
     if (contact.mu > 0) known.push_back(friction);
     if (key != friction) continue;
