@@ -144,7 +144,8 @@ std::vector<ErrorEstimate> dual_errors(const SolveConfig& config, Run& run, cons
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
-  if (duals.empty()) throw not_known("a contact between two indenters, one that adheres, or a singular tangent has no dual solution");
+  if (duals.empty())
+    throw not_known("a contact between two indenters, one that adheres, or a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) throw not_known("a layer of one cell tells nothing of smooth fields across it");
   const bool quadratic = run.mesh.cell().second_order();

@@ -116,7 +116,7 @@ std::optional<VecX> contact_forces(const std::vector<NodeLaw>& laws, const Tange
 }  // namespace
 
 std::optional<Movement> Statics::movement(const Disturbance& by) {
-  if (!bonds_.none()) return std::nullopt;        // their tangent is not in the factor
+  if (!bonds_.none()) return std::nullopt;  // their tangent is not in the factor
   const Dofs& dofs = equilibrium_.dofs();
   std::optional<TangentFactor> own;  // where contact stands in the tangent, which has no compliance of the candidates
   if (contact_in_tangent()) {
