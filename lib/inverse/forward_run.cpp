@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/interrupt.hpp"
+#include "inverse/sensitivity.hpp"
 #include "material/path.hpp"
 #include "mesh/reference.hpp"
 #include "run/body_mesh.hpp"
@@ -58,6 +59,19 @@ void add_stops(SolveConfig& config, const std::vector<double>& stops) {
   }
 }
 
+bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
+  return key.starts_with("contacts.") && std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
+           return key == "contacts." + contact.first + ".friction";
+         });
+}
+
+MatX matrix_of(const std::vector<std::vector<double>>& rows, std::size_t columns) {
+  MatX m(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    m.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const VecX>(rows[i].data(), m.cols()).transpose();
+  return m;
+}
+
 }  // namespace
 
 ForwardRun::ForwardRun(SolveConfig config, Where where, double fibre_angle)
@@ -80,25 +94,33 @@ SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
 }
 
 ForwardPath ForwardRun::solve(const ForwardInput& input) const {
-  const SolveConfig config = config_at(input);
+  SolveConfig config = config_at(input);
+  std::vector<std::size_t> asked;  // those that this scene has
+  for (std::size_t k = 0; k < input.slopes.size(); ++k)
+    if (!is_friction_of_another(input.slopes[k], config)) asked.push_back(k), config.sensitivity.push_back(input.slopes[k]);
   Run run(*mesh_, config, config.material, where_);
+  std::optional<Sensitivity> sensitivity;
+  if (!asked.empty()) sensitivity.emplace(run, config, where_);
   std::vector<std::vector<double>> rows;
+  std::vector<std::vector<std::vector<double>>> slopes(input.slopes.size());
   ForwardPath found;
   RunListener listener;
   listener.of_whole = [&](StepRecord& whole, const SolveReport&) {
     found.t.push_back(whole.t);
     rows.emplace_back();
     for (const Observation& one : observations_) rows.back().push_back(one.value(whole));
+    for (auto& of_number : slopes) of_number.emplace_back(observations_.size(), 0.0);
+    for (std::size_t k = 0; k < asked.size(); ++k)
+      for (std::size_t i = 0; i < observations_.size(); ++i)
+        slopes[asked[k]].back()[i] = observations_[i].slope(whole, sensitivity->now()[k]);
   };
-  const RunEnd end = run.follow(listener);
+  const RunEnd end = run.follow(sensitivity ? sensitivity->along(std::move(listener)) : std::move(listener));
   if (end.at == RunEnd::At::signal)
     throw Failure(exit_code_of(interrupted()), Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
   found.complete = end.path.complete;
   if (!found.complete) found.why = fmt::format("no equilibrium behind t = {:.4g} of its path ({})", end.path.t, end.path.why);
-  found.values.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(observations_.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    found.values.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const VecX>(rows[i].data(), static_cast<Eigen::Index>(rows[i].size())).transpose();
+  found.values = matrix_of(rows, observations_.size());
+  for (const auto& of_number : slopes) found.slopes.push_back(matrix_of(of_number, observations_.size()));
   return found;
 }
 

@@ -35,11 +35,12 @@ std::function<void(const std::string&)> now_and_then(const Voice& voice, const s
 }  // namespace
 
 InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where, FitProblem& problem,
-                       const std::vector<std::string>& files, const std::string& journal)
+                       const std::vector<std::string>& files, const std::string& journal, bool quotients)
     : voice_(voice), config_(config), where_(where), problem_(problem), cache_(std::make_shared<RunCache>(journal)) {
   if (cache_->read_back() > 0) voice_.say("goes on with {} runs that an earlier fit made", cache_->read_back());
-  scenes_ = std::make_shared<SceneTests>(config, where, problem, files, cache_,
-                                         SceneFitOptions{config.jobs, true, now_and_then(voice, "")});
+  scenes_ =
+      std::make_shared<SceneTests>(config, where, problem, files, cache_,
+                                   SceneFitOptions{config.jobs, quotients || is_viscous(config.law), now_and_then(voice, "")});
   if (config.draft) draft_ = scenes_->on_longer_cells(draft_factor);
   problem_.further = scenes_;
 }

@@ -12,9 +12,10 @@ namespace langer {
 
 class InverseFit {
  public:
+  // quotients: derivatives by differences of whole runs, as viscous laws have them anyway.
   // problem: gets the scenes as further tests. journal: keeps the runs (inverse/run_cache.hpp). files: of items without one.
   InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where, FitProblem& problem,
-             const std::vector<std::string>& files, const std::string& journal);
+             const std::vector<std::string>& files, const std::string& journal, bool quotients = false);
 
   // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code where one has come.
   FitResult search();

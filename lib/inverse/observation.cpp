@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "inverse/sensitivity.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/select.hpp"
 
@@ -43,13 +44,20 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
 }  // namespace
 
 double Observation::value(const StepRecord& whole) const {
-  if (of == Of::force) {
-    Vec3 force = whole.force_ind;
-    if (!contact.empty())
-      for (int j = 0; j < 3; ++j) force[j] = whole.scalars.at("force_" + contact + "_" + "xyz"[j]);
-    const double travel = whole.u_ind.norm();
-    return travel > 0 ? -force.dot(whole.u_ind) / travel : force.norm();
-  }
+  if (of != Of::force) return sum(whole);
+  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact);
+  const double travel = whole.u_ind.norm();
+  return travel > 0 ? -force.dot(whole.u_ind) / travel : force.norm();
+}
+
+double Observation::slope(const StepRecord& whole, const StepRecord& derivative) const {
+  if (of != Of::force) return sum(derivative);
+  if (contact.empty()) return force_derivative(whole, derivative);
+  const double travel = whole.u_ind.norm();
+  return travel > 0 ? -force_on(derivative, contact).dot(whole.u_ind) / travel : 0;
+}
+
+double Observation::sum(const StepRecord& whole) const {
   double sum = 0;
   const std::vector<Vec3>& field = of == Of::reaction ? whole.reaction : whole.u;
   for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * field[static_cast<std::size_t>(nodes[k])][axis];

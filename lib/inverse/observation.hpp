@@ -22,7 +22,8 @@ struct Observation {
   std::vector<double> weights = {};
 
   double value(const StepRecord& whole) const;
-  const char* unit() const { return of == Of::displacement ? "mm" : "N"; }
+  double slope(const StepRecord& whole, const StepRecord& derivative) const;  // of what inverse/sensitivity.hpp gives
+  double sum(const StepRecord& whole) const;                                  // over the nodes
 };
 
 // Nodes and weights of a place on the surface: on the top where y is not given (NaN), else on the facet that it lies in.

@@ -16,7 +16,7 @@ namespace langer {
 class RunCache {
  public:
   explicit RunCache(const std::string& journal = "");  // empty: in memory only; throws Failure(input)
-  ~RunCache();  // leaves no file without a run
+  ~RunCache();                                         // leaves no file without a run
   // Both from several threads at once.
   std::shared_ptr<const ForwardPath> find(const std::string& key) const;
   std::shared_ptr<const ForwardPath> keep(const std::string& key, ForwardPath path);

@@ -233,6 +233,23 @@ TEST_CASE("The derivative by what the machine adds is that of the model") {
   }
 }
 
+TEST_CASE("The derivatives of the runs are those of differences between runs") {
+  write_force("force.csv", truth());
+  const auto loaded = read(std::string(force) + "}]\n" + law + three);
+  const FitProblem problem = fit_problem(loaded.config);
+  const auto cache = std::make_shared<RunCache>();
+  SceneTests exact(loaded.config, loaded.where, problem, {}, cache, {1, false}),
+      quotients(loaded.config, loaded.where, problem, {}, cache, {1, true});
+  VecX p(3);
+  p << 0.015, 0.02, 0.012;
+  MatX J, Q;
+  REQUIRE(exact.slope(p, J));
+  REQUIRE(quotients.slope(p, Q));
+  for (Eigen::Index i = 0; i < 3; ++i) CHECK((J.col(i) - Q.col(i)).norm() < 1e-3 * J.col(i).norm());  // one-sided differences
+  CHECK(exact.runs() == 1);
+  CHECK(quotients.runs() == 4);
+}
+
 TEST_CASE("What a scene does not have, and files that do not fit it, are named where they stand") {
   write_force("force.csv", truth());
   const auto with = [](const std::string& data, const std::string& parameters = three) {
