@@ -39,6 +39,15 @@ std::array<NamedTurn, 8> operations() {
            {"quarter turn about -y of", turn_of(0, -1, 1, 0)}}};
 }
 
+// Torques change their sign in a mirror, derivatives belong to named components, errors to the cells they were told on.
+bool knows_how_to_turn(const StepRecord& step) {
+  return step.point_fields.empty() && std::none_of(step.scalars.begin(), step.scalars.end(), [](const auto& scalar) {
+           const std::string& name = scalar.first;
+           return name.starts_with("torque_") || name.starts_with("angle_") || name.starts_with("d_") ||
+                  name.ends_with("_deviation") || name.ends_with("_error");
+         });
+}
+
 // Columns of results are those of the first family.
 bool first_family_stays(const MeshImage& g, const Mesh& mesh, const Scene& scene, const Scene& image) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -115,6 +124,8 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g, const std::
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const std::size_t j = candidate.at(g.node[static_cast<std::size_t>(contact.nodes[i])]);
       to.r[j] = g.turn * from.r[i], to.status[j] = from.status[i], to.gap[j] = from.gap[i];
+      if (from.beta.empty()) continue;
+      to.beta[j] = from.beta[i], to.bonded_at[j] = g.turn * from.bonded_at[i], to.adhesive[j] = g.turn * from.adhesive[i];
     }
   }
   return out;
@@ -133,6 +144,8 @@ Mirrored mirrored(const MirrorTask& task) {
   if (std::string why = other_task(task, theirs, *their_config); !why.empty()) return no(std::move(why));
   const Mesh mesh = body_mesh(task.config, task.mesh_file, task.where);
   if (mesh.section) return no("a section is cheaper than its image");
+  if (other.n_steps() == 0 || !knows_how_to_turn(other.step(other.n_steps() - 1)))
+    return no("torques, derivatives or errors are its own");
   const Scene scene = make_scene(task.config, mesh, task.material, task.where);
   SolveConfig turned = task.config;
   turned.fibre_angles = their_config->fibre_angles;
