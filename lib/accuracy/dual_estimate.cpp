@@ -89,6 +89,7 @@ class Questions {
       for (int j = 0; j < 3; ++j)
         if (dofs.equation[3 * found->second + j] < 0) asked.by.prescribed[3 * found->second + j] = reaction.normalized()[j];
     }
+    if (asked.by.prescribed.isZero(0)) return std::nullopt;  // the part that symmetry leaves has it as an image alone
     return asked;
   }
 

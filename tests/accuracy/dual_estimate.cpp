@@ -155,12 +155,15 @@ TEST_CASE("symmetry leaves the errors of reactions and forces as they are") {
       "supports: [{on: bottom, hold: [x, y, z]}]\n"
       "contacts: {ball: {on: top, rigid: {sphere: {radius: 2, centre: [0, 4, 0]}}, motion: [{t: 1, to: [0, -0.3, 0]}]}}\n"
       "path: {steps: 2}\n";
-  for (const auto& [scene, name] : {std::pair(pulled, "reaction_x_max"), std::pair(pressed, "force")}) {
-    CAPTURE(name);
-    const ErrorEstimate whole = by_dual_solutions(scene + "homogeneous: off\nsymmetry: none\n").of(name);
-    const ErrorEstimate part = by_dual_solutions(scene + "homogeneous: off\nsymmetry: auto\n").of(name);
-    CHECK(part.cells == doctest::Approx(whole.cells).epsilon(1e-3));
-    CHECK(part.scatter == doctest::Approx(whole.scatter).epsilon(1e-3));
+  for (const std::string& scene : {pulled, pressed}) {
+    CAPTURE(scene);
+    const Estimated whole = by_dual_solutions(scene + "homogeneous: off\nsymmetry: none\n");
+    const Estimated part = by_dual_solutions(scene + "homogeneous: off\nsymmetry: auto\n");
+    REQUIRE(!part.errors.empty());  // of a set that the part does not have there is none
+    for (const ErrorEstimate& e : part.errors) {
+      CHECK(e.cells == doctest::Approx(whole.of(e.of.name).cells).epsilon(1e-3));
+      CHECK(e.scatter == doctest::Approx(whole.of(e.of.name).scatter).epsilon(1e-3));
+    }
   }
 }
 
