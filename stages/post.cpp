@@ -301,7 +301,9 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
-  for (const Summary& s : solution.reader.summary()) curves.summary.push_back(s);  // its errors
+  for (const Summary& s : solution.reader.summary())  // its errors; those that are columns stand there already
+    if (std::none_of(curves.summary.begin(), curves.summary.end(), [&](const Summary& other) { return other.name == s.name; }))
+      curves.summary.push_back(s);
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures{}", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size(),

@@ -107,6 +107,8 @@ std::string label_of(const ColumnChoice& choice) {
 
 std::string error_of(const std::string& column) { return column + "_error"; }
 
+std::vector<std::string> bands_of(const std::string& column) { return {column + "_deviation", error_of(column)}; }
+
 namespace {
 // what the names of its derivatives begin with (inverse/sensitivity.cpp); empty where there are none
 std::string derivatives_of(std::string_view word, const ColumnChoice& c) {

@@ -54,6 +54,8 @@ std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's e
 // that are moved. And its derivatives with respect to the numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
+// What a figure draws as a band about a column, the first of them that is there: what parameters leave open (uncertainty: linear), errors.
+std::vector<std::string> bands_of(const std::string& column);
 
 // The same with everything looked up.
 struct Measure {
