@@ -43,7 +43,7 @@ std::string pulled(const std::string& more) {
 }  // namespace
 
 TEST_CASE("adhesion: a plate pulled off a stiff block bears what its bonds do and takes w A") {
-  const test::Ended found = test::run(plate("{work: 0.02, stiffness: 20}", "[{t: 1, to: [0, 1, 0]}]", "path: {steps: 200}\n"));
+  const test::Ended found = test::run(plate("{work: 0.02, stiffness: 20}", "[{t: 1, to: [0, 0.5, 0]}]", "path: {steps: 400}\n"));
   double most = 0;
   const double g_0 = std::sqrt(0.02 / 20);
   for (const StepRecord& step : found.steps) {
@@ -56,7 +56,8 @@ TEST_CASE("adhesion: a plate pulled off a stiff block bears what its bonds do an
   CHECK(most == doctest::Approx(area * std::sqrt(0.02 * 20)).epsilon(0.02));
   const StepRecord& last = found.last();
   CHECK(last.scalars.at("energy_released") == 0);
-  CHECK(last.scalars.at("adhesion_dissipated") == doctest::Approx(0.02 * area).epsilon(0.002));
+  const double g = last.contacts.at("plate").gap[0];
+  CHECK(last.scalars.at("adhesion_dissipated") == doctest::Approx(0.02 * area * (1 - 0.02 / (20 * g * g))).epsilon(1e-6));
   CHECK(std::abs(sums_of(found).back().balance) < 1e-3);
   CHECK(sums_of(found).back().pull_off == doctest::Approx(most));
 }
@@ -68,9 +69,9 @@ TEST_CASE("adhesion: a plate on a long spring jumps off, and the energy that the
   const StepRecord& last = found.last();
   const double sigma = std::sqrt(0.02 * 2000), taken = 0.02 * area;
   CHECK(last.scalars.at("adhesion_dissipated") == doctest::Approx(taken).epsilon(0.01));
-  // just before, the block held sigma^2/(2 k) per volume of 1 mm height, and the bonds w/2; afterwards nothing but w is gone
+  // just before, the block held sigma^2/(2 k) per volume of 1 mm height, and the bonds w/2; of that w is taken
   const double held = area * (0.5 * sigma * sigma / stiffness + 0.5 * 0.02);
-  CHECK(last.scalars.at("energy_released") == doctest::Approx(held - 0.5 * taken).epsilon(0.1));
+  CHECK(last.scalars.at("energy_released") == doctest::Approx(held - taken).epsilon(0.1));
   CHECK(std::abs(last.force_ind[1]) < 0.01 * area * sigma);
   CHECK(std::abs(sums_of(found).back().balance) < 1e-3);
 }
