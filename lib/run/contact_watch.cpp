@@ -116,6 +116,8 @@ void ContactWatch::look(StepRecord& record) {
       if (adds_) record.scalars["force_" + contact.name] = c.norm() > 0 ? -force.dot(c) / c.norm() : force.norm();
     }
     keep(k, look, record.t, force.norm());
+    const std::vector<double>& beta = record.contacts.at(contact.name).beta;  // what is bonded has touched
+    if (std::any_of(beta.begin(), beta.end(), [](double b) { return b >= 0; })) found_[k].touched = true;
     entry = std::max(entry, look.facet.depth);
   }
   if (adds_) record.scalars["penetration_between_nodes"] = entry;
@@ -171,7 +173,8 @@ std::vector<std::string> ContactWatch::warnings() const {
                                   f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(),
                                   f.share() > share_meaningless ? "the force is that of the cells and not of the body"
                                                                 : "the force depends on the length of the cells"));
-    if (f.force > 0 && !f.at_force.whole_facet)
+    const bool hangs = scene_.contacts[k].adhesion && f.at_force.touching == 0;  // by its bonds alone
+    if (f.force > 0 && !f.at_force.whole_facet && !hangs)
       lines.push_back(name + fmt::format("at the largest force {} node{}, and no facet as a whole: the force depends on the length "
                                          "of the cells, whose nodes are {:.3g} mm apart there; shorten them",
                                          f.at_force.touching, f.at_force.touching == 1 ? " touches" : "s touch",
