@@ -14,7 +14,7 @@ path: {first: 0.5, largest: 0.5}
 file(WRITE ${WORK}/project/p.yaml "pipeline: p
 nodes:
   solve: {stage: solve, config: solve.yaml, sweep: {alpha: {key: \"fibre_angles[0]\", values: [20, 70, 110, 160], unit: deg}}}
-  post: {stage: post, config: {columns: [t, force]}, solution: solve}
+  post: {stage: post, config: {columns: [{quantity: t}, {quantity: force}]}, solution: solve}
   table: {stage: gather, curves: post, over: alpha}
 ")
 run(0 ${BIN}/langer-plan p.yaml)
