@@ -15,7 +15,7 @@ namespace {
 
 const char* const written =
     "pipeline: p\nnodes:\n  mesh: {stage: mesh, config: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
-    "  solve: {stage: solve, mesh: mesh, material: law.yaml, config: {threads: 1}, set: {threads: 2},\n"
+    "  solve: {stage: solve, mesh: mesh, material: law.yaml, config: {threads: 1, fibre_angles: [0]}, set: {threads: 2},\n"
     "          sweep: {alpha: {key: \"fibre_angles[0]\", values: [0, 60]}}}\n";
 
 std::vector<Step> steps_after(const Overrides& overrides) {
@@ -53,8 +53,8 @@ TEST_CASE("a typed value replaces what the pipeline sets, and adds what it does 
 TEST_CASE("a typed sweep is one like any other, and may have a name of its own") {
   const auto steps = steps_after({{}, {"solve.path.first=[0.1, 0.2, 0.5]", "half:mesh.scale=[1, 2]"}});
   CHECK(steps.size() == 2 + 2 * 2 * 3);  // meshes; meshes, angles, increments
-  CHECK(steps.back().folder.find("first_0.5") != std::string::npos);
-  CHECK(steps.back().folder.find("half_2") != std::string::npos);
+  CHECK(steps.back().folder.find("first_000.5") != std::string::npos);
+  CHECK(steps.back().folder.find("half_002") != std::string::npos);
   CHECK(steps_after({{}, {"alpha:solve.fibre_angles[0]=[0, 30, 90]"}}).size() == 4);  // the axis that is there with other values
 }
 

@@ -27,7 +27,7 @@ L.number = (x, digits = 4) => {
   const s = a >= 1e5 || a < 1e-3 ? x.toExponential(digits - 1) : String(+x.toPrecision(digits));
   return s.replace('e', ' e').replace(/-/g, '−');
 };
-L.unit = u => (!u || u === '-' ? '' : { deg: '°', percent: '%' }[u] || u.replace('1/', '1/'));
+L.unit = u => (!u || u === '-' ? '' : { deg: '°', percent: '%' }[u] || u.replace('^2', '²').replace('^3', '³'));
 L.withUnit = (label, unit) => label + (L.unit(unit) ? ` (${L.unit(unit)})` : '');
 L.ticks = (low, high, wished = 5) => {
   const raw = (high - low) / wished, power = Math.pow(10, Math.floor(Math.log10(raw)));
@@ -52,7 +52,7 @@ L.tickTexts = ticks => {
 L.times = texts => texts.power === undefined ? '' : ` × 10${String(texts.power).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] || '⁻')}`;
 
 L.el = (name, attributes = {}, ...children) => {
-  const svg = ['svg', 'g', 'path', 'line', 'text', 'circle', 'rect', 'clipPath', 'title', 'style'].includes(name);
+  const svg = ['svg', 'g', 'path', 'line', 'text', 'circle', 'rect', 'title', 'style'].includes(name);
   const e = svg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   for (const child of children) e.append(child);
@@ -124,7 +124,7 @@ L.raised = n => String(n).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] ||
 
 // A chart: drag a part to look closer, double click or `whole` to see all; arrows lead along the points.
 L.chart = chart => {
-  const W = 480, H = 300, box = { l: 70, r: 12, t: 10, b: 48 };
+  const W = 480, H = 300, box = { l: 70, r: 20, t: 10, b: 48 };
   chart.twins = L.twinsOf(chart.series);
   const figure = L.el('figure', { class: 'chart' });
   const shown = chart.series.map(() => true), svg = L.el('svg', { viewBox: `0 0 ${W} ${H}`, role: 'img', tabindex: 0 });
@@ -172,9 +172,10 @@ L.chart = chart => {
     if (!ys.length) return;
     state.x = L.axis(xs, state.logX, state.zoom && state.zoom.x, false);
     state.y = L.axis(ys, state.logY, state.zoom && state.zoom.y, true);
-    const to = frame(), clipped = 'clip' + (L.chartNumber = (L.chartNumber || 0) + 1), within = L.el('g', { 'clip-path': `url(#${clipped})` });
-    const clip = L.el('clipPath', { id: clipped }, L.el('rect', { x: box.l - 5, y: box.t - 5, width: W - box.l - box.r + 10, height: H - box.t - box.b + 10 }));
-    svg.append(clip, within);
+    // a drawing in the drawing ends at its own edges
+    const room = 5, left = box.l - room, top = box.t - room, width = W - box.l - box.r + 2 * room, height = H - box.t - box.b + 2 * room;
+    const to = frame(), within = L.el('svg', { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}`, style: `width:${width}px;height:${height}px` });
+    svg.append(within);
     chart.series.forEach((s, i) => shown[i] && line(s, L.look(chart, i), to, within));
     for (const at of chart.marks || []) {  // lines that the curves are compared with
       const y = to.py(at.y);
@@ -245,7 +246,7 @@ L.savedSvg = svg => {
   L.printing = false;
   L.redraws.forEach(draw => draw());
   copy.querySelectorAll('.zoom, .here').forEach(e => e.remove());
-  for (const [key, value] of Object.entries({ xmlns: 'http://www.w3.org/2000/svg', width: w, height: h })) copy.setAttribute(key, value);
+  for (const [key, value] of Object.entries({ width: w, height: h })) copy.setAttribute(key, value);
   copy.prepend(L.el('style', {}, 'text{font:12.5px "Liberation Sans",Arial,Helvetica,sans-serif;fill:#1f2328}.axis{stroke:#59636e;fill:none}.rule{stroke:#e4e8ec}.zero{stroke:#9aa4ae}.mark{stroke:#59636e;stroke-dasharray:5 4}.halo{stroke:#fff;stroke-width:4;paint-order:stroke}'));
   return new XMLSerializer().serializeToString(copy);
 };
