@@ -36,6 +36,13 @@ Vec3 force_on(const StepRecord& record, const std::string& contact) {
   return force;
 }
 
+double length_derivative(const StepRecord& whole, const SceneParameter& parameter) {
+  Vec3 d;
+  for (int k = 0; k < 3; ++k) d[k] = whole.scalars.at(derivative_name(std::string("force_") + "xyz"[k] + "_N", parameter));
+  const double size = whole.force_ind.norm();
+  return size > 0 ? d.dot(whole.force_ind) / size : 0;
+}
+
 double force_derivative(const StepRecord& whole, const StepRecord& derivative) {
   return against(whole.u_ind, whole.force_ind, derivative.force_ind);
 }
@@ -78,7 +85,8 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
   std::vector<Summary> out;
   for (const auto& [name, value] : last.scalars)
     for (const SceneParameter& p : parameters())
-      if (name.starts_with("d_") && name.ends_with("_d_" + p.name)) out.push_back({name, value, "-"});
+      if (name.starts_with("d_") && name.ends_with("_d_" + p.name))
+        out.push_back({name, name == derivative_name("force_N", p) ? length_derivative(last, p) : value, "-"});
   return out;
 }
 
@@ -110,12 +118,30 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   return out;
 }
 
+// What the movement of the body adds to the derivatives of its energy. Where the remainder's modulus follows the state the forces are not
+// all of it: a difference along the movement, as the laws have it.
+void Sensitivity::add_work(const std::vector<StateDerivative>& d, std::vector<double>& energies) {
+  Equilibrium& body = run_.body;
+  const VecX& u = run_.statics.accepted().u;
+  const bool follows = run_.reduction.scene().formulation == Formulation::linear_dilatation;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const double size = d[i].u.lpNorm<Eigen::Infinity>(), h = 1e-6;  // [mm]
+    if (!follows) energies[i] += body.f_int().dot(d[i].u);
+    if (!follows || size == 0) continue;
+    for (const double side : {1., -1.}) {
+      const VecX at = u + side * h / size * d[i].u;
+      body.pressures_from(at), body.assemble(at, false);
+      energies[i] += side * size / (2 * h) * body.W();
+    }
+  }
+  if (follows) body.pressures_from(u), body.assemble(u, false);
+}
+
 void Sensitivity::advance(const StepRecord& record) {
   std::vector<double> energies;
   const std::vector<ParameterChange> all = changes(energies);
   const StateTangent tangent(run_.statics, earlier_, factor_ ? &*factor_ : nullptr);
   std::vector<StateDerivative> d;
-  const VecX f_int = run_.body.f_int();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto found = tangent.derivative(all[i], d_last_[i], d_earlier_[i]);
     if (!found)
@@ -126,10 +152,10 @@ void Sensitivity::advance(const StepRecord& record) {
                                       record.t, parameters()[i].key),
                           "",
                           "without the key the path goes on"});
-    energies[i] += f_int.dot(found->u);
     d.push_back(*found);
   }
   const std::vector<VecX> reactions = tangent.reactions(all, d);
+  add_work(d, energies);
   of_part_.clear();
   for (std::size_t i = 0; i < d.size(); ++i) of_part_.push_back(of_part(record, d[i], reactions[i], energies[i]));
   earlier_ = std::move(last_), last_ = run_.statics.accepted();
@@ -199,6 +225,8 @@ void Sensitivity::write(StepRecord& whole) const {
     auto& scalars = whole.scalars;
     scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
     if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
+    for (int k = 0; k < 3 && !contacts.empty(); ++k)
+      scalars[derivative_name(std::string("force_") + "xyz"[k] + "_N", p)] = d.force_ind[k];
     for (const RigidContact& contact : contacts) {
       if (contacts.size() > 1)
         scalars[derivative_name("force_" + contact.name + "_N", p)] =

@@ -27,7 +27,7 @@ class Sensitivity {
   void kept(const StepRecord& whole);
 
   Companion companion();                                       // of a Recording; empty without the key
-  std::vector<Summary> summary(const StepRecord& last) const;  // d_force_N_d_... at the end of the path, and their like
+  std::vector<Summary> summary(const StepRecord& last) const;  // at the end of the path; d_force_N_d_... of the force's length
 
   // At the increment accepted last, of the whole body, one for each number, per its unit:
   //   u (n) [mm], reaction (n) [N], force_ind, u_ind (under force control), contacts' r, scalars energy, force_<contact>_x|y|z of
@@ -37,6 +37,7 @@ class Sensitivity {
  private:
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
+  void add_work(const std::vector<StateDerivative>& d, std::vector<double>& energies);
   StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const;
   StepRecord of_whole(const StepRecord& derivative, const StepRecord& whole) const;
   StepRecord of_mesh(const StepRecord& derivative, const StepRecord& whole) const;  // that a hexahedron stands for
@@ -53,6 +54,8 @@ class Sensitivity {
 
 // of a record with several indenters: of the body on one of them [N]
 Vec3 force_on(const StepRecord& record, const std::string& contact);
+// of the length of force_ind, by the derivatives that a record of the whole body holds
+double length_derivative(const StepRecord& whole, const SceneParameter& parameter);
 // of the column `force` (post/curves.hpp), whole: the state
 double force_derivative(const StepRecord& whole, const StepRecord& derivative);
 

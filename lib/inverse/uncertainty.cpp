@@ -85,7 +85,7 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
     return [&whole, quantity](const SceneParameter& p) { return whole.scalars.at(derivative_name(quantity, p)); };
   };
   const auto& contacts = run_.scene.contacts;
-  if (!contacts.empty()) add("force", whole.force_ind.norm(), scalar("force_N"));
+  if (!contacts.empty()) add("force", whole.force_ind.norm(), [&](const SceneParameter& p) { return length_derivative(whole, p); });
   for (const RigidContact& contact : contacts)
     if (contacts.size() > 1)
       add("force_" + contact.name, force_on(whole, contact.name).norm(), scalar("force_" + contact.name + "_N"));

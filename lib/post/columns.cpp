@@ -112,7 +112,8 @@ std::vector<std::string> bands_of(const std::string& column) { return {column + 
 namespace {
 // what the names of its derivatives begin with (inverse/sensitivity.cpp); empty where there are none
 std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
-  if (word == "force" || word == "energy") return word == "force" ? "d_force_N_d_" : "d_energy_N_mm_d_";
+  if (word == "energy") return "d_energy_N_mm_d_";
+  if (word == "force" || word == "force_x" || word == "force_y" || word == "force_z") return "d_" + std::string(word) + "_N_d_";
   if (word.starts_with("reaction_") && c.at) return "d_reaction_" + *c.at + "_" + word.back() + "_N_d_";
   return "";
 }
