@@ -40,8 +40,7 @@ struct IdentifiabilityRecord {
   MatX correlation, combination;
   std::string words;  // of the least felt combination
   std::vector<ProfileRecord> profiles;
-  MatX bootstrap;           // (n, p)
-  bool linearised = false;  // the bootstrap is that of the linearised model; noise is in standard deviations of the tests
+  MatX bootstrap;  // (n, p)
   VecX bootstrap_low, bootstrap_high;
   std::vector<AdviceRecord> advice;
 };

@@ -1,1 +1,0 @@
-version = "0.2.0"  # that of CMakeLists.txt
