@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper install deb map schemas clean help
+.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper install deb map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -130,6 +130,12 @@ deb: $(package)/CMakeCache.txt
 	@cd $(package) && cpack -G DEB > cpack.log || { cat cpack.log; exit 1; }
 	@ls $(package)/*.deb
 
+# docs/ and what the programs tell of themselves as a site with a search: build-site/site
+site: build
+	@$(MAKE) --no-print-directory deps packages=mkdocs-material
+	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer && mkdocs build -q -f share/site/mkdocs.yml
+	@echo "site: build-site/site; its search needs a server: python3 -m http.server -d build-site/site"
+
 # configs/schema, and the line in each config that names its schema
 schemas: build
 	@mkdir -p configs/schema
@@ -182,5 +188,6 @@ help:
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
+	@echo "make site                     docs, gallery, columns and keys as pages with a search (installs mkdocs-material)"
 	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"

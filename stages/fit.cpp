@@ -5,6 +5,7 @@
 #include "fit/cross_check.hpp"
 #include "fit/doubts.hpp"
 #include "hdf5/seal.hpp"
+#include "inverse/inverse_fit.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
 #include "study/fit_report.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
   try {
-    return fit(problem, {config.starts, static_cast<unsigned>(config.seed), {}});
+    return fit(problem, {config.searches(), static_cast<unsigned>(config.seed), {}});
   } catch (const Failure& failure) {
     std::vector<Error> errors = failure.errors();
     for (Error& e : errors) e.where.file = config.data.front().file.path;
@@ -24,39 +25,67 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
   }
 }
 
+void need_optimum(const Job<FitConfig>& job, const FitResult& found) {
+  if (!found.best.converged)
+    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
+                                        fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
+                                                    job.config.searches(), found.best.why, found.best.kkt, found.best.cost),
+                                        "", "more starts, other start values or narrower bounds"});
+}
+
+// tables and figures of what was measured in scenes
+void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) {
+  for (const NamedTable& table : curve_tables(record)) write_text_file(job.beside(table.name + ".csv"), table.text);
+  if (!job.config.study || !job.config.study->figures) return;
+  for (const std::string& line : draw_curves(record.curves, job.beside(""))) job.say("{}", line);
+}
+
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
   for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
-  FitResult found = best_fit(config, problem);
-  if (!found.best.converged)
-    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
-                                        fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
-                                                    config.starts, found.best.why, found.best.kkt, found.best.cost),
-                                        "", "more starts, other start values or narrower bounds"});
-  const auto at_rest = stiffen_at_rest(problem, found, {config.starts, static_cast<unsigned>(config.seed), {}},
-                                       config.study.value_or(StudyConfig{}).noise);
+  std::optional<InverseFit> scenes;
+  std::optional<Interruptible> at_the_end_of_an_increment;
+  if (config.has_scenes()) {
+    at_the_end_of_an_increment.emplace();
+    scenes.emplace(job.voice(), config, job.where, problem,
+                   job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(), job.output + ".runs");
+  }
+  FitResult found = scenes ? scenes->search() : best_fit(config, problem);
+  need_optimum(job, found);
+  const auto at_rest =
+      scenes ? std::nullopt
+             : stiffen_at_rest(problem, found, {config.searches(), static_cast<unsigned>(config.seed), {}}, config.noise());
   FitRecord record = fit_record(problem, found);
   record.at_rest = at_rest;
+  for (std::size_t i = 0; i < config.parameters.size(); ++i)
+    record.parameters[i].truth = config.parameters[i].truth.value_or(std::nan(""));
+  if (scenes)
+    for (const std::string& line : scenes->add_curves(found, record)) job.say("{}", line);
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.warn("{}", line);
+  if (scenes)
+    for (const std::string& line : scenes->cost()) job.say("{}", line);
   if (config.cross_check == SecondAnswer::nlopt) {
     const Comparison second = cross_check(problem, found.best, static_cast<unsigned>(config.seed));
     second.agrees ? job.say("{}", second.text) : job.warn("{}", second.text);
   }
-  record.study.range = fitted_range(found.material, problem.tests);
+  if (!scenes) record.study.range = fitted_range(found.material, problem.tests);
   if (config.study) {
     record.study =
         study(problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); });
     for (const std::string& line : study_lines(record.study)) job.say("{}", line);
     for (const std::string& line : write_study_files(record.study, *config.study, job.beside(""))) job.say("{}", line);
   }
-  write_text_file(job.beside("fit.csv"), fit_csv(record));
-  if (config.study && config.study->figures && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
+  if (!record.tests.empty()) write_text_file(job.beside("fit.csv"), fit_csv(record));
+  write_text_file(job.beside("parameters.csv"), parameters_csv(record));
+  write_curves_of_scenes(job, record);
+  if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
     for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), job.beside("")))
       job.say("{}", line);
   for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
+  if (scenes) scenes->done();
   return read_summary(job.output);
 }
 

@@ -93,9 +93,34 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
   return effects;
 }
 
+// one row for each number that a fit found
+std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
+  const std::vector<std::string>& files = job.inputs.at("curves");
+  const auto refuse = [&](const std::string& found) {
+    throw Failure(Exit::config, Error{job.where("rows"), "rows", "parameters, of " + found, "material.h5 of one fit", ""});
+  };
+  if (files.size() != 1) refuse(fmt::format("{} files", files.size()));
+  if (read_origin(files[0]).schema != material_schema.name) refuse(files[0]);
+  const std::optional<FitRecord> fit = read_material(files[0]).fit;
+  if (!fit) refuse("a material that no fit found");
+  Sweep sweep;
+  sweep.axes = {{"parameter", "-", {}}};
+  sweep.columns = {
+      {"true", "-", {}}, {"found", "-", {}}, {"standard_error", "-", {}}, {"lower_95", "-", {}}, {"upper_95", "-", {}}};
+  for (const FittedParameter& p : fit->parameters) {
+    const double half = p.factor * p.standard_error, row[] = {p.truth, p.value, p.standard_error, p.value - half, p.value + half};
+    sweep.members.push_back(p.name), sweep.axes[0].values.push_back(p.name);
+    for (std::size_t k = 0; k < 5; ++k) sweep.columns[k].values.push_back(row[k]);
+  }
+  write_sweep(job.output, job.beside("table.csv"), sweep, nullptr, {}, job.identity);
+  job.say("{} parameters", sweep.members.size());
+  return {};
+}
+
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const GatherConfig& config = job.config;
+  if (config.rows == GatherRows::parameters) return gather_parameters(job);
   if (!config.members.empty() && config.members.size() != files.size())
     throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
                                       fmt::format("one for each of the {} files given", files.size()), ""});

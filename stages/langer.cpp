@@ -1,8 +1,9 @@
-// langer show | new | check | describe | schema | explain | times | man | completion: what one wants to know beside the stages.
+// langer show | new | check | describe | schema | explain | times | doctor | man | completion: what one wants to know beside the stages.
 #include "pipeline/effective.hpp"
 #include "post/describe_columns.hpp"
 #include "stage.hpp"
 #include "tool/check.hpp"
+#include "tool/doctor.hpp"
 #include "tool/run_state.hpp"
 #include "tool/schemas.hpp"
 #include "tool/show.hpp"
@@ -62,6 +63,13 @@ int manual(const Given& given) {
                 Error{{}, "", fmt::format("there is no program \"{}\"", given.places[0]), "one of " + list_words(known), ""});
 }
 
+int doctor() {
+  const std::vector<Finding> findings = examine();
+  put_out(doctor_text(findings));
+  const bool runs = std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.needed && !f.there; });
+  return static_cast<int>(runs ? Exit::ok : Exit::input);
+}
+
 int command(const Usage& usage, const std::string& name, int argc, char** argv) {
   CLI::App app{usage.sentence, usage.program};
   Given given;
@@ -98,6 +106,7 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
   if (name == "schema") return put_out(schema_text(given.places[0])), 0;
   if (name == "explain") return put_out(explain_text(explain(given.places[0]))), 0;
   if (name == "times") return put_out(times_text(times_of(given.places[0]), given.failed)), 0;
+  if (name == "doctor") return doctor();
   if (name == "man") return manual(given);
   return put_out(completion_text()), 0;
 }

@@ -6,10 +6,13 @@
 int main(int argc, char** argv) {
   using namespace langer;
   CLI::App app{"Turns a pipeline into a Makefile.", "langer-plan"};
-  std::string pipeline, folder;
+  std::string file, folder;
+  pipeline::Overrides overrides;
   bool quiet = false, verbose = false, dry_run = false, slurm = false;
-  app.add_option("pipeline", pipeline)->required();
+  app.add_option("pipeline", file)->required();
   app.add_option("-o,--output", folder);
+  app.add_option("--set", overrides.settings)->allow_extra_args(false);
+  app.add_option("--sweep", overrides.sweeps)->allow_extra_args(false);
   app.add_flag("--dry-run", dry_run);
   app.add_flag("--slurm", slurm);
   app.add_flag("--quiet", quiet);
@@ -21,7 +24,7 @@ int main(int argc, char** argv) {
     if (!parsed(app, plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
     const PlanReport report =
-        dry_run ? check_pipeline(pipeline, folder) : plan(pipeline, folder, bin, command_line(argc, argv), slurm);
+        dry_run ? check_pipeline(file, folder, overrides) : plan(file, folder, bin, command_line(argc, argv), slurm, overrides);
     if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
     for (const std::string& doubt : report.doubts) say_line("plan: warning: {}", doubt);
     if (quiet) return 0;

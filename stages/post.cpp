@@ -7,12 +7,14 @@
 #include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
 #include "plot/pictures.hpp"
+#include "post/contact_surface.hpp"
 #include "run/post_config.hpp"
 #include "run/post_files.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
 #include "store/snapshot.hpp"
 #include "store/solution_file.hpp"
+#include "store/vtu.hpp"
 
 namespace langer {
 namespace {
@@ -54,7 +56,7 @@ using Columns = std::vector<Column>;
 
 // One row per state, the first is the unloaded one.
 struct Table {
-  std::vector<double> t, u_ind;
+  std::vector<double> t, u_ind, seconds;
   Columns columns;
 
   int row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
@@ -76,22 +78,40 @@ struct Table {
   }
 };
 
+// the surfaces that may touch, where a column asks for them
+std::map<std::string, ContactSurface> surfaces_of(const Solution& solution, const std::vector<Measure>& measures) {
+  std::map<std::string, ContactSurface> surfaces;
+  if (std::none_of(measures.begin(), measures.end(),
+                   [](const Measure& m) { return m.quantity && is_of_contact_surface(line_of(*m.quantity).word); }))
+    return surfaces;
+  for (const auto& [name, nodes] : solution.reader.header().contact_nodes)
+    surfaces.emplace(name, ContactSurface(solution.reader.header().mesh, nodes));
+  return surfaces;
+}
+
 Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
                const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
   const Loads loads = loads_of(solution.reader.header());
-  EnergyPath path(solution.body.mesh(), indenters, kinks_of(solution.reader.header()));
+  EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
   for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
+  const auto surfaces = surfaces_of(solution, measures);
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
-    StepState state = state_of(solution.record(row));
+    const StepRecord record = solution.record(row);
+    StepState state = state_of(record);
+    add_contact_numbers(state.histories, surfaces, record);
     state.sums = sums[row];
     GaussValues gauss;
     const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
     for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
     table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
+    if (const auto time = state.histories.find("time"); time != state.histories.end())
+      table.seconds.push_back(time->second);
+    else if (row == 0)
+      table.seconds.push_back(0);
   }
   for (std::size_t c = 0; c < measures.size(); ++c) {
     if (!measures[c].zero_at) continue;
@@ -102,6 +122,27 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
   return table;
 }
 
+void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summary>& summary) {
+  const auto column = [&](const std::string& name) -> const Column& {
+    return *std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == name; });
+  };
+  for (const auto& [name, choice] : job.config.cycles) {
+    const double lasts = table.seconds.size() == table.t.size() ? table.seconds.back() : 0;
+    if (!(lasts >= choice.period * (1 - 1e-9)))
+      refuse(job, {{"cycles." + name + ".period", fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
+                    "a cycle that the path has gone through, in seconds", "path.seconds of the solve says how long it takes"}});
+    const Column &of = column(choice.of), &over = column(choice.over);
+    const Cycle cycle = last_cycle(table.seconds, over.values, of.values, choice.period);
+    const std::string unit = of.unit == over.unit ? "-" : over.unit == "-" ? of.unit : of.unit + "/" + over.unit;
+    summary.push_back({"storage_" + name, cycle.storage, unit});
+    summary.push_back({"loss_" + name, cycle.loss, unit});
+    summary.push_back({"tan_delta_" + name, cycle.tan_delta(), "-"});
+    if (cycle.change > 0.01)
+      job.say("warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not yet those of many cycles",
+              name, 100 * cycle.change);
+  }
+}
+
 std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, const std::vector<SurfaceMap>& maps) {
   std::vector<Summary> summary;
   for (const Column& c : table.columns) summary.push_back({c.name, c.values.back(), c.unit});
@@ -109,6 +150,7 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, 
     const int row = table.exact_row(job, "summary_at." + name, step);
     for (const Column& c : table.columns) summary.push_back({c.name + "_" + name, c.values[row], c.unit});
   }
+  add_cycles(job, table, summary);
   for (const SurfaceMap& map : maps) {
     const auto [low, high] = std::minmax_element(map.values.begin(), map.values.end());
     summary.push_back({map.name + "_min", *low, map.unit});
@@ -177,6 +219,26 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
   return render(scene, choice);
 }
 
+void write_series(const Job<PostConfig>& job, const Solution& solution) {
+  const SolutionHeader& header = solution.reader.header();
+  const std::string folder = job.beside("series");
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (!std::filesystem::is_directory(folder)) throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made", "", ""});
+  std::vector<std::pair<double, std::string>> files;
+  for (int row = 0; row <= solution.reader.n_steps(); ++row) {
+    StepRecord record = solution.record(row);
+    if (row == 0)  // every state has the same fields; the gap at rest is not recorded
+      for (const auto& [name, nodes] : header.contact_nodes)
+        record.contacts[name] = {std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
+                                 std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
+    const SnapshotFields fields = snapshot_fields(solution.body, header, record, job.config.stress);
+    files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
+    write_vtu(job.beside(files.back().second), header.mesh, record.t, fields.points, fields.cells);
+  }
+  write_pvd(job.beside("series.pvd"), files);
+}
+
 std::vector<Summary> post(const Job<PostConfig>& job) {
   PostConfig config = job.config;
   const Solution solution(job.input("solution"));
@@ -193,6 +255,12 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);
   std::vector<Complaint> complaints = shown.complaints;
+  for (const auto& [key, list] : {std::pair{"columns", &shown.measures}, {"further", &further.measures}})
+    for (std::size_t i = 0; header.mesh.section && i < list->size(); ++i)
+      if ((*list)[i].quantity && is_of_contact_surface(line_of(*(*list)[i].quantity).word))
+        complaints.push_back({fmt::format("{}[{}].quantity", key, i),
+                              fmt::format("{} of a section", line_of(*(*list)[i].quantity).word), "another quantity",
+                              "a section's reactions are those of the whole body"});
   for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body)})
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
@@ -212,9 +280,11 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   write_text_file(csv_file.string(), csv(curves.columns));
   for (int row : snapshots) {
     const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
-    write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity);
+    write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity,
+                   table.t[static_cast<std::size_t>(row)]);
   }
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  if (config.series) write_series(job, solution);
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.draw == Draw::always);
   for (const auto& [name, figure] : config.figures) {
     Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);
     plot.rows = static_cast<int>(table.t.size());
@@ -231,10 +301,13 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
-  for (const Summary& s : solution.reader.summary()) curves.summary.push_back(s);  // its errors
+  for (const Summary& s : solution.reader.summary())  // its errors; those that are columns stand there already
+    if (std::none_of(curves.summary.begin(), curves.summary.end(), [&](const Summary& other) { return other.name == s.name; }))
+      curves.summary.push_back(s);
   write_curves(job.output, curves, identity);
-  job.say("{} rows, {} columns in {}; {} snapshots, {} figures", table.t.size(), curves.columns.size(),
-          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size());
+  job.say("{} rows, {} columns in {}; {} snapshots, {} figures{}", table.t.size(), curves.columns.size(),
+          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size(),
+          config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
   return curves.summary;
 }
 

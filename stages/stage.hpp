@@ -6,6 +6,7 @@
 // stdout is for data (--json, --describe); stderr for everything said to the person who waits.
 #pragma once
 
+#include <sys/resource.h>
 #include <unistd.h>
 #ifdef LANGER_SANITIZE
 #include <sanitizer/lsan_interface.h>
@@ -74,6 +75,14 @@ inline void put_out(const std::string& text) {
 
 inline std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
 
+// of programs that were started here and have ended: gnuplot
+inline double cpu_seconds_of_children() {
+  rusage used{};
+  if (getrusage(RUSAGE_CHILDREN, &used) != 0) return 0;
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
 // What --log keeps: all that is said, and how it ended.
 class RunLog {
  public:
@@ -99,8 +108,8 @@ class RunLog {
   // read by the table of a run's times (pipeline/run_state.hpp)
   static void end(int code) {
     if (said::log)
-      fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(), cpu_seconds(),
-                 1e-6 * peak_bytes());
+      fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(),
+                 cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
   }
 };
 

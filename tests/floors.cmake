@@ -2,7 +2,7 @@
 #   cmake -DROOT=<project> -P tests/floors.cmake
 # A folder may include those that stand before it in this list and no others, so there are no cycles. `make map` draws it.
 set(floors base tensor config mesh contact sensitivity geometry material element fit hdf5 store assembly plot post solve study scene sweep
-  export run accuracy report pipeline tool stages)
+  export run mirror accuracy inverse report pipeline tool stages)
 
 # include pattern -> where it may stand
 set(third_parties

@@ -56,7 +56,8 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
 bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
   const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
   if (!block || config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
-  if (!std::holds_alternative<Sphere>(config.contacts.begin()->second.rigid)) return false;
+  const ContactConfig& contact = config.contacts.begin()->second;
+  if (!std::holds_alternative<Sphere>(contact.rigid) || contact.rotation) return false;
   const double a = std::max(print->half(0), print->half(1));
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
@@ -163,6 +164,12 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
+    chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
+    chosen.shown = false;
+    chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
+    return chosen;
+  }
   const SolveConfig written = config;
   Geometry& geometry = config.mesh->geometry;
   const std::optional<Footprint> print =
@@ -179,7 +186,6 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
   if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
-  if (config.symmetry == SymmetryChoice::none && !is_section(geometry)) config.symmetry = SymmetryChoice::automatic;
   chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)
     chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
@@ -204,8 +210,8 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
   if (estimated)
-    found.words =
-        fmt::format("asked for {:g} %, and the error of the force is estimated at {:.2g} %", chosen.wanted, found.percent);
+    found.words = fmt::format("asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
+                              forces.front().of.of_force() ? "force" : "displacement", found.percent);
   else if (chosen.shown)
     found.words = fmt::format("asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
                               chosen.wanted, found.percent);
@@ -295,7 +301,8 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
-  if (estimates.empty() && config_.estimate != EstimateBy::refinement) return voice_.warn("accuracy: " + found.words);
+  if (estimates.empty() && config_.estimate != EstimateBy::refinement && config_.estimate != EstimateBy::dual)
+    return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
   throw Failure(Exit::not_accurate,
                 Error{where_(key), key, found.words, fmt::format("at most {:g} %", chosen_->wanted),

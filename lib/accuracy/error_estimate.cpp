@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "accuracy/dual_estimate.hpp"
 #include "accuracy/refinements.hpp"
 #include "accuracy/truncation.hpp"
 #include "assembly/equilibrium.hpp"
@@ -82,22 +83,9 @@ bool is_clamped(const SolveConfig& config) {
   for (const SupportConfig& support : config.supports) given[support.on].insert(support.hold.begin(), support.hold.end());
   for (const LoadConfig& load : config.loads) {
     for (int axis = 0; axis < 3; ++axis)
-      if (load.imposed(axis)) given[load.on].insert(static_cast<Axis>(axis));
+      if (load.tells(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
   return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
-}
-
-// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
-// do where a force is passed on by a clamped face; below an indenter such a face is far away.
-double order_of_force(const SolveConfig& config) {
-  if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
-  return std::any_of(config.contacts.begin(), config.contacts.end(),
-                     [](const auto& contact) {
-                       return std::holds_alternative<Plane>(contact.second.rigid) ||
-                              std::holds_alternative<Cylinder>(contact.second.rigid);
-                     })
-             ? 1
-             : 2;
 }
 
 const Valued& quantity(const Valued& found) { return found; }
@@ -105,16 +93,33 @@ const Valued& quantity(const ErrorEstimate& estimate) { return estimate.of; }
 
 template <class Item>
 std::vector<Item> forces_among(const std::vector<Item>& all) {
-  for (const char* begins : {"force_", "force", "reaction_"}) {
-    std::vector<Item> found;
+  std::vector<Item> found;
+  const auto take = [&](const char* begins) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
                  [&](const Item& item) { return quantity(item).name.starts_with(begins); });
-    if (!found.empty()) return found;
-  }
-  return {};
+  };
+  for (const char* begins : {"force_", "force", "reaction_"})
+    if (found.empty()) take(begins);
+  take("torque_");
+  if (found.empty()) take("displacement_");
+  return found;
 }
 
 }  // namespace
+
+// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
+// do where a force is passed on by a clamped face; below an indenter such a face is far away.
+double order_of_force(const SolveConfig& config) {
+  if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
+  return std::any_of(config.contacts.begin(), config.contacts.end(),
+                     [](const auto& contact) {
+                       const Indenter& rigid = contact.second.rigid;
+                       return std::holds_alternative<Plane>(rigid) || std::holds_alternative<Cylinder>(rigid) ||
+                              std::holds_alternative<Aperture>(rigid);
+                     })
+             ? 1
+             : 2;
+}
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) { return forces_among(estimates); }
@@ -146,7 +151,8 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
   std::vector<Valued> found;
-  for (const auto& [name, newtons] : step_forces(config, scene, mesh, state).of) found.push_back({name, "N", newtons});
+  for (const auto& [name, size] : step_forces(config, scene, mesh, state).of)
+    found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
   // the stress of a viscous body follows from all of its steps, and one is here
   if (const Body body(mesh, scene.materials, scene.directions, scene.formulation); !body.viscous()) {
     const GaussValues gauss = gauss_values(body, state.u);
@@ -266,9 +272,10 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
   return estimate_along(config, material, where, {found, {}, 0}, residual, listener).at_end;
 }
 
-PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, const Run& run,
+PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, Run& run,
                      const StepRecord& last, const std::vector<StepForces>& path, const EstimateListener& listener) {
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
+  if (config.estimate == EstimateBy::dual) return {dual_errors(config, run, last, found), {}, 0};
   if (config.estimate == EstimateBy::recovery) return {recovered_errors(run.scene, run.mesh, last, found), {}, 0};
   return estimate_along(config, material, where, {found, path, 0}, last.residual, listener);
 }

@@ -38,10 +38,10 @@ namespace langer {
 struct Valued {
   std::string name, unit;
   double value = 0;
-  bool of_force() const { return unit == langer::unit::N; }
+  bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
 };
 // of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
-// moved, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
+// moved, torque_<name> of what turns, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
 
 // A config that holds its mesh, solved without a file.
@@ -76,8 +76,10 @@ struct ErrorEstimate {
   double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };
 
+double order_of_force(const SolveConfig& config);  // p of its error
+
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
-// reactions.
+// reactions; and torques; where forces alone load the body, the displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
 
@@ -107,7 +109,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
 
 // as config.estimate says, of the last state of its run and of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
-                     const std::function<Place(const std::string&)>& where, const Run& run, const StepRecord& last,
+                     const std::function<Place(const std::string&)>& where, Run& run, const StepRecord& last,
                      const std::vector<StepForces>& path, const EstimateListener& listener);
 
 // "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6"

@@ -28,7 +28,7 @@ bool wanted(const Voice& voice, const SolveConfig& config, const std::optional<M
             Run& run) {
   if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(EstimateBy::none) != EstimateBy::none;
   if (!has_numbers(config))
-    voice.say("errors are not estimated: the cells follow from no numbers of this config; estimate: recovery is for any mesh");
+    voice.say("errors are not estimated: the cells follow from no numbers of this config; estimate: dual is for any mesh");
   else if (estimate_forecast(config, material, where, run) > 0)
     return true;
   else

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,7 +50,7 @@ bool holds_alike(const SolveConfig& config) {
   };
   return std::all_of(config.supports.begin(), config.supports.end(), alike) &&
          std::all_of(config.loads.begin(), config.loads.end(),
-                     [](const LoadConfig& l) { return l.displacement && !l.imposed(0) && !l.imposed(2); });
+                     [](const LoadConfig& l) { return l.displacement && !l.rotation && !l.imposed(0) && !l.imposed(2); });
 }
 
 bool has_direction(const std::optional<Material>& material) {
@@ -66,9 +65,7 @@ bool is_isotropic(const SolveConfig& config, const std::optional<Material>& mate
 
 // an indenter of revolution about the axis, that moves along it
 bool is_round(const ContactConfig& contact, const Vec3& axis) {
-  // what stays as it is when turned by one radian does so for every turn
-  const Isometry turn{Eigen::AngleAxisd(1, Vec3::UnitY()).toRotationMatrix(), axis};
-  return !contact.control && unchanged_by(contact.rigid, turn) &&
+  return !contact.control && !contact.rotation && is_revolved_about({axis, Vec3::UnitY()}, contact.rigid) &&
          std::all_of(contact.motion.begin(), contact.motion.end(),
                      [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
 }

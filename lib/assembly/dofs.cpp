@@ -1,8 +1,14 @@
 #include "assembly/dofs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace langer {
+
+bool Prescribed::goes_on(double before, double now, double next) const {
+  const auto steady = [&](const History& h) { return h.goes_on(before, now, next); };
+  return steady({value, factor}) && (!turn || steady(turn->angle));
+}
 
 DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie) {
   DofsResult result;
@@ -12,7 +18,7 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vec
   for (const Prescribed& p : prescribed) {
     if (!dofs.prescribed.empty() && dofs.prescribed.back().dof == p.dof) {
       const Prescribed& other = dofs.prescribed.back();
-      if ((other.value != p.value || !same_factor(other.factor, p.factor)) && result.conflict < 0) result.conflict = p.dof;
+      if (!other.moves_as(p) && result.conflict < 0) result.conflict = p.dof;
       continue;
     }
     dofs.prescribed.push_back(p);

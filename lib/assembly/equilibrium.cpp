@@ -22,6 +22,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
       dofs_(std::move(dofs)),
       pattern_(make_pattern(mesh, dofs_)),
       threads_(threads),
+      asked_(kernel),
       kernel_(kernel) {
   const int n = mesh.n_cells();
   geometry_.reserve(n);
@@ -60,17 +61,24 @@ void Equilibrium::make_blocks() {
       Block block;
       block.n = static_cast<int>(std::min<std::size_t>(Packet::lanes, cells.size() - first));
       const ElementGeometry* geometry[Packet::lanes];
-      std::vector<PacketFibre> families(fibres(cells[first]).size());
       for (int l = 0; l < Packet::lanes; ++l) {
         const int e = block.cells[l] = cells[first + std::min(l, block.n - 1)];
         geometry[l] = &geometry_[e];
-        for (std::size_t k = 0; k < families.size(); ++k)
-          for (int i = 0; i < 3; ++i) families[k].a[i].set(l, fibres(e)[k][i]);
       }
       blocks_.push_back(block);
       packet_geometry_.push_back(packed(geometry));
-      packet_fibres_.push_back(std::move(families));
     }
+  pack_fibres();
+}
+
+void Equilibrium::pack_fibres() {
+  packet_fibres_.resize(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    packet_fibres_[b].resize(fibres(blocks_[b].cells[0]).size());
+    for (int l = 0; l < Packet::lanes; ++l)
+      for (std::size_t k = 0; k < packet_fibres_[b].size(); ++k)
+        for (int i = 0; i < 3; ++i) packet_fibres_[b][k].a[i].set(l, fibres(blocks_[b].cells[l])[k][i]);
+  }
 }
 
 void Equilibrium::find_beginnings() {
@@ -225,6 +233,16 @@ void Equilibrium::add_loads(const VecX& u, bool with_tangent, const VecX* du_pre
       add_force(K_du_, nodes[a], tied, K_du);
     }
   });
+}
+
+VecX Equilibrium::skew_pressures(const VecX& u, const VecX& du) const {
+  VecX out = VecX::Zero(dofs_.n);
+  const auto at = [this](const VecX& values) { return [this, &values](int e) { return element_displacements(values, e); }; };
+  loads_.each_skew(t_loads_, at(u), at(du), [&](int e, const ElementNodes& change) {
+    const auto nodes = mesh_.cell(e);
+    for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], !tied_.empty() && tied_[e], change.row(a).transpose());
+  });
+  return out;
 }
 
 void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {

@@ -32,6 +32,10 @@ class Equilibrium {
   void load_to(double t) { t_loads_ = t; }
   const VecX& f_ext() const { return f_ext_; }  // (3 n) [N]; empty without loads
 
+  // What the forces of pressures change by where the body, at u, moves by du, less what K() has of it: (3 n) [N]. That is the free rim of
+  // a pressed region; 0 without pressures.
+  VecX skew_pressures(const VecX& u, const VecX& du) const;
+
   // Forces and, if asked, the tangent at u. False where an element is turned inside out.
   // du_prescribed: the movement of prescribed dofs still to be made; its effect K du appears in K_du().
   bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);
@@ -57,6 +61,20 @@ class Equilibrium {
   // p + s (p - p_before), p_before those at u_before; J - 1 at an extrapolated u would mean nothing
   void extrapolate_pressures(const VecX& u_before, double s);
 
+  // Other numbers of the same laws, and directions of as many families in each cell, from the next assembly on. Pressures that the
+  // tangent uses stay until pressures_from().
+  void set_laws(std::vector<Material> materials, Directions directions);
+  const std::vector<Material>& materials() const { return materials_; }
+  const Directions& directions() const { return directions_; }
+
+  // Derivatives of f_int - f_ext at the u assembled last, where K() has been made with the pressures of that u (assembly/directional.cpp).
+  VecX K_times(const VecX& v) const;  // free rows: K() v, v of the free rows
+  // What K() has not: the modulus `local` is a function of u, and pressures on a free rim are not symmetric. (3 n), for v (3 n) that moves
+  // no prescribed dof. Empty where there is nothing.
+  VecX beside_K(const VecX& u, const VecX& v);
+  // On the rows of prescribed dofs, d f_int of each v, others 0; (3 n) each.
+  std::vector<VecX> on_prescribed(const VecX& u, const std::vector<VecX>& v) const;
+
   // Increments of a viscous body, of `seconds`: what it remembers at the begin stands in every assembly until the next one. None of
   // this has an effect on an elastic body.
   bool viscous() const { return viscous_.has_value(); }
@@ -81,6 +99,9 @@ class Equilibrium {
   double modal_pressure(int e, int k) const;
   void pressures_of(int e, const double* J_minus_1, double* p) const;
   void follow_pressures();  // local_ from p_
+  void pack_fibres();
+  VecX loads_times(const VecX& u, const VecX& v) const;
+  VecX local_beside_K(const VecX& u, const VecX& v);
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];
@@ -105,7 +126,7 @@ class Equilibrium {
   Dofs dofs_;
   Pattern pattern_;
   int threads_;
-  Kernel kernel_;
+  Kernel asked_, kernel_;  // packets where they can
   std::vector<Block> blocks_;
   // K is not cleared as a whole: whoever comes first to a block of two nodes writes it
   std::vector<char> begins_;                     // by element and pair of nodes, as pattern_.blocks()

@@ -48,6 +48,25 @@ void Loads::each(double t, const Displacements& u, bool with_stiffness, const On
   }
 }
 
+void Loads::each_skew(double t, const Displacements& u, const Displacements& du, const OnRim& on) const {
+  const ReferenceCell& cell = mesh_->cell();
+  for (const SurfaceLoad& load : loads_) {
+    const double pressure = load.pressure * factor_at(load.factor, t);
+    if (pressure == 0) continue;
+    for (const Facet& facet : load.facets) {
+      const ElementNodes dx = du(facet.cell);
+      if (dx.isZero(0)) continue;
+      const ElementNodes x = element_nodes(*mesh_, facet.cell) + u(facet.cell);
+      const MatX symmetric = follower_stiffness(cell, facet.local, x);
+      ElementNodes change = follower_pressure_change(cell, facet.local, x, dx);
+      for (int a : cell.facet[facet.local])
+        for (int b : cell.facet[facet.local])
+          change.row(a) -= (symmetric.block<3, 3>(3 * a, 3 * b) * dx.row(b).transpose()).transpose();
+      on(facet.cell, pressure * (cell_share_.empty() ? 1 : cell_share_[facet.cell]) * change);
+    }
+  }
+}
+
 VecX Loads::forces(double t, const VecX& u) const {
   VecX f = VecX::Zero(u.size());
   each(

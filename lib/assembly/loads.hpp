@@ -34,6 +34,9 @@ class Loads {
   using Displacements = std::function<ElementNodes(int cell)>;
   using OnFacet = std::function<void(int cell, const ElementNodes& force, const MatX* stiffness)>;
   void each(double t, const Displacements& u, bool with_stiffness, const OnFacet& on) const;
+  // Of each facet under pressure at t: what its force changes by beyond the symmetric part where the body moves by du [N].
+  using OnRim = std::function<void(int cell, const ElementNodes& change)>;
+  void each_skew(double t, const Displacements& u, const Displacements& du, const OnRim& on) const;
   VecX forces(double t, const VecX& u) const;  // (3 n) [N], of a body without tied nodes
 
  private:

@@ -15,6 +15,12 @@ double factor_rate(const LoadFactor& factor, double t) {
   return 0;
 }
 
+bool History::goes_on(double before, double now, double next) const {
+  if (!factor) return true;
+  const double rate = (at(next) - at(now)) / (next - now), last = (at(now) - at(before)) / (now - before);
+  return std::abs(rate - last) <= 1e-6 * std::max(std::abs(rate), std::abs(last));
+}
+
 bool HistoryConfig::moves() const {
   return points.empty() ? value != 0 : std::any_of(points.begin(), points.end(), [](const auto& point) { return point.to != 0; });
 }

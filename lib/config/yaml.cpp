@@ -1,5 +1,6 @@
 // The parser: yaml-cpp's events, whose marks are exact, become trees; then includes are merged.
 #include "config/tree.hpp"
+#include "config/yaml_words.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -181,7 +182,9 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
     if (parser.HandleNextDocument(builder)) refuse(builder.root.place, "found a second document", "one YAML document in a file");
     builder.root = first;
   } catch (const YAML::Exception& e) {
-    refuse({file, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1}, "this is not YAML: " + e.msg);
+    const YamlTrouble t =
+        yaml_trouble(text, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1, e.msg);
+    refuse({file, t.line, t.column}, t.found, t.expected, t.hint);
   }
   if (!builder.errors.empty()) throw Failure(Exit::config, builder.errors);
   return std::move(builder.root);

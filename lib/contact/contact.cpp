@@ -50,6 +50,14 @@ Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
   return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
 }
 
+double torque(const RigidContact& contact, const std::function<Vec3(int node)>& x, const Vec3& c, const std::vector<Vec3>& r) {
+  const Line& axis = contact.rotation.value().axis;
+  double sum = 0;
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (!r[i].isZero(0)) sum += axis.along.dot(cross(x(contact.nodes[i]) - c - axis.point, r[i]));
+  return sum;
+}
+
 ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
                              const Vec3& c0, const std::vector<Vec3>& r, double motion) {
   ContactDefect defect;

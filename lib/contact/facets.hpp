@@ -55,6 +55,7 @@ struct Facets {
   Outline outline(const Shown& shown) const;  // of many triangles a coarser picture: as many as one of a sphere has, about
   double half_width() const;
   std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }
+  std::optional<Line> axis() const { return std::nullopt; }
 };
 
 }  // namespace langer

@@ -8,7 +8,8 @@
 
 namespace langer {
 
-Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors) {
+Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
+                 bool closed) {
   int least = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(axis[k]) < std::abs(axis[least])) least = k;
@@ -35,6 +36,7 @@ Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::ar
         if (face.empty() || (face.back() != p && face.front() != p)) face.push_back(p);
       out.faces.push_back(face);
     }
+  if (!closed) return out;
   if (profile.front()[1] > 0) out.faces.emplace_back(rings.front().rbegin(), rings.front().rend());
   if (profile.back()[1] > 0) out.faces.push_back(rings.back());
   return out;

@@ -21,8 +21,10 @@ struct Shown {
   int parts = 48;   // of half a turn
 };
 
-// A surface of revolution: along and radius of its profile's corners [mm], from where the axis comes from; an end off the axis is closed.
-Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors);
+// A surface of revolution: along and radius of its profile's corners [mm], from where the axis comes from; an end off the axis is closed if
+// `closed`.
+Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
+                 bool closed = true);
 
 // What lies on the side of the plane x[axis] = at to which `side` (1 or -1) points, and the faces in the plane that close it.
 struct OpenedOutline {

@@ -32,7 +32,7 @@ Outline Plane::outline(const Shown& shown) const {
   int least = 0;
   a.cwiseAbs().minCoeff(&least);
   const Vec3 s = shown.size / n * (Vec3::Unit(least) - a[least] * a).normalized();
-  const Vec3 t(a[1] * s[2] - a[2] * s[1], a[2] * s[0] - a[0] * s[2], a[0] * s[1] - a[1] * s[0]);
+  const Vec3 t = cross(a, s);
   Outline out;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) out.points.push_back(middle + (i - 0.5 * n) * s + (j - 0.5 * n) * t);
@@ -53,7 +53,20 @@ Outline Cylinder::outline(const Shown& shown) const {
   }
   if (profile[1][1] <= 0) profile.erase(profile.begin());  // no flat part is left
   for (int i = 1; i <= 4; ++i) profile.push_back({edge + 0.5 * i * radius, radius});
-  return revolved(vec(face), direction(axis), profile, 2 * shown.parts);
+  return revolved(vec(face), direction(into), profile, 2 * shown.parts);
+}
+
+Outline Aperture::outline(const Shown& shown) const {
+  const int parts = shown.parts / 2;
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 4; i > 0; --i) profile.push_back({edge + 0.5 * i * radius, radius});
+  for (int i = 0; i <= parts; ++i) {
+    const double theta = 0.5 * std::numbers::pi * i / parts;
+    profile.push_back({edge * (1 - std::sin(theta)), radius + edge * (1 - std::cos(theta))});
+  }
+  const double flat = radius + edge, far = std::max(0.5 * shown.size, 1.5 * flat);
+  for (int i = 1; i <= 4; ++i) profile.push_back({0, flat + 0.25 * i * (far - flat)});
+  return revolved(vec(face), direction(into), profile, 2 * shown.parts, false);
 }
 
 Outline Ellipsoid::outline(const Shown& shown) const {

@@ -12,34 +12,31 @@ namespace langer {
 struct Cylinder {
   static constexpr const char* key = "cylinder";
   double radius = 0, edge = 0;
-  std::array<double, 3> face{}, axis{0, 1, 0};
+  std::array<double, 3> face{}, into{0, 1, 0};
   static void fields(auto& v) {
     v(&Cylinder::radius, "radius", unit::mm, "outer radius", required, positive);
     v(&Cylinder::edge, "edge", unit::mm, "radius of the rounded edge", required, positive);
     v(&Cylinder::face, "face", unit::mm, "centre of the flat end before it moves", required);
-    v(&Cylinder::axis, "axis", unit::none, "direction from the flat end into the cylinder (any length)");
+    v(&Cylinder::into, "axis", unit::none, "direction from the flat end into the cylinder (any length)");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (edge > radius) found.push_back({"edge", "larger than the radius", "edge <= radius", ""});
-    if (!(vec(axis).stableNorm() > 0)) found.push_back({"axis", "[0, 0, 0]", "a direction", ""});
+    if (!(vec(into).stableNorm() > 0)) found.push_back({"axis", "[0, 0, 0]", "a direction", ""});
     return found;
   }
   // the cylinder is a core (radius less edge, starting one edge behind the face) thickened by the edge radius
   ShapePoint at(const Vec3& x) const {
-    const Vec3 a = direction(axis), q = x - vec(face);
-    const double along = q.dot(a);
-    const Vec3 across = q - along * a;
-    const double rho = across.norm();
-    const Vec3 outward = rho > 0 ? Vec3(across / rho) : Vec3(Vec3::Zero());
+    const Vec3 a = direction(into);
+    const auto [along, rho, outward] = about({vec(face), a}, x);
     const double side = rho - (radius - edge), end = edge - along;  // beyond the core sideways and endways
     if (side <= 0 && end <= 0) {                                    // inside the core: the nearer of end and side
       if (end >= side) return {end - edge, -a, Mat3::Zero()};
-      return {side - edge, outward, around(a, outward, 1, rho)};
+      return {side - edge, outward, ring(a, outward, 1, rho)};
     }
     const double s = std::max(side, 0.0), e = std::max(end, 0.0), distance = std::hypot(s, e);
     const Vec3 n = (s * outward - e * a) / distance;
-    Mat3 curvature = around(a, outward, s / distance, rho);
+    Mat3 curvature = ring(a, outward, s / distance, rho);
     if (s > 0 && e > 0) {  // on the rounded edge: curved along the meridian too
       const Vec3 meridian = (e * outward + s * a) / distance;
       curvature += meridian * meridian.transpose() / distance;
@@ -48,20 +45,12 @@ struct Cylinder {
   }
   bool becomes(const Cylinder& other, const Isometry& op) const {
     return radius == other.radius && edge == other.edge && goes_to(vec(face), vec(other.face), op) &&
-           turns_to(direction(axis), direction(other.axis), op);
+           turns_to(direction(into), direction(other.into), op);
   }
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
-  std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(axis)); }
-
- private:
-  // curvature round the axis: n_rho / rho in the direction of the circle
-  static Mat3 around(const Vec3& a, const Vec3& outward, double n_rho, double rho) {
-    if (!(rho > 0) || n_rho == 0) return Mat3::Zero();
-    const Vec3 circle(a[1] * outward[2] - a[2] * outward[1], a[2] * outward[0] - a[0] * outward[2],
-                      a[0] * outward[1] - a[1] * outward[0]);
-    return (n_rho / rho) * circle * circle.transpose();
-  }
+  std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(into)); }
+  std::optional<Line> axis() const { return Line{vec(face), direction(into)}; }
 };
 
 struct Ellipsoid {
@@ -97,6 +86,12 @@ struct Ellipsoid {
     return h[1];
   }
   std::optional<Vec3> inside() const { return vec(centre); }
+  // where two half axes are equal: along the third; of a sphere along y
+  std::optional<Line> axis() const {
+    for (int k : {1, 0, 2})
+      if (half_axes[(k + 1) % 3] == half_axes[(k + 2) % 3]) return Line{vec(centre), Vec3::Unit(k)};
+    return std::nullopt;
+  }
 
  private:
   // nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t + h_i^2))^2 = 1

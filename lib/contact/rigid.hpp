@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "base/fields.hpp"
+#include "contact/aperture.hpp"
 #include "contact/facets.hpp"
 #include "contact/punches.hpp"
 #include "contact/shape.hpp"
@@ -32,6 +33,7 @@ struct Sphere {
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return vec(centre); }
+  std::optional<Line> axis() const { return Line{vec(centre), Vec3::UnitY()}; }
 };
 
 struct Plane {
@@ -53,13 +55,14 @@ struct Plane {
   Outline outline(const Shown& shown) const;
   double half_width() const { return std::numeric_limits<double>::infinity(); }
   std::optional<Vec3> inside() const { return std::nullopt; }
+  std::optional<Line> axis() const { return Line{vec(point), direction(outward)}; }
   std::vector<Complaint> complaints() const {
     if (vec(outward).stableNorm() > 0) return {};
     return {{"normal", "[0, 0, 0]", "a direction", ""}};
   }
 };
 
-using Indenter = std::variant<Sphere, Plane, Cylinder, Ellipsoid, Facets>;
+using Indenter = std::variant<Sphere, Plane, Cylinder, Ellipsoid, Aperture, Facets>;
 
 template <class... S>
 constexpr bool all_are_shapes(const std::variant<S...>*) {
@@ -79,6 +82,13 @@ inline bool becomes(const Indenter& shape, const Indenter& other, const Isometry
       shape);
 }
 inline bool unchanged_by(const Indenter& shape, const Isometry& op) { return becomes(shape, shape, op); }
+// what stays as it is when turned by one radian does so for every turn: no multiple of it is a whole one
+inline bool is_revolved_about(const Line& line, const Indenter& shape) {
+  return unchanged_by(shape, {rotation(line.along, 1), line.point});
+}
+inline std::optional<Line> axis_of(const Indenter& shape) {
+  return std::visit([](const auto& s) { return s.axis(); }, shape);
+}
 inline Outline outline(const Indenter& shape, const Shown& shown) {
   return std::visit([&](const auto& s) { return s.outline(shown); }, shape);
 }

@@ -6,12 +6,14 @@
 //   outline(shown)    its surface, for pictures
 //   half_width()      half the width of a shape that has an end everywhere, infinite without [mm]
 //   inside()          a point inside of such a shape
+//   axis()            that about which it may turn without becoming another: its axis of revolution; none where it has none
 #pragma once
 
 #include <concepts>
 #include <optional>
 
 #include "contact/outline.hpp"
+#include "tensor/turn.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -40,8 +42,15 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
   { shape.outline(shown) } -> std::same_as<Outline>;
   { shape.half_width() } -> std::same_as<double>;
   { shape.inside() } -> std::same_as<std::optional<Vec3>>;
+  { shape.axis() } -> std::same_as<std::optional<Line>>;
 };
 
+// curvature round the axis a at the distance rho from it, where the normal has the component n_rho outwards: n_rho / rho along the circle
+inline Mat3 ring(const Vec3& a, const Vec3& outward, double n_rho, double rho) {
+  if (!(rho > 0) || n_rho == 0) return Mat3::Zero();
+  const Vec3 circle = cross(a, outward);
+  return (n_rho / rho) * circle * circle.transpose();
+}
 inline Mat3 tangent_projection(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 // of a vector of any length above 0, one whose square is no number of the machine included

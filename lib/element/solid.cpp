@@ -165,6 +165,16 @@ double local_modulus(const ElementGeometry& geometry, const double* p) {
   return most;
 }
 
+double local_modulus_change(const ElementGeometry& geometry, const double* p, const double* dp) {
+  double most = 0, change = 0;
+  for (int g = 0; g < geometry.n_gauss(); ++g) {
+    double here = 0, d_here = 0;
+    for (int k = 0; k < n_modes; ++k) here += geometry.mode[g][k] * p[k], d_here += geometry.mode[g][k] * dp[k];
+    if (-here > most) most = -here, change = -d_here;
+  }
+  return change;
+}
+
 int n_pressures(Formulation f, int n_nodes) {
   return f == Formulation::mean_dilatation ? 1 : f == Formulation::linear_dilatation ? n_modes : reference(n_nodes).n_gauss;
 }

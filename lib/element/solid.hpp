@@ -34,6 +34,8 @@ constexpr auto names(Formulation) { return std::array{"mean_dilatation", "displa
 int n_pressures(Formulation f, int n_nodes);
 // that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest compressive one at its Gauss points
 double local_modulus(const ElementGeometry& geometry, const double* p);
+// its change where those pressures change by dp, on the side of the point that has the largest now
+double local_modulus_change(const ElementGeometry& geometry, const double* p, const double* dp);
 // what suits a cell: as many dilatations as its nodes can follow without locking
 Formulation usual_formulation(CellType type);
 

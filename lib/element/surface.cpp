@@ -85,4 +85,15 @@ MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes
   return 0.5 * outwards(cell, facet) * (K + K.transpose());
 }
 
+ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x, const ElementNodes& dx) {
+  ElementNodes f = ElementNodes::Zero(cell.n_nodes, 3);
+  const double out = outwards(cell, facet);
+  at_facet_points(
+      cell, facet, x, [&](const VecX& N, const VecX& dN_1, const VecX& dN_2, const Vec3& x_1, const Vec3& x_2, double w) {
+        const Vec3 dx_1 = dx.transpose() * dN_1, dx_2 = dx.transpose() * dN_2, area = out * w * (dx_1.cross(x_2) + x_1.cross(dx_2));
+        for (int a : cell.facet[facet]) f.row(a) -= N[a] * area.transpose();
+      });
+  return f;
+}
+
 }  // namespace langer

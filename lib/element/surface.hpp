@@ -21,5 +21,7 @@ ElementNodes follower_pressure(const ReferenceCell& cell, int facet, const Eleme
 // The symmetric part of df/dx, (3 nodes, 3 nodes) [N/mm]. What is left is skew and belongs to the rim of the facet: at the edges that two
 // loaded facets share it cancels, and where the rim is held it does nothing.
 MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes& x);
+// df/dx dx, whole: what follower_pressure changes by to first order when its nodes move by dx [N]
+ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x, const ElementNodes& dx);
 
 }  // namespace langer

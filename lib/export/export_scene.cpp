@@ -47,6 +47,14 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (config.loads[i].on_surface())
       refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure", "imposed displacements and indenters");
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].rotation)
+      refuse(path, fmt::format("loads[{}].rotation", i), "a set that is turned", "one that is displaced");
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.rotation) refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.adhesion && contact.adhesion->work > 0)
+      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres", "one without adhesion: no deck has this law");
   for (const auto& [name, contact] : config.contacts)
     if (contact.control) refuse(path, "contacts." + name + ".control", "an indenter under force control", "one that moves as told");
   for (const auto& [name, contact] : config.contacts)

@@ -24,6 +24,10 @@ std::vector<MaterialParameter> chosen(Material& material, const std::vector<Free
   const std::vector<MaterialParameter> all = parameters(material);
   std::vector<MaterialParameter> list;
   for (const FreeParameter& p : free) {
+    if (!p.of_law()) {
+      list.push_back({p.key, p.name, p.unit, {}, nullptr});
+      continue;
+    }
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
     if (found == all.end()) throw std::logic_error("the law has no parameter " + p.key);
     list.push_back(*found);
@@ -52,7 +56,8 @@ struct Model {
   Model(const Model&) = delete;
 
   bool residual(const VecX& p, VecX& r) {
-    for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = p[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i]) *numbers[i] = p[static_cast<Eigen::Index>(i)];
     tied.follow();
     r.resize(stress.size());
     Eigen::Index at = 0;
@@ -106,24 +111,25 @@ double drawn(const FreeParameter& p, double u) {
 void know(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
   const LeastSquaresResult& best = fit.best;
   const double size = q.size / std::sqrt(static_cast<double>(best.r.size()));
-  const std::vector<Eigen::Index> curves = curve_sizes(problem.tests);
+  const std::vector<Eigen::Index> curves = curve_sizes(problem);
   const auto noise = [&] {
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < best.p.size(); ++i)
       if (!fit.left_out[static_cast<std::size_t>(i)]) in.push_back(i);
-    return residual_noise(best.r, best.J(Eigen::all, in), curves, size);
+    const ResidualNoise shown = residual_noise(best.r, best.J(Eigen::all, in), curves, size);
+    return problem.further ? with_least(shown, 1) : shown;
   };
   fit.left_out = best.at_bound;
   fit.noise = noise();
   std::vector<double> turn;
   Material law = problem.law;
   for (const MaterialParameter& p : chosen(law, problem.free)) turn.push_back(p.unit == unit::deg ? 180 : 0);
-  const SymmetricAngles found = symmetric_angles(q, best, fit.noise.deviation, turn);
+  const SymmetricAngles found = symmetric_angles(q, best, fit.noise.total(), turn);
   fit.symmetric = found.at, fit.columns = found.columns;
   for (std::size_t i = 0; i < found.at.size(); ++i)
     if (found.at[i]) fit.left_out[i] = true;
   if (fit.left_out != best.at_bound) fit.noise = noise();
-  fit.covariance = fit.noise.deviation > 0 || std::isfinite(fit.noise.freedom)
+  fit.covariance = fit.noise.total() > 0 || std::isfinite(fit.noise.freedom)
                        ? covariance(best.J, fit.left_out, fit.noise)
                        : MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
 }
@@ -140,30 +146,87 @@ FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   return q;
 }
 
-void judge(const FitProblem& problem, FitResult& fit) {
-  const VecX stress = measured_stress(problem.tests);
-  const auto n = static_cast<double>(stress.size());
-  fit.quality = quality(fit.model, stress, 1);
-  fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
-  Eigen::Index at = 0, stressed = 0;
+// errors of each test, and of all of them together
+void judge_errors(const FitProblem& problem, const VecX& stress, FitResult& fit) {
+  Eigen::Index stressed = 0;
+  const auto add = [&](const VecX& model, const VecX& measured, double largest) {
+    const FitQuality q = quality(model, measured, largest);
+    fit.of_test.push_back(q);
+    if (!(largest > 0)) return;
+    fit.quality.mean_error_percent += q.mean_error_percent * static_cast<double>(measured.size());
+    fit.quality.max_error_percent = std::max(fit.quality.max_error_percent, q.max_error_percent);
+    stressed += measured.size();
+  };
+  Eigen::Index at = 0;
   for (const Test& test : problem.tests) {
     const auto m = static_cast<Eigen::Index>(test.values());
-    const double largest = largest_stress(test);
-    const FitQuality q = quality(fit.model.segment(at, m), stress.segment(at, m), largest);
-    fit.of_test.push_back(q);
+    add(fit.model.segment(at, m), stress.segment(at, m), largest_stress(test));
     at += m;
-    if (!(largest > 0)) continue;
-    fit.quality.mean_error_percent += q.mean_error_percent * static_cast<double>(m);
-    fit.quality.max_error_percent = std::max(fit.quality.max_error_percent, q.max_error_percent);
-    stressed += m;
+  }
+  at = 0;
+  for (const Eigen::Index m : problem.further ? problem.further->curves() : std::vector<Eigen::Index>()) {
+    const VecX measured = problem.further->measured().segment(at, m);
+    add(fit.further.segment(at, m), measured, measured.cwiseAbs().maxCoeff());
+    at += m;
   }
   fit.quality.mean_error_percent /= static_cast<double>(stressed);
+}
+
+// of values of several units: each curve about its own mean, weighted
+double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult& fit) {
+  const VecX weight = weights(problem.tests);
+  double spread = 0;
+  Eigen::Index at = 0, further = 0;
+  for (const Eigen::Index m : curve_sizes(problem)) {
+    const bool of_tests = at < stress.size();
+    const VecX y = of_tests ? stress.segment(at, m) : problem.further->measured().segment(further, m);
+    const VecX w = of_tests ? weight.segment(at, m) : problem.further->weight().segment(further, m);
+    (of_tests ? at : further) += m;
+    spread += w.cwiseProduct((y.array() - y.mean()).matrix()).squaredNorm();
+  }
+  return spread > 0 ? 1 - fit.best.r.squaredNorm() / spread : std::numeric_limits<double>::quiet_NaN();
+}
+
+void judge(const FitProblem& problem, FitResult& fit) {
+  const VecX stress = measured_stress(problem.tests);
+  const auto n = static_cast<double>(fit.best.r.size());
+  if (problem.further)
+    fit.quality.r2 = r2_of_all(problem, stress, fit);
+  else
+    fit.quality = quality(fit.model, stress, 1);
+  fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
+  judge_errors(problem, stress, fit);
   const bool correlated = fit.noise.rho > 0;
   const double spread = correlated ? minus_two_log_likelihood(fit.best.r, fit.noise)
                                    : n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
   const double k = static_cast<double>(problem.free.size()) + (correlated ? 2 : 1), m = fit.noise.effective;
   fit.quality.aicc = m > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (m - k - 1) : std::numeric_limits<double>::quiet_NaN();
   fit.quality.bic = spread + k * std::log(m);
+}
+
+// the residuals of further tests behind those of q, and the slope of all
+LeastSquares with_further(LeastSquares q, const std::shared_ptr<FurtherTests>& further) {
+  const auto tests = std::make_shared<const LeastSquares>(q);
+  const VecX weight = further->weight(), target = weight.cwiseProduct(further->measured());
+  q.size = std::hypot(tests->size, target.norm());
+  q.residual = [=](const VecX& p, VecX& r) {
+    VecX first, values;
+    if (!tests->residual(p, first) || !further->model(p, values)) return false;
+    r.resize(first.size() + values.size());
+    r << first, weight.cwiseProduct(values) - target;
+    return true;
+  };
+  q.slope = [=](const VecX& p, MatX& J) {
+    VecX first;
+    MatX above, below;
+    if (!tests->residual(p, first) || (first.size() > 0 && !jacobian(*tests, p, above)) || !further->slope(p, below)) return false;
+    J.resize(first.size() + below.rows(), p.size());
+    if (first.size() > 0) J.topRows(first.size()) = above;
+    J.bottomRows(below.rows()) = weight.asDiagonal() * below;
+    return true;
+  };
+  q.linear.clear();
+  return q;
 }
 
 }  // namespace
@@ -200,11 +263,12 @@ VecX measured_stress(const std::vector<Test>& tests) {
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-std::vector<Eigen::Index> curve_sizes(const std::vector<Test>& tests) {
+std::vector<Eigen::Index> curve_sizes(const FitProblem& problem) {
   std::vector<Eigen::Index> sizes;
-  for (const Test& test : tests)
+  for (const Test& test : problem.tests)
     for (const auto* list : {&test.stress_x, &test.stress_z})
       if (!list->empty()) sizes.push_back(static_cast<Eigen::Index>(list->size()));
+  if (problem.further) sizes.insert(sizes.end(), problem.further->curves().begin(), problem.further->curves().end());
   return sizes;
 }
 
@@ -217,7 +281,8 @@ VecX weights(const std::vector<Test>& tests) {
 Material with_parameters(const FitProblem& problem, const VecX& p) {
   Material material = problem.law;
   const auto list = chosen(material, problem.free);
-  for (std::size_t i = 0; i < list.size(); ++i) *list[i].value = p[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].value) *list[i].value = p[static_cast<Eigen::Index>(i)];
   TiedNumbers(material, problem.ties).follow();
   return material;
 }
@@ -243,7 +308,7 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
     q.period.push_back(period(problem, p, list[static_cast<std::size_t>(i)].unit));
     q.lower[i] -= q.period.back(), q.upper[i] += q.period.back();
   }
-  return q;
+  return problem.further ? with_further(std::move(q), problem.further) : q;
 }
 
 LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const LeastSquaresOptions& options) {
@@ -253,8 +318,8 @@ LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const 
 }
 
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
-  std::size_t values = 0;
-  double largest = 0;
+  std::size_t values = problem.further ? static_cast<std::size_t>(problem.further->measured().size()) : 0;
+  double largest = problem.further ? problem.further->measured().cwiseAbs().maxCoeff() : 0;
   for (const Test& test : problem.tests) values += test.values(), largest = std::max(largest, largest_stress(test));
   if (values < problem.free.size())
     throw Failure(Exit::input, {{},
@@ -285,7 +350,10 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   fit.material = with_parameters(problem, fit.best.p);
   if (std::isfinite(fit.best.cost)) {
     know(problem, q, fit);
-    fit.model = measured_stress(problem.tests) + fit.best.r.cwiseQuotient(weights(problem.tests));
+    const VecX stress = measured_stress(problem.tests);
+    fit.model = stress + fit.best.r.head(stress.size()).cwiseQuotient(weights(problem.tests));
+    if (const auto& more = problem.further)
+      fit.further = more->measured() + fit.best.r.tail(more->measured().size()).cwiseQuotient(more->weight());
     judge(problem, fit);
   }
   return fit;

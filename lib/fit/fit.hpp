@@ -6,6 +6,8 @@
 // Everything here may run on several threads at once, each with its own problem or result.
 #pragma once
 
+#include <memory>
+
 #include "fit/residual_noise.hpp"
 #include "fit/test_data.hpp"
 #include "material/parameters.hpp"
@@ -17,6 +19,19 @@ struct FreeParameter {
   std::string key;  // as in material/parameters.hpp
   double start = 0, lower = 0, upper = 0;
   bool preset = false;  // its bound next to 0 is the preset's: what the tests justify may raise it (stiffness_at_rest.hpp)
+  std::string name = "", unit = "";  // of one that is no number of the law: of a scene, or of how it was measured
+  bool of_law() const { return name.empty(); }
+};
+
+// Tests whose model this folder does not know, such as whole scenes: m values behind those of `tests`, each in a unit of its own.
+// p are all free parameters of the problem, in their order.
+struct FurtherTests {
+  virtual ~FurtherTests() = default;
+  virtual const VecX& measured() const = 0;
+  virtual const VecX& weight() const = 0;                       // 1/standard deviation
+  virtual const std::vector<Eigen::Index>& curves() const = 0;  // values of each measured curve
+  virtual bool model(const VecX& p, VecX& values) = 0;          // false where there is none
+  virtual bool slope(const VecX& p, MatX& J) = 0;               // (m, p) of the values, not weighted
 };
 
 struct FitProblem {
@@ -25,6 +40,7 @@ struct FitProblem {
   std::vector<Test> tests;
   Dilatation dilatation = Dilatation::incompressible;  // compressible: held uniaxial tests only
   std::vector<Tie> ties = {};                          // resolved; of numbers that are not free
+  std::shared_ptr<FurtherTests> further = {};          // their weights are believed in: errors are no smaller than these make them
 };
 
 struct FitOptions {
@@ -53,15 +69,16 @@ struct FitResult {
   MatX columns;                 // Jacobian, with the second derivative of angles of symmetry
   MatX starts;                  // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
   VecX model;                   // of each value [MPa]; empty if no start has a model
+  VecX further;                 // of the further tests
   FitQuality quality;
-  std::vector<FitQuality> of_test;  // r2 and errors
+  std::vector<FitQuality> of_test;  // r2 and errors; behind those of tests a curve of the further ones each
 };
 
 // stresses of a law in the states of a test [MPa], in the order above; false where a state does not exist
 bool model_stress(const Material& material, const Test& test, Dilatation dilatation, double* stress);
 
 VecX measured_stress(const std::vector<Test>& tests);
-std::vector<Eigen::Index> curve_sizes(const std::vector<Test>& tests);  // values of each measured curve, in the order above
+std::vector<Eigen::Index> curve_sizes(const FitProblem& problem);  // values of each measured curve, in the order above
 VecX weights(const std::vector<Test>& tests);
 
 // the law with the numbers p in place of the free ones

@@ -258,6 +258,12 @@ class Residuals {
 
 }  // namespace
 
+VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out, const ResidualNoise& noise) {
+  ResidualNoise known = noise;
+  known.freedom = inf;
+  return interval_factors(columns, left_out, noise).cwiseQuotient(interval_factors(columns, left_out, known));
+}
+
 Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options) {
   Bootstrap result;
   const int threads = std::clamp(options.threads, 1, std::max(1, options.samples));
@@ -310,7 +316,12 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
       const auto i = static_cast<std::size_t>(place);
       return x[i] + (place - static_cast<double>(i)) * (x[std::min(i + 1, x.size() - 1)] - x[i]);
     };
-    result.low[j] = at(0.025), result.high[j] = at(0.975);
+    const double spread = options.spread.size() ? options.spread[j] : 1;
+    const auto spread_out = [&](double x) {
+      const double far = best[j] + spread * (x - best[j]);
+      return problem[0].period_of(j) > 0 ? far : std::clamp(far, problem[0].lower[j], problem[0].upper[j]);
+    };
+    result.low[j] = spread_out(at(0.025)), result.high[j] = spread_out(at(0.975));
   }
   return result;
 }

@@ -54,10 +54,15 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
 // the rise at one value: at most the limit where the interval holds it
 double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value, const VecX& best, double noise);
 
+// How much wider each interval is for a correlation and a deviation that are estimated, not known.
+VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out, const ResidualNoise& noise);
+
 // Fits to the model with fresh noise: the fit's own residuals drawn again, and Gaussian noise where more is believed in.
 // Of the residuals the innovations are drawn, centred, in blocks, and put together with their correlation again (post-blackened
 // block bootstrap [DH97], section 8.2.3), grown to the noise's deviation.
 //   growth  further factor on the residuals: Student's over the normal one, for deviation and correlation are estimated too
+//   spread  of each parameter: percentiles that lie so many times as far from its estimate. How well the correlation is known counts
+//           for a level that all values share, and hardly for what a few of them tell
 struct Bootstrap {
   MatX samples;    // (n, p) of the fits that converged; periodic ones within half a period of the estimate
   VecX low, high;  // percentiles 2.5 and 97.5
@@ -67,6 +72,7 @@ struct BootstrapOptions {
   int samples = 200;
   std::uint64_t seed = 1;
   double growth = 1;
+  VecX spread = {};  // (p); empty: ones
   int threads = 1;
   std::function<void(double)> progress;
 };

@@ -94,6 +94,7 @@ VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
 }  // namespace
 
 bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
+  if (q.slope) return q.slope(p, J) && J.allFinite();
   VecX p_moved = p, r;
   const auto at = [&](Eigen::Index i, double x, VecX& out) {
     p_moved[i] = x;
@@ -165,6 +166,7 @@ class LevenbergMarquardt {
       return s_;
     }
     s_.cost = 0.5 * s_.r.squaredNorm();
+    good_enough_ = options.good_enough;
     iterate(options);
     for (Eigen::Index i = 0; i < s_.p.size(); ++i)
       s_.at_bound[static_cast<std::size_t>(i)] = s_.p[i] == q_.lower[i] || s_.p[i] == q_.upper[i];
@@ -172,7 +174,6 @@ class LevenbergMarquardt {
   }
 
  private:
-  static constexpr double good_enough_ = 1e-8;
   static constexpr int slow_ = 25;  // iterations after which a search is
 
   void iterate(const LeastSquaresOptions& options) {
@@ -186,9 +187,14 @@ class LevenbergMarquardt {
       D_ = D_.cwiseMax(s_.J.colwise().norm().transpose());
       for (Eigen::Index i = 0; i < D_.size(); ++i)
         if (D_[i] == 0) D_[i] = 1 / std::max(q_.typical[i], eps);
-      if (s_.iterations >= slow_) curvature_ = residual_curvature(q_, s_.p, s_.r);
+      if (s_.iterations >= slow_ && !q_.slope) curvature_ = residual_curvature(q_, s_.p, s_.r);
       bool accepted = false;
-      while (!accepted && mu_ < 1e12) accepted = step();
+      while (!accepted && mu_ < 1e12 && !small_) accepted = step(options.step);
+      if (small_) {
+        if (moved_aside()) continue;
+        s_.converged = true, s_.why = "optimal within the step asked for";
+        return;
+      }
       if (!accepted && !moved_aside()) return end("optimal within rounding", "no step lowers the cost");
     }
     s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
@@ -201,9 +207,12 @@ class LevenbergMarquardt {
   }
 
   // takes a step that lowers the cost, or damps the next one more
-  bool step() {
+  bool step(double least) {
     const VecX d = damped_step(q_, s_.p, s_.r, s_.J, D_, curvature_, mu_);
     const VecX p = (s_.p + d).cwiseMax(q_.lower).cwiseMin(q_.upper);
+    // a heavily damped step is short far from the optimum, too
+    small_ = least > 0 && mu_ < 1 && ((p - s_.p).array().abs() <= least * s_.p.array().abs().max(1e-3 * q_.typical.array())).all();
+    if (small_) return false;
     VecX r;
     const bool exists = q_.residual(p, r) && r.allFinite();
     //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
@@ -229,7 +238,7 @@ class LevenbergMarquardt {
     MatX J;
     if (p == s_.p || !q_.residual(p, r) || !jacobian(q_, p, J)) return false;
     take(p, r, J);
-    D_.setZero(), mu_ = 1e-3, growth_ = 2;
+    D_.setZero(), mu_ = 1e-3, growth_ = 2, small_ = false;
     return true;
   }
 
@@ -243,6 +252,8 @@ class LevenbergMarquardt {
   VecX D_, curvature_;
   double mu_ = 1e-3, growth_ = 2;
   int asides_ = 0;
+  bool small_ = false;
+  double good_enough_ = 0;
 };
 
 }  // namespace

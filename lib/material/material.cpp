@@ -1,5 +1,7 @@
 #include "material/material.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <string>
 
@@ -43,10 +45,40 @@ double shear_modulus(const MatrixTerm& term) {
       term);
 }
 
+namespace {
+
+// Beyond this the law that is left says nothing, and a modulus of the instant law was meant, or percent.
+constexpr double most_gamma = 1000;
+
+void complain_of_strengths(const Material& material, std::vector<Complaint>& found) {
+  constexpr const char* hint =
+      "gamma is the stress at once after a step over what is left in the end, no modulus and no percentage";
+  double sum = 0;
+  std::string last;
+  bool alone = false;
+  for (std::size_t i = 0; material.viscous && i < material.viscous->size(); ++i) {
+    const double gamma = (*material.viscous)[i].gamma;
+    const std::string key = fmt::format("viscous[{}].gamma", i);
+    if (gamma > most_gamma) found.push_back({key, fmt::format("found {:g}", gamma), fmt::format("at most {:g}", most_gamma), hint});
+    alone = alone || gamma > most_gamma, sum += gamma, last = key;
+  }
+  if (material.spectrum) {
+    double of_spectrum = 0;
+    for (const ViscousBranch& branch : branches_of(*material.spectrum)) of_spectrum += branch.gamma;
+    sum += of_spectrum, last = "spectrum.c";
+  }
+  if (!alone && sum > most_gamma)
+    found.push_back(
+        {last, fmt::format("found strengths that make {:g} in all", sum), fmt::format("a sum of at most {:g}", most_gamma), hint});
+}
+
+}  // namespace
+
 std::vector<Complaint> Material::complaints() const {
   std::vector<Complaint> found;
   if (viscous && viscous->empty())
     found.push_back({"viscous", "found an empty list", "at least {tau: 1, gamma: 0.5}", "without the key the law is elastic"});
+  complain_of_strengths(*this, found);
   if (!fibres.empty()) return found;
   for (std::size_t i = 0; viscous && i < viscous->size(); ++i)
     if ((*viscous)[i].of == BranchOf::fibres)

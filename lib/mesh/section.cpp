@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
 
 namespace langer {
@@ -118,6 +119,18 @@ Mesh as_plate(const Mesh& mesh) {
   for (int i = 0; i < mesh.n_nodes(); ++i) plate.X[i][2] = 2.0 * (i / n) / (layers - 1);
   plate.section.reset();
   return plate;
+}
+
+std::vector<Facet> surface_of(const Mesh& mesh, const std::string& set) {
+  const auto found = mesh.facet_sets.find(set);
+  std::vector<Facet> facets = found == mesh.facet_sets.end() ? std::vector<Facet>{} : found->second;
+  if (mesh.section)
+    std::erase_if(facets, [&](const Facet& facet) {
+      const std::vector<int> nodes = facet_nodes(mesh, facet);
+      const auto in_front = std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < n_front(mesh); });
+      return in_front == 0 || in_front == static_cast<std::ptrdiff_t>(nodes.size());
+    });
+  return facets;
 }
 
 }  // namespace langer

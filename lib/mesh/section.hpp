@@ -18,6 +18,8 @@ namespace langer {
 
 int n_front(const Mesh& mesh);  // nodes in z = 0
 double cell_share(const Section& section);
+// Facets of a set that are the body's surface: of a section those that turn about its axis or lie along its depth, none of its planes.
+std::vector<Facet> surface_of(const Mesh& mesh, const std::string& set);
 std::vector<Image> section_ties(const Mesh& mesh);
 
 // One layer of cells, zeta along z, in whatever order and place along z -> a section.

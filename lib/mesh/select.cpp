@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "mesh/bounding_box.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
 
@@ -16,21 +17,9 @@ constexpr double relative_tolerance = 1e-9;
 int index(const std::string& axis) { return axis == "x" ? 0 : axis == "y" ? 1 : 2; }
 Vec3 vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-struct Bounds {
-  Vec3 low, high;
-};
-Bounds bounds(const Mesh& mesh) {
-  Bounds b{mesh.X.at(0), mesh.X.at(0)};
-  for (const Vec3& x : mesh.X) b.low = b.low.cwiseMin(x), b.high = b.high.cwiseMax(x);
-  return b;
-}
-
 }  // namespace
 
-double size(const Mesh& mesh) {
-  const Bounds b = bounds(mesh);
-  return (b.high - b.low).norm();
-}
+double size(const Mesh& mesh) { return bounding_box(mesh.X).size().norm(); }
 
 std::vector<int> all_nodes(const Mesh& mesh) {
   std::vector<int> nodes(mesh.X.size());
@@ -106,7 +95,7 @@ std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& fac
 std::vector<std::string> side_names() { return {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "bottom", "top"}; }
 
 void name_sides(Mesh& mesh) {
-  const Bounds b = bounds(mesh);
+  const BoundingBox b = bounding_box(mesh.X);
   const std::vector<Facet> outer = boundary(mesh);
   const std::vector<int> all = all_nodes(mesh);
   for (const char* axis : {"x", "y", "z"})

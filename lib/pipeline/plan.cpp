@@ -17,6 +17,7 @@
 #include "pipeline/expand.hpp"
 #include "pipeline/makefile.hpp"
 #include "pipeline/run_files.hpp"
+#include "pipeline/siblings.hpp"
 #include "pipeline/slurm.hpp"
 #include "store/lock.hpp"
 
@@ -164,12 +165,16 @@ struct Planned {
   std::vector<Step> steps;
 };
 
-Planned planned(const std::string& pipeline_file, std::string folder, bool with_data = false) {
+// siblings: array jobs of one node start together, and none waits for another
+Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides, bool siblings,
+                bool with_data = false) {
   Tree tree = load_yaml(pipeline_file);
+  apply(overrides, tree);
   set_base(tree, "");
   const Pipeline written = read_pipeline(tree);
   if (folder.empty()) folder = "runs/" + written.name;
-  const std::vector<Step> steps = expand(written, load_yaml);
+  std::vector<Step> steps = expand(written, load_yaml);
+  if (siblings) offer_siblings(steps);
   Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
   for (const Step& step : p.steps) p.planning.add(step);
   if (with_data) p.planning.look_at_data();
@@ -180,13 +185,13 @@ Planned planned(const std::string& pipeline_file, std::string folder, bool with_
 
 }  // namespace
 
-PlanReport check_pipeline(const std::string& pipeline_file, std::string folder) {
-  return planned(pipeline_file, std::move(folder), true).report;
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder, const Overrides& overrides) {
+  return planned(pipeline_file, std::move(folder), overrides, true, true).report;
 }
 
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
-                bool slurm) {
-  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder));
+                bool slurm, const Overrides& overrides) {
+  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides, !slurm);
   make_folder(report.folder);
   const std::string makefile = (fs::path(report.folder) / "Makefile").string();
   need_own_text(makefile, planned_by);

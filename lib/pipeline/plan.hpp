@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/overrides.hpp"
+
 namespace langer {
 
 struct PlanReport {
@@ -17,9 +19,9 @@ struct PlanReport {
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command = "",
-                bool slurm = false);
+                bool slurm = false, const pipeline::Overrides& overrides = {});
 
 // The same checks; nothing is written.
-PlanReport check_pipeline(const std::string& pipeline_file, std::string folder = "");
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder = "", const pipeline::Overrides& overrides = {});
 
 }  // namespace langer

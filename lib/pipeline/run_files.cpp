@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "hdf5/replace.hpp"
+#include "pipeline/overrides.hpp"
 #include "store/curves_file.hpp"
 
 namespace langer {
@@ -20,13 +21,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& path, std::string found, std::string hint = "") {
   throw Failure(Exit::input, Error{{path, 0, 0}, "", std::move(found), "", std::move(hint)});
-}
-
-// what was typed has no line to point at
-void forget_lines(Tree& tree) {
-  tree.place.line = tree.place.column = 0;
-  for (Tree& part : tree.list) forget_lines(part);
-  for (auto& entry : tree.map) forget_lines(entry.value);
 }
 
 }  // namespace
@@ -105,9 +99,7 @@ void apply_setting(Tree& config, const std::string& setting) {
         Exit::config,
         Error{{"--set", 0, 0}, "", "found \"" + setting + "\"", "key=value, for example --set material.fibres[0].alpha=30", ""});
   const std::string key = setting.substr(0, equals);
-  Tree value = parse_yaml(setting.substr(equals + 1), "--set");
-  forget_lines(value);
-  set_value(config, key, std::move(value));
+  set_value(config, key, pipeline::typed_value(setting.substr(equals + 1), "--set"));
 }
 
 }  // namespace langer

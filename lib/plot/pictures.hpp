@@ -12,7 +12,8 @@ struct Drawing;
 
 class Pictures {
  public:
-  explicit Pictures(std::string folder) : folder_(std::move(folder)) {}
+  // now: false leaves the scripts to be run later
+  explicit Pictures(std::string folder, bool now = true) : folder_(std::move(folder)), now_(now) {}
   void draw(const std::string& name, const std::string& script);                // <name>.gp, which makes the pictures
   void draw(const std::string& name, const Drawing& drawing);                   // <name>.svg at once, <name>.png by its script
   const std::map<std::string, std::string>& failed() const { return failed_; }  // reason -> names
@@ -22,6 +23,7 @@ class Pictures {
   void run(const std::string& name, const std::string& script);
   std::string place(const std::string& file) const;
   std::string folder_;
+  bool now_;
   std::map<std::string, std::string> failed_;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "mesh/section.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/curves.hpp"
 #include "post/steps.hpp"
@@ -106,23 +107,43 @@ std::string label_of(const ColumnChoice& choice) {
 
 std::string error_of(const std::string& column) { return column + "_error"; }
 
+std::vector<std::string> bands_of(const std::string& column) { return {column + "_deviation", error_of(column)}; }
+
+namespace {
+// what the names of its derivatives begin with (inverse/sensitivity.cpp); empty where there are none
+std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
+  if (word == "energy") return "d_energy_N_mm_d_";
+  if (word == "force" || word == "force_x" || word == "force_y" || word == "force_z") return "d_" + std::string(word) + "_N_d_";
+  if (word.starts_with("reaction_") && c.at) return "d_reaction_" + *c.at + "_" + word.back() + "_N_d_";
+  return "";
+}
+}  // namespace
+
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories) {
   std::vector<ColumnChoice> out;
   std::vector<std::string> names;
   for (const ColumnChoice& c : columns) names.push_back(column_name(c));
   for (const ColumnChoice& c : columns) {
     out.push_back(c);
-    if (!c.quantity) continue;
-    const std::string_view word = line_of(*c.quantity).word;
-    const std::string history = error_of(word == "force"                         ? "force"
+    const bool of_torque = c.history && c.history->starts_with("torque_");
+    if (!c.quantity && !of_torque) continue;
+    const std::string_view word = of_torque ? *c.history : line_of(*c.quantity).word;
+    const std::string history = error_of(of_torque                               ? *c.history
+                                         : word == "force"                       ? "force"
                                          : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at
                                                                                  : "");
-    const std::string name = error_of(column_name(c));
-    if (std::find(histories.begin(), histories.end(), history) == histories.end()) continue;
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    ColumnChoice error;
-    error.history = history, error.name = name;
-    out.push_back(error);
+    const auto add = [&](const std::string& taken, const std::string& name) {
+      if (std::find(histories.begin(), histories.end(), taken) == histories.end()) return;
+      if (std::find(names.begin(), names.end(), name) != names.end()) return;
+      ColumnChoice further;
+      further.history = taken, further.name = name;
+      out.push_back(further), names.push_back(name);
+    };
+    add(history, error_of(column_name(c)));
+    if (word == "force") add("force_deviation", column_name(c) + "_deviation");
+    const std::string derivatives = derivatives_of(word, c);
+    for (const std::string& one : histories)
+      if (!derivatives.empty() && one.starts_with(derivatives)) add(one, one);
   }
   return out;
 }
@@ -171,6 +192,9 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                    did_you_mean(*c.at, sets));
         else
           m.nodes = set->second;
+        if (line.needs.facets && !m.nodes.empty()) m.facets = surface_of(body.mesh(), *c.at);
+        if (line.needs.facets && !m.nodes.empty() && m.facets.empty())
+          complain("at", fmt::format("found \"{}\", a set without facets", *c.at), "a set that covers facets", "");
       }
       m.family = c.family - 1;
       if (is<OfPoint>(line) && line.needs.fibres && c.family > body.n_families())

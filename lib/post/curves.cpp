@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "element/surface.hpp"
+#include "mesh/section.hpp"
 #include "tensor/stress.hpp"
 
 namespace langer {
@@ -35,6 +37,20 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
   return all;
 }
 
+// Each point of the surface goes straight: V = integral over 0 <= s <= 1 of (integral u . n da) where s u is reached, a polynomial of second
+// degree in s, which Simpson's rule integrates exactly.
+double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<Vec3>& u) {
+  double volume = 0;
+  for (const Facet& facet : facets) {
+    const auto nodes = mesh.cell(facet.cell);
+    ElementNodes X = element_nodes(mesh, facet.cell), moved = X;
+    for (std::size_t a = 0; a < nodes.size(); ++a) moved.row(static_cast<Eigen::Index>(a)) = u[nodes[a]].transpose();
+    for (const auto& [s, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}})
+      volume -= weight * follower_pressure(mesh.cell(), facet.local, X + s * moved).cwiseProduct(moved).sum();
+  }
+  return mesh.section ? cell_share(*mesh.section) * volume : volume;
+}
+
 }  // namespace
 
 StepState unloaded(const Mesh& mesh) {
@@ -62,6 +78,7 @@ struct Measurement {
   double operator()(OfSet value) const {
     SetState set{mean(state.u, m.nodes), Vec3::Zero(), m.length};
     for (int node : m.nodes) set.reaction += state.reaction[node];
+    if (!m.facets.empty()) set.swept = swept_volume(body.mesh(), m.facets, state.u);
     return value(set);
   }
   double operator()(OfPoint value) const {

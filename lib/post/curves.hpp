@@ -51,9 +51,11 @@ std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
 // What the solver has estimated of a column's error beside it, as one more column <name>_error: of force, and of reactions of the sets
-// that are moved.
+// that are moved. And its derivatives with respect to the numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
+// What a figure draws as a band about a column, the first of them that is there: what parameters leave open (uncertainty: linear), errors.
+std::vector<std::string> bands_of(const std::string& column);
 
 // The same with everything looked up.
 struct Measure {
@@ -62,6 +64,7 @@ struct Measure {
   std::string history;
   std::optional<std::array<std::string, 2>> quotient;
   std::vector<int> nodes;
+  std::vector<Facet> facets;  // where they are needed
   std::optional<std::string> zero_at;
   std::string key;  // of the column
   int family = 0;   // from 0

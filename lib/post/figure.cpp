@@ -60,7 +60,8 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
     plot.lines.push_back(
         {csv, head_of(figure.x), head_of(figure.y[i]), figure.legends.empty() ? literal(figure.y[i]) : figure.legends[i]});
-    if (const std::string error = error_of(figure.y[i]); find(columns, error)) plot.lines.back().error = head_of(error);
+    for (const std::string& band : bands_of(figure.y[i]))
+      if (find(columns, band) && plot.lines.back().error.empty()) plot.lines.back().error = head_of(band);
   }
   return plot;
 }

@@ -23,6 +23,7 @@ struct SetState {
   Vec3 u = Vec3::Zero();         // mean [mm]
   Vec3 reaction = Vec3::Zero();  // sum [N]
   double length = 1;             // that belongs to a strain of 1 [mm]
+  double swept = 0;              // by its facets [mm^3]
 };
 struct Extremes {
   double von_mises = -1, J = std::numeric_limits<double>::infinity(), fibre_stretch = -1;
@@ -41,6 +42,7 @@ struct Needs {
   bool shapes = false;            // the shapes of all indenters
   bool fibres = false;            // a material with fibres
   const char* history = nullptr;  // that the solver wrote
+  bool facets = false;            // a set that covers facets
   int extent = -1;                // of the mesh along this axis, unless the user gives a length
 };
 

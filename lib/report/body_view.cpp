@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mesh/raise.hpp"
+#include "post/contact_surface.hpp"
 #include "post/render.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
@@ -25,7 +26,28 @@ struct ShownField {
   std::string name, label, unit;
   Span span;
   std::vector<std::vector<double>> values;  // state, node
+  bool of_contact = false;                  // the contact pressure in place of a quantity
 };
+
+using Surfaces = std::map<std::string, ContactSurface>;
+Surfaces surfaces_of(const SolutionHeader& header) {
+  Surfaces surfaces;
+  if (header.mesh.section) return surfaces;
+  for (const auto& [name, nodes] : header.contact_nodes)
+    if (ContactSurface surface(header.mesh, nodes); !surface.empty()) surfaces.emplace(name, std::move(surface));
+  return surfaces;
+}
+
+// of all indenters, at each node [MPa]
+std::vector<double> contact_pressure(const Surfaces& surfaces, const std::vector<Vec3>& u, const StepRecord& record) {
+  std::vector<double> pressure(u.size(), 0);
+  for (const auto& [name, contact] : record.contacts)
+    if (const auto surface = surfaces.find(name); surface != surfaces.end()) {
+      const ContactPerArea state = surface->second.at(u, contact);
+      for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] = std::max(pressure[i], state.pressure[i]);
+    }
+  return pressure;
+}
 
 std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const Body& body) {
   std::vector<ShownField> fields;
@@ -211,17 +233,21 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
                  std::vector<ShownField>& fields) {
   States states;
   BranchRows branches(body, solution);
+  const Surfaces surfaces = surfaces_of(solution.header());
   for (const int row : rows) {
     branches.go_to(row);
-    const StepState state = row == 0 ? unloaded(body.mesh()) : state_of(solution.step(row - 1));
+    const StepRecord record = row == 0 ? StepRecord{} : solution.step(row - 1);
+    const StepState state = row == 0 ? unloaded(body.mesh()) : state_of(record);
     states.t.push_back(state.t);
     auto& here = states.u.emplace_back();
     for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
     const GaussValues gauss = gauss_values(body, state.u);
     for (ShownField& f : fields) f.values.emplace_back();
+    const std::vector<double> pressed = contact_pressure(surfaces, state.u, record);
     for (const int node : chosen.nodes) {
       const VecX values = node_values(body, node, gauss, stress);
-      for (ShownField& f : fields) f.values.back().push_back(value_of(f.quantity, values, f.family));
+      for (ShownField& f : fields)
+        f.values.back().push_back(f.of_contact ? pressed[static_cast<std::size_t>(node)] : value_of(f.quantity, values, f.family));
     }
     states.told.push_back(object(
         {{"row", number(row)}, {"t", number(state.t)}, {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
@@ -238,6 +264,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   Body body(mesh, header.laws(), header.directions, formulation_of(header, path));
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
+  if (!surfaces_of(header).empty()) fields.push_back({{}, 0, "contact_pressure", "contact pressure", "MPa", {}, {}, true});
 
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
   const double left = budget - static_cast<double>(indenters_view(solution, {}).text.size());

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "post/curves.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
 #include "store/curves_file.hpp"
@@ -34,9 +35,14 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
           std::find_if(curves.curves.begin(), curves.curves.end(), [&](const NamedCurve& c) { return c.name == name; });
       return found == curves.curves.end() ? nullptr : &*found;
     };
-    const std::string error = "_error";  // of another curve: its band
+    const auto is_band = [&](const std::string& name) {  // of another curve
+      return std::any_of(curves.curves.begin(), curves.curves.end(), [&](const NamedCurve& c) {
+        const auto bands = bands_of(c.name);
+        return std::find(bands.begin(), bands.end(), name) != bands.end();
+      });
+    };
     for (const NamedCurve& c : curves.curves)
-      if (!c.name.ends_with(error) || !curve_called(c.name.substr(0, c.name.size() - error.size()))) sorted.push_back(&c);
+      if (!is_band(c.name)) sorted.push_back(&c);
     const auto rank = [&](const NamedCurve* c) { return place.count(c->name) ? place.at(c->name) : place.size(); };
     std::stable_sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
     for (const NamedCurve* c : sorted) {
@@ -52,7 +58,9 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
                               : c->name == title ? c->name
                                                  : c->name.substr(title.size() + 1),
                               c->x, c->y, false});
-      if (const NamedCurve* band = curve_called(c->name + error)) chart.series.back().error = band->y;
+      for (const std::string& name : bands_of(c->name))
+        if (const NamedCurve* band = curve_called(name); band && chart.series.back().error.empty())
+          chart.series.back().error = band->y;
     }
   }
   for (const std::string& title : order) page.charts.push_back(std::move(charts.at(title)));

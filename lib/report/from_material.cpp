@@ -30,6 +30,26 @@ void add_tests(ReportPage& page, const Source& source, const FitRecord& fit) {
   }
 }
 
+// what was measured in scenes; a field over x
+void add_curves_of_scenes(ReportPage& page, const Source& source, const FitRecord& fit) {
+  for (const FittedCurve& curve : fit.curves) {
+    std::vector<double> x = curve.x;
+    for (std::size_t i = 0; i < curve.places.size(); ++i) x[i] = curve.places[i][0];
+    const bool field = !curve.places.empty();
+    Chart chart{"fits",
+                fmt::format("{}: {}", source.label, curve.name),
+                field ? "x" : curve.x_name,
+                field ? "mm" : curve.x_unit,
+                curve.quantity,
+                curve.unit,
+                {},
+                false};
+    chart.series.push_back({"measured", x, curve.measured, true});
+    chart.series.push_back({"found", x, curve.model, field});
+    page.charts.push_back(std::move(chart));
+  }
+}
+
 // Standard deviation of a test's points about a smooth curve: each beside the cubic through its four neighbours. [MPa]; 0 below five points
 double scatter(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
@@ -71,8 +91,13 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
       break;
     }
   }
-  const std::string errors = fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest stress; R² = {:.5f}",
-                                         fit.mean_error_percent, fit.max_error_percent, fit.r2);
+  for (const FittedCurve& curve : fit.curves)
+    if (const double miss = root_mean_square(curve.measured, curve.model); miss > enough * curve.standard_deviation)
+      missed += fmt::format("{}{} by {:.2g} times its standard deviation", missed.empty() ? "" : "; ", curve.name,
+                            miss / curve.standard_deviation);
+  const std::string errors =
+      fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest {}; R² = {:.5f}", fit.mean_error_percent,
+                  fit.max_error_percent, fit.curves.empty() ? "stress" : "value", fit.r2);
   if (missed.empty())
     page.verdicts.push_back({Level::good, source.label, "the law follows the tests within their scatter: " + errors});
   else
@@ -81,6 +106,58 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
          fmt::format("the law misses tests by more than their scatter ({}), root mean squares: another law or a "
                      "shorter range may follow them; {}",
                      missed, errors)});
+}
+
+std::vector<std::vector<double>> rows_of(const MatX& m) {
+  std::vector<std::vector<double>> rows;
+  for (Eigen::Index i = 0; i < m.rows(); ++i) {
+    rows.emplace_back();
+    for (Eigen::Index j = 0; j < m.cols(); ++j) rows.back().push_back(m(i, j));
+  }
+  return rows;
+}
+
+// What the tests tell of the parameters: each one's profile with the line that ends its interval, and their correlation.
+void add_identifiability(ReportPage& page, const Source& source, const FitRecord& fit, const h5::Group& root) {
+  constexpr double ends = 3.84;  // chi-square of one degree of freedom at 95 %
+  const std::string profiles = "identifiability/profiles";
+  for (const FittedParameter& p : fit.parameters) {
+    if (!root.has(profiles + "/" + p.name)) continue;
+    const h5::Group profile = root.group(profiles).group(p.name);
+    Chart chart{"profiles", fmt::format("profile of {}", p.name), p.name, p.unit, "rise of χ²", "-", {}, false};
+    chart.series.push_back(
+        {p.name, profile.read<double>("value", {h5::any}).values, profile.read<double>("rise", {h5::any}).values});
+    chart.marks.push_back({"95 %", ends});
+    page.charts.push_back(std::move(chart));
+  }
+  if (fit.parameters.size() < 2) return;
+  Matrix matrix{"correlation of the parameters, " + source.label, {}, rows_of(correlation(fit.covariance))};
+  for (const FittedParameter& p : fit.parameters) matrix.names.push_back(p.name);
+  page.matrices.push_back(std::move(matrix));
+}
+
+// where the law is strongly elliptic, over the plane of stretches; twice its stiffness at rest is a medium colour
+void add_stability(ReportPage& page, const Source& source, const h5::Group& root) {
+  if (!root.has("stability/plane")) return;
+  const h5::Group stability = root.group("stability");
+  PlaneMap map{"minimum acoustic eigenvalue, " + source.label,
+               "stretch along x",
+               "stretch along z",
+               "minimum acoustic eigenvalue",
+               "MPa",
+               stability.read<double>("stretch", {h5::any}).values,
+               {},
+               1};
+  const std::size_t n = map.at.size();
+  const std::vector<double> values = stability.read<double>("plane", {n, n}).values;
+  for (std::size_t i = 0; i < n; ++i)
+    map.values.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(i * n),
+                            values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+  std::size_t rest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::abs(map.at[i] - 1) < std::abs(map.at[rest] - 1)) rest = i;
+  if (n > 0 && std::abs(map.values[rest][rest]) > 0) map.middle = 2 * std::abs(map.values[rest][rest]);
+  page.maps.push_back(std::move(map));
 }
 
 void judge_parameters(ReportPage& page, const Source& source, const FitRecord& fit) {
@@ -134,6 +211,9 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
     if (const std::string least = said("identifiability", "words"); !least.empty())
       page.verdicts.push_back({Level::note, source.label, "least identifiable combination: " + least});
     add_tests(page, source, *fit);
+    add_curves_of_scenes(page, source, *fit);
+    add_identifiability(page, source, *fit, file.root());
+    add_stability(page, source, file.root());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "hdf5/h5.hpp"
+#include "report/answer.hpp"
 #include "report/body_view.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
@@ -70,20 +71,14 @@ void judge_contact(const Say& say, const std::map<std::string, IndenterForce>& f
 
 // "force 0.51 N +- 1.2 %": only a force whose estimated error is within the wanted one is called good
 void judge_errors(const Say& say, const std::vector<Summary>& summary, double force, double wanted) {
-  const auto value = [&](const std::string& name) {
-    const auto at = std::find_if(summary.begin(), summary.end(), [&](const Summary& s) { return s.name == name; });
-    return at == summary.end() ? std::numeric_limits<double>::quiet_NaN() : at->value;
-  };
   bool any = false;
   for (const Summary& s : summary) {
     if (!s.name.ends_with("_error")) continue;
     const std::string name = s.name.substr(0, s.name.size() - 6);
-    // what was found is its limit + cells + increments
-    double of = value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
-    if (std::isnan(of) && name == "force") of = force;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto [of, percent] = known_error(summary, name, name == "force" ? force : unknown);
     if (!std::isfinite(of) || of == 0) continue;
     any = true;
-    const double percent = 100 * s.value / std::abs(of);
     const std::string text = fmt::format("{} {:.4g} {} ± {:.2g} % by cells and increments", name, of, s.unit, percent);
     if (name != "force")
       say(Level::note, text);
@@ -171,6 +166,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources, const R
       units[name] = group.unit(name).empty() ? "-" : group.unit(name);
     }
     if (n == 0) continue;
+    page.answers.push_back(answer_of(solution, sources.size() > 1 ? source.label : ""));
     const Say say = [&](Level level, std::string text) { page.verdicts.push_back({level, source.label, std::move(text)}); };
     judge(say, history);
     const auto forces = indenter_forces(solution, group, history);

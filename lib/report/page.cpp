@@ -17,6 +17,26 @@ Json series(const Series& s) {
                  {"points", {s.points ? "true" : "false"}}});
 }
 
+Json answer(const Answer& a) {
+  const auto fact = [](const Answer::Fact& f) { return object({{"name", words(f.name)}, {"text", words(f.text)}}); };
+  return object({{"sentence", words(a.sentence)}, {"facts", list(a.facts, fact)}});
+}
+
+Json matrix(const Matrix& m) {
+  return object({{"title", words(m.title)}, {"names", list(m.names, words)}, {"values", list(m.values, numbers)}});
+}
+
+Json plane_map(const PlaneMap& m) {
+  return object({{"title", words(m.title)},
+                 {"xLabel", words(m.x_label)},
+                 {"yLabel", words(m.y_label)},
+                 {"label", words(m.label)},
+                 {"unit", words(m.unit)},
+                 {"at", numbers(m.at)},
+                 {"values", list(m.values, numbers)},
+                 {"middle", number(m.middle)}});
+}
+
 Json data_of(const ReportPage& page) {
   const auto verdict = [](const Verdict& v) {
     return object({{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
@@ -29,6 +49,10 @@ Json data_of(const ReportPage& page) {
                    {"yLabel", words(c.y_label)},
                    {"yUnit", words(c.y_unit)},
                    {"series", list(c.series, series)},
+                   {"marks", list(c.marks,
+                                  [](const Chart::Mark& m) {
+                                    return object({{"name", words(m.name)}, {"y", number(m.y)}});
+                                  })},
                    {"ordered", {c.ordered ? "true" : "false"}}});
   };
   const auto polar = [](const Polar& p) {
@@ -66,6 +90,9 @@ Json data_of(const ReportPage& page) {
   };
   return object({{"title", words(page.title)},
                  {"version", words(fmt::format("{} ({})", version, revision))},
+                 {"answers", list(page.answers, answer)},
+                 {"matrices", list(page.matrices, matrix)},
+                 {"maps", list(page.maps, plane_map)},
                  {"verdicts", list(page.verdicts, verdict)},
                  {"charts", list(page.charts, chart)},
                  {"polars", list(page.polars, polar)},

@@ -1,12 +1,14 @@
 // A report as values, and as one HTML file that needs nothing beside it: styles, scripts, three.js and the data are inside.
-//   verdicts  what a reader must know first      charts  curves with hover values      polars  a sweep over an angle
-//   tables    numbers                            bodies  deformed bodies to look at    origins who made which file from what
+//   answers   what was done and what came of it  verdicts  whether to believe it       charts  curves with hover values
+//   polars    a sweep over an angle              matrices  correlations                maps    values over a plane
+//   tables    numbers                            bodies    deformed bodies to look at  origins who made which file from what
 #pragma once
 
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "report/answer.hpp"
 #include "report/json.hpp"
 #include "report/symmetry.hpp"
 
@@ -30,6 +32,25 @@ struct Chart {
   std::string group, title, x_label, x_unit, y_label, y_unit;
   std::vector<Series> series;
   bool ordered = false;  // the series are values of a number: colours in order
+  struct Mark {
+    std::string name;
+    double y = 0;
+  };
+  std::vector<Mark> marks = {};  // lines that the curves are compared with
+};
+
+struct Matrix {
+  std::string title;
+  std::vector<std::string> names;           // of rows and columns
+  std::vector<std::vector<double>> values;  // -1 to 1; NaN: not known
+};
+
+// Values over a square of x and y, colours by sign and logarithm.
+struct PlaneMap {
+  std::string title, x_label, y_label, label, unit;
+  std::vector<double> at;                   // of both axes, evenly
+  std::vector<std::vector<double>> values;  // rows along y
+  double middle = 1;                        // value of a medium colour
 };
 
 struct TableColumn {
@@ -56,9 +77,12 @@ struct FileOrigin {
 
 struct ReportPage {
   std::string title;
+  std::vector<Answer> answers;
   std::vector<Verdict> verdicts;
   std::vector<Chart> charts;
   std::vector<Polar> polars;
+  std::vector<Matrix> matrices;
+  std::vector<PlaneMap> maps;
   std::vector<ReportTable> tables;
   std::vector<Json> bodies;  // body_view.hpp
   std::vector<FileOrigin> origins;

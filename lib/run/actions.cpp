@@ -27,6 +27,11 @@ class Actions {
     add(set, (to.value < 0 ? -1 : 1) * Vec3::Unit(axis), true,
         fmt::format("u_{} = {:g} mm{}", "xyz"[axis], to.at(1), to.factor ? " at the end" : ""));
   }
+  void turn(const LoadConfig& load) {
+    const History angle = history_of(load.rotation->angle, seconds_);
+    add(load.on, (angle.value < 0 ? -1 : 1) * direction(load.rotation->axis), true,
+        fmt::format("turned by {:g} degrees{}", angle.at(1), angle.factor ? " at the end" : ""));
+  }
   void load(const LoadConfig& load) {
     for (int axis = 0; axis < 3; ++axis)
       if (const auto force = load.dead(axis); force && force->moves()) {
@@ -90,6 +95,7 @@ std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<V
     for (const LoadConfig& load : solve.loads) {
       for (int axis = 0; axis < 3; ++axis)
         if (const auto to = load.imposed(axis)) actions.move(load.on, axis, history_of(*to, solve.path.seconds));
+      if (load.rotation) actions.turn(load);
       actions.load(load);
     }
     return actions.all;

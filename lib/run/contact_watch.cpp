@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/step_record.hpp"
+#include "scene/adhesion.hpp"
 
 namespace langer {
 
@@ -19,7 +20,7 @@ std::string text(const Vec3& X) { return fmt::format("({:.4g}, {:.4g}, {:.4g})",
 }  // namespace
 
 ContactWatch::ContactWatch(const Mesh& mesh, const Scene& scene, Where where)
-    : scene_(scene), where_(std::move(where)), check_(mesh), found_(scene.contacts.size()) {
+    : mesh_(mesh), scene_(scene), where_(std::move(where)), check_(mesh), found_(scene.contacts.size()) {
   const std::vector<Vec3> rest(mesh.X.size(), Vec3::Zero());
   for (const RigidContact& contact : scene.contacts) {
     const SurfaceLook look = check_.look(contact, rest, Vec3::Zero());
@@ -115,6 +116,8 @@ void ContactWatch::look(StepRecord& record) {
       if (adds_) record.scalars["force_" + contact.name] = c.norm() > 0 ? -force.dot(c) / c.norm() : force.norm();
     }
     keep(k, look, record.t, force.norm());
+    const std::vector<double>& beta = record.contacts.at(contact.name).beta;  // what is bonded has touched
+    if (std::any_of(beta.begin(), beta.end(), [](double b) { return b >= 0; })) found_[k].touched = true;
     entry = std::max(entry, look.facet.depth);
   }
   if (adds_) record.scalars["penetration_between_nodes"] = entry;
@@ -146,6 +149,13 @@ std::vector<std::string> ContactWatch::warnings() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
     const std::string name = "contacts." + scene_.contacts[k].name + ": ";
+    if (const RigidContact& contact = scene_.contacts[k]; contact.adhesion)
+      if (const BondZone zone = bond_zone(contact, mesh_, scene_.materials); !zone.resolved())
+        lines.push_back(name +
+                        fmt::format("bonds come loose over about {:.2g} mm (4 shear moduli over adhesion.stiffness), and the "
+                                    "shortest cells that touch are {:.2g} mm long: the pull depends on the cells; shorten "
+                                    "them to {:.2g} mm, or lower the stiffness",
+                                    zone.length, zone.cell, zone.longest_cell()));
     if (!f.touched)
       lines.push_back(
           name + fmt::format("the indenter never touches the body: nearest at t = {:.4g}, {:.3g} mm from {}; look at its place "
@@ -163,7 +173,8 @@ std::vector<std::string> ContactWatch::warnings() const {
                                   f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(),
                                   f.share() > share_meaningless ? "the force is that of the cells and not of the body"
                                                                 : "the force depends on the length of the cells"));
-    if (f.force > 0 && !f.at_force.whole_facet)
+    const bool hangs = scene_.contacts[k].adhesion && f.at_force.touching == 0;  // by its bonds alone
+    if (f.force > 0 && !f.at_force.whole_facet && !hangs)
       lines.push_back(name + fmt::format("at the largest force {} node{}, and no facet as a whole: the force depends on the length "
                                          "of the cells, whose nodes are {:.3g} mm apart there; shorten them",
                                          f.at_force.touching, f.at_force.touching == 1 ? " touches" : "s touch",

@@ -48,6 +48,7 @@ class ContactWatch {
   void refuse_mid_path(const RigidContact& contact, const SurfaceLook& look, double t) const;
   [[noreturn]] void refuse(const std::string& key, std::string found, std::string expected, std::string hint) const;
 
+  const Mesh& mesh_;
   const Scene& scene_;
   Where where_;
   SurfaceCheck check_;

@@ -46,7 +46,8 @@ void need_memory(const Statics& statics, const Statics* beside, int threads) {
 
 Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
-  return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent);
+  return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent,
+                  statics.contact_in_tangent());
 }
 
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,
@@ -69,6 +70,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
                                   c.mu > 0 ? fmt::format("friction {:g}", c.mu) : "no friction"));
+    if (!scene.contacts.empty()) line("", statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
     line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
     line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
                                 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/bounding_box.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reference.hpp"
 #include "run/run.hpp"
@@ -15,8 +17,7 @@ namespace {
 
 constexpr double same = 1e-9;
 
-struct Hull {
-  Vec3 low, high;
+struct Hull : BoundingBox {
   double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
   bool on(const Vec3& X, int axis, int side) const { return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm(); }
 };
@@ -37,7 +38,10 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
 // What whole faces are told, as values of the box's corners; nothing where a node is told something that is not its face's.
 std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs, const Hull& hull) {
   std::map<int, History> imposed, explained;
-  for (const Prescribed& p : dofs.prescribed) imposed[p.dof] = {p.value, p.factor};
+  for (const Prescribed& p : dofs.prescribed) {
+    if (p.turn) return std::nullopt;
+    imposed[p.dof] = {p.value, p.factor};
+  }
   std::vector<Prescribed> corners;
   for (int axis = 0; axis < 3; ++axis)
     for (int side : {-1, 1}) {
@@ -60,6 +64,32 @@ std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dof
   return corners;
 }
 
+// Forces on whole faces, on those of the hexahedron; nothing where one acts on a part of a face.
+std::optional<std::vector<SurfaceLoad>> loads_of_faces(const Mesh& mesh, const std::vector<SurfaceLoad>& loads, const Hull& hull) {
+  std::vector<SurfaceLoad> found;
+  for (const SurfaceLoad& load : loads) {
+    std::array<double, 6> area{};
+    for (const Facet& facet : load.facets) {
+      const std::vector<int> nodes = facet_nodes(mesh, facet);
+      for (int face = 0; face < 6; ++face)
+        if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return hull.on(mesh.X[n], face / 2, face % 2 ? 1 : -1); }))
+          area[face] += nodal_areas(mesh, {facet}).sum();
+    }
+    const Vec3 size = hull.size();
+    SurfaceLoad one = load;
+    one.facets.clear();
+    for (int face = 0; face < 6; ++face) {
+      if (area[face] == 0) continue;
+      const double whole = size.prod() / size[face / 2];
+      if (std::abs(area[face] - whole) > same * whole) return std::nullopt;
+      one.facets.push_back({0, face});
+    }
+    if (one.facets.empty()) return std::nullopt;
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
 }  // namespace
 
 HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config)
@@ -69,6 +99,7 @@ HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const S
   if (!recognise(mesh, scene)) return;
   seconds_ = config.path.seconds.value_or(0);
   whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation, scene.dofs, config.threads);
+  if (!scene.loads.empty()) whole_->set_loads({mesh, scene.loads});
 }
 
 std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
@@ -81,14 +112,14 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
 }
 
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
-  if (mesh.section || !scene.contacts.empty() || !scene.loads.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene))
-    return false;
-  Hull hull{mesh.X[0], mesh.X[0]};
-  for (const Vec3& X : mesh.X) hull.low = hull.low.cwiseMin(X), hull.high = hull.high.cwiseMax(X);
-  const double volume = (hull.high - hull.low).prod();
+  if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene)) return false;
+  const Hull hull{bounding_box(mesh.X)};
+  const double volume = hull.size().prod();
   if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
   const auto corners = told_to_faces(mesh, scene.dofs, hull);
-  if (!corners) return false;
+  const auto loads = loads_of_faces(mesh, scene.loads, hull);
+  if (!corners || !loads) return false;
+  scene_.loads = *loads;
 
   for (int a = 0; a < 8; ++a) {
     Vec3 X;
@@ -135,6 +166,7 @@ bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
 bool HomogeneousScene::balance(const VecX& u, double t) const {
   const bool anew = whole_->viscous() && t != t_;  // else it is asked once more of the same state
   if (anew) whole_->begin_increment((t - t_) * seconds_);
+  whole_->load_to(t);
   whole_->pressures_from(u);
   if (!whole_->assemble(u, false)) return false;
   if (!anew) return true;
@@ -160,8 +192,9 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
     u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
   }
   if (!balance(u, one.t)) return std::nullopt;
-  const VecX& f = whole_->f_int();
-  double left = 0, reactions = 0;
+  const bool loaded = !whole_->loads().empty();
+  const VecX f = loaded ? VecX(whole_->f_int() - whole_->f_ext()) : whole_->f_int();
+  double left = 0, reactions = loaded ? whole_->f_ext().squaredNorm() : 0;
   for (int dof : whole_->dofs().free) left += f[dof] * f[dof];
   record.reaction.assign(record.u.size(), Vec3::Zero());
   for (const Prescribed& p : whole_->dofs().prescribed) {
@@ -190,6 +223,7 @@ SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveRe
 SolveReport HomogeneousScene::report(const SolveReport& of_point, const StepRecord& whole) const {
   double reactions = 0;
   for (const Vec3& r : whole.reaction) reactions += r.squaredNorm();
+  if (!whole_->loads().empty()) reactions += whole_->f_ext().squaredNorm();
   reactions = std::sqrt(reactions);
   return on_mesh(std::max(of_point.residual, whole.residual * reactions), reactions, of_point);
 }

@@ -1,12 +1,13 @@
 // A body between plane faces that are held or moved as wholes may deform alike everywhere: then one hexahedron between the same
 // faces says what it does, on any mesh.
-//   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support and load on
-//               whole faces of the box, no forces on the surface
+//   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support, imposed
+//               displacement, traction, force and pressure on whole faces of the box
 //   proved      each state, expanded to the mesh, balances there: what is left at free nodes is rounding and the solver's tolerance
 // The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: whoever looks at stability looks at
 // of_mesh(), which costs a factorization where a solution of the mesh takes several.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -31,8 +32,9 @@ class HomogeneousScene {
   BodyState reduced(const StepRecord& whole) const;              // to continue from
   // what a solution on the mesh that ends in this state reports of its residual, by the config's own tolerance
   SolveReport report(const SolveReport& of_point, const StepRecord& whole) const;
-  Equilibrium& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
-  void replay(const StepRecord& whole) const;       // a step that was found before
+  const std::vector<std::array<double, 8>>& weights() const { return N_; }  // by node of the mesh: of the corners
+  Equilibrium& of_mesh() const { return *whole_; }                          // at the state that whole() was asked for last
+  void replay(const StepRecord& whole) const;                               // a step that was found before
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);

@@ -1,6 +1,7 @@
 // What the post stage's YAML may say.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "post/curves.hpp"
+#include "post/cycle.hpp"
 #include "post/figure.hpp"
 #include "post/map.hpp"
 #include "post/render.hpp"
@@ -15,15 +17,22 @@
 
 namespace langer {
 
+// When gnuplot draws: members of a large sweep are seldom looked at.
+enum class Draw { always, on_request };
+constexpr auto names(Draw) { return std::array{"always", "on_request"}; }
+
 struct PostConfig {
   StressAt stress = StressAt::nodal_average;
   std::vector<ColumnChoice> columns, further;
   std::map<std::string, std::string> summary_at;
+  std::map<std::string, CycleChoice> cycles;
   std::vector<std::string> snapshots;
+  bool series = false;
   std::map<std::string, FigureChoice> figures;
   std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
   std::map<std::string, RenderChoice> renders;
+  Draw draw = Draw::always;
   static void fields(auto& v) {
     v(&PostConfig::stress, "stress", unit::none, "how stress at a node is taken from the Gauss points around it");
     v(&PostConfig::columns, "columns", unit::none, "the table, curves.csv and curves.h5; one row per state", required);
@@ -31,13 +40,20 @@ struct PostConfig {
     v(&PostConfig::summary_at, "summary_at", unit::none,
       "the summary, for tables over a sweep, is the last row; under <column>_<name> it also has these states by name: a row of "
       "the table, t=0.5 or u_ind=0.5, and the path must stop there");
+    v(&PostConfig::cycles, "cycles", unit::none,
+      "of periodic tests, by name: storage_<name>, loss_<name> and tan_delta_<name> of the last cycle, in the summary");
     v(&PostConfig::snapshots, "snapshots", unit::none,
       "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
+    v(&PostConfig::series, "series", unit::none,
+      "all states with their times for ParaView, PyVista and meshio: series.pvd, and series/step_<row>.vtu with what a snapshot has");
     v(&PostConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg and <name>.png");
     v(&PostConfig::maps, "maps", unit::none,
       "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");
     v(&PostConfig::render, "render", unit::none, "picture of the deformed body, render.svg and render.png");
     v(&PostConfig::renders, "renders", unit::none, "more such pictures by name, <name>.svg and <name>.png");
+    v(&PostConfig::draw, "draw", unit::none,
+      "on_request: figures are left as scripts, and `gnuplot <name>.gp` in their folder draws one; for members of a large sweep, whose "
+      "pictures take more time than they do");
   }
   std::vector<Complaint> complaints() const;
 };
@@ -67,6 +83,14 @@ inline std::vector<Complaint> PostConfig::complaints() const {
   for (const auto& [name, step] : summary_at) {
     if (!parse_step(step)) all.push_back({"summary_at." + name, "\"" + step + "\"", steps, ""});
     if (!is_column_name(name)) all.push_back({"summary_at." + name, "\"" + name + "\"", column_letters, ""});
+  }
+  for (const auto& [name, cycle] : cycles) {
+    if (!is_column_name(name)) all.push_back({"cycles." + name, "\"" + name + "\"", column_letters, ""});
+    for (const auto& [key, column] : {std::pair{".of", &cycle.of}, {".over", &cycle.over}})
+      if (!seen.count(*column))
+        all.push_back({"cycles." + name + key, "\"" + *column + "\"", "the name of a column, without its unit", ""});
+    for (const char* part : {"storage_", "loss_", "tan_delta_"})
+      if (seen.count(part + name)) all.push_back({"cycles." + name, "a column is called " + (part + name), "another name", ""});
   }
   for (const auto& [name, map] : maps) {
     if (!is_column_name(name)) all.push_back({"maps." + name, "\"" + name + "\"", column_letters, ""});

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "config/reader.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
+#include "post/contact_surface.hpp"
 #include "run/step_record.hpp"
 #include "scene/loads.hpp"
 #include "scene/solve_config.hpp"
@@ -63,6 +65,12 @@ void add_contact(std::vector<Field>& points, std::size_t n, const std::string& n
     gap.values[node] = contact.gap[i];
   }
   for (Field* f : {&status, &force, &gap}) points.push_back(std::move(*f));
+  if (contact.beta.empty()) return;
+  Field beta = field("adhesion_" + name, "-", 1, n, -1), bonds = field("adhesive_force_" + name, "N", 3, n);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
+    put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);
+  for (Field* f : {&beta, &bonds}) points.push_back(std::move(*f));
 }
 
 }  // namespace
@@ -113,7 +121,15 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   }
   out.points = {std::move(u), std::move(reaction)};
   at_nodes.move_to(out.points);
-  for (const auto& [name, contact] : record.contacts) add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
+  for (const auto& [name, contact] : record.contacts) {
+    add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
+    if (mesh.section) continue;
+    const ContactPerArea state = ContactSurface(mesh, header.contact_nodes.at(name)).at(record.u, contact);
+    Field traction = field("contact_traction_" + name, "MPa", 3, n);
+    for (std::size_t i = 0; i < n; ++i) put(traction, i, state.traction[i]);
+    out.points.push_back(std::move(traction));
+    out.points.push_back({"contact_pressure_" + name, "MPa", 1, state.pressure});
+  }
 
   StressFields means(n_cells, body.n_families());
   std::vector<Field> before, after;
@@ -155,15 +171,13 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const auto& [name, contact] : solve.contacts) {
       if (!header.contact_nodes.count(name)) return {};
-      RigidContact indenter{name, contact.rigid, contact.friction, header.contact_nodes.at(name), {}};
+      RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
+      indenter.nodes = header.contact_nodes.at(name);
       if (auto* facets = std::get_if<Facets>(&indenter.shape)) {
         const auto surface = header.indenter_surfaces.find(name);
         if (surface == header.indenter_surfaces.end()) continue;
         facets->tree = std::make_shared<TriangleTree>(surface->second);
       }
-      if (contact.control) indenter.control = ForceControl{vec(contact.control->along).normalized(), {}};
-      for (const WaypointConfig& w : contact.motion)
-        indenter.motion.push_back({place(w, solve.path.seconds), Vec3(w.to[0], w.to[1], w.to[2])});
       indenters.push_back(std::move(indenter));
     }
   } catch (const Failure&) {
@@ -184,17 +198,17 @@ void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& 
   }
 }
 
-std::vector<double> kinks_of(const SolutionHeader& header) {
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header) {
   std::vector<double> kinks;
   try {
     const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
     for (const LoadConfig& load : solve.loads)
       for (const HistoryConfig& history : load.histories())
         for (const HistoryPointConfig& point : history.points) kinks.push_back(place(point, solve.path.seconds));
+    return {mesh, std::move(indenters), std::move(kinks), turned_sets(solve, header.mesh)};
   } catch (const Failure&) {
-    return {};  // written by another version of solve
+    return {mesh, std::move(indenters)};  // written by another version of solve
   }
-  return kinks;
 }
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
@@ -208,9 +222,8 @@ std::vector<std::string> indenters_missing(const SolutionHeader& header, const s
 }
 
 Shown shown_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  return {0.5 * (low + high), (high - low).norm()};
+  const BoundingBox box = bounding_box(mesh.X);
+  return {box.middle(), box.size().norm()};
 }
 
 Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
@@ -240,13 +253,15 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
     state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
+    state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{} : found->second.adhesive);
   }
+  if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end()) state.jumps = jumps->second;
   if (!loads.empty()) {
     VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
     for (std::size_t i = 0; i < record.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
     state.loads = loads.forces(record.t, u);
   }
-  for (const char* part : {"energy", "viscous_work"})
+  for (const char* part : {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})
     if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;
   return state;
 }

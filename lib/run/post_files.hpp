@@ -46,7 +46,8 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header);
 // Indenters under force control then move as they were found to.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution);
 std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters);  // names
-std::vector<double> kinks_of(const SolutionHeader& header);  // places on the path where one of its loads has a kink
+// where its loads have kinks, and what they turn
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header);
 // Supports, imposed displacements and forces on the surface as that config tells, on some nodes of each set; u (n) [mm] moves them.
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
 // What is shown of a body at rest; of the indenter there at t.

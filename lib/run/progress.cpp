@@ -17,6 +17,15 @@ std::string iterations(int newton, int modified) {
   return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified) : fmt::format("{} iterations", newton);
 }
 
+// of several indenters each by name: the sum of a pinch tells nothing
+std::string forces_of(const StepRecord& record) {
+  std::string each;
+  for (const auto& [name, contact] : record.contacts)
+    if (const auto found = record.scalars.find("force_" + name); found != record.scalars.end())
+      each += fmt::format("{}{} {:.5g}", each.empty() ? "" : ", ", name, found->second);
+  return each.empty() ? fmt::format("{:.5g}", record.force_ind.norm()) : each;
+}
+
 bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !said::log; }
 
 std::string sizes(const Run& run) {
@@ -97,7 +106,7 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (voice_.quiet) return;
   bool unstable = false;
   std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
-  if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {:.5g} N", record.u_ind.norm(), record.force_ind.norm());
+  if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {} N", record.u_ind.norm(), forces_of(record));
   line += fmt::format("  {}  residual {:.1e}{}", iterations(report.iterations, report.again), record.residual, left(record.t));
   if (live_) say_status(line);
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));

@@ -11,11 +11,13 @@
 
 namespace langer {
 
-Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output)
+Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
+                     Companion companion)
     : run_(run),
       watch_(watch),
       output_(output),
       config_(identity.config),
+      companion_(std::move(companion)),
       collect_(by_refinement(config)
                    ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
                    : std::function<void(const StepRecord&)>()),
@@ -25,6 +27,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
               if (collect_) collect_(step);
               watch.kept(step);
               run.replay(step);
+              if (companion_.kept) companion_.kept(step);
               return true;
             }),
       resumed_(file_.resumed()) {
@@ -66,7 +69,7 @@ RunEnd Recording::along_the_path(Progress& progress) {
     progress.accepted(record, report);
   };
   if (resumed_) progress.resumed(n_steps(), resumed_->t);
-  RunEnd end = run_.follow(listener);
+  RunEnd end = run_.follow(companion_.along ? companion_.along(std::move(listener)) : listener);
   if (resumed_ && end.last.u.empty()) end.last = *resumed_;  // it was at the end
   return end;
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "run/step_record.hpp"
+#include "scene/scene_parameters.hpp"
+#include "scene/section.hpp"
 
 namespace langer {
 
@@ -14,9 +16,16 @@ Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<Homog
 
 Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
                           const std::function<Place(const std::string&)>& where, bool at_a_point) {
-  if (at_a_point)
+  const SceneParameters parameters(config, mesh, scene, where);
+  if (at_a_point && !parameters.turns_fibres())  // turned ones shear a body that was stretched
     if (auto point = HomogeneousScene::find(mesh, scene, config)) return {mesh, scene, std::move(point)};
-  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+  if (config.sensitivity.empty()) return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+  const Scene varied = parameters.varied_unlike(scene, mesh);
+  if (mesh.section)
+    if (const auto errors = section_errors(config, mesh, varied, where); !errors.empty())
+      throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity", "found a number that a section has to leave as it is",
+                                        "others", errors.front().found});
+  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where, &varied), config.threads};
 }
 
 Reduction::Kind Reduction::kind() const {
@@ -61,6 +70,8 @@ std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
 SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_whole) const {
   return point_ ? point_->report(of_part, of_whole) : of_part;
 }
+
+const HomogeneousScene* Reduction::point() const { return point_.get(); }
 
 Equilibrium* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
 

@@ -42,6 +42,7 @@ class Reduction {
   SolveReport report(const SolveReport& of_part, const StepRecord& of_whole) const;  // as if the body had been solved
   BodyState reduced(const StepRecord& of_whole) const;                               // to continue from
   void replay(const StepRecord& of_whole) const;  // of a viscous body: a step that was found before
+  const HomogeneousScene* point() const;          // or nullptr
   Equilibrium* mesh_of_point()
       const;  // the mesh that a hexahedron stands for, at the state whole() was asked for last; else nullptr
 

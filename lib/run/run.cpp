@@ -3,6 +3,8 @@
 #include "base/interrupt.hpp"
 #include "run/equilibrium_by.hpp"
 #include "run/step_record.hpp"
+#include "scene/torque.hpp"
+#include "solve/release.hpp"
 
 namespace langer {
 
@@ -64,8 +66,10 @@ RunEnd Run::follow(const RunListener& listener) {
   const auto attempt = [&](double t) {
     if (interrupted()) return SolveReport{};  // not converged
     statics.begin(t);
-    SolveReport report =
-        equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+    const auto solve = [&] {
+      return equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+    };
+    SolveReport report = statics.bonds().none() ? solve() : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve);
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
@@ -85,6 +89,7 @@ RunEnd Run::follow(const RunListener& listener) {
       end.at = RunEnd::At::not_homogeneous;
       return false;
     }
+    tell_torques(*whole, mesh, scene);
     if (listener.of_whole) listener.of_whole(*whole, reduction.report(report, *whole));
     if (at_end) end.last = std::move(*whole);
     return !interrupted();

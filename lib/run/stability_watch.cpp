@@ -124,10 +124,9 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
   if (report.stiffness < 0 && report.lost == 0) report.lost = body.geometry(report.cell).w[0] / volume;
 
   const VecX reactions = statics.reactions();
-  for (const Prescribed& p : body.dofs().prescribed)
-    report.driving_force += reactions[p.dof] * p.value * factor_rate(p.factor, state.t);
+  for (const Prescribed& p : body.dofs().prescribed) report.driving_force += reactions[p.dof] * p.rate(state.t);
   const bool straight =
-      std::none_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(), [](const auto& p) { return p.factor; });
+      std::all_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(), [](const auto& p) { return p.in_proportion(); });
   if (straight &&
       statics.contacts().empty()) {  // along a straight path; a body that slides under an indenter has other reasons to resist less
     const double scale = std::max(std::abs(report.driving_force), std::abs(force_before_));

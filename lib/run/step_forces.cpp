@@ -1,10 +1,8 @@
 #include "run/step_forces.hpp"
 
-#include <set>
+#include "scene/torque.hpp"
 
 namespace langer {
-
-namespace {
 
 std::set<std::string> moved_sets(const SolveConfig& config) {
   std::set<std::string> moved;
@@ -13,6 +11,8 @@ std::set<std::string> moved_sets(const SolveConfig& config) {
       if (const auto to = load.imposed(axis); to && to->moves()) moved.insert(load.on);
   return moved;
 }
+
+namespace {
 
 double force_of(const StepRecord& state, const std::string& contact) {
   Vec3 force;
@@ -27,6 +27,7 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
   if (!scene.contacts.empty()) forces.of["force"] = whole.force_ind.norm();
   if (scene.contacts.size() > 1)
     for (const RigidContact& contact : scene.contacts) forces.of["force_" + contact.name] = force_of(whole, contact.name);
+  forces.of.merge(torques_of(whole, scene));
   for (const std::string& set : moved_sets(config)) {
     Vec3 reaction = Vec3::Zero();
     for (int n : mesh.node_sets.at(set)) reaction += whole.reaction[static_cast<std::size_t>(n)];

@@ -2,10 +2,12 @@
 //   force             on the indenter, of several the length of their sum [N]
 //   force_<contact>   of several indenters: on each of them [N]
 //   reaction_<set>    of each set that is moved [N]
+//   torque_<name>     of each indenter that turns and each set that is turned [N mm]
 #pragma once
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,12 @@
 
 namespace langer {
 
+// sets with an imposed displacement other than 0
+std::set<std::string> moved_sets(const SolveConfig& config);
+
 struct StepForces {
   double t = 0;
-  std::map<std::string, double> of;  // [N]
+  std::map<std::string, double> of;
 };
 StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& whole);
 

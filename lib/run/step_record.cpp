@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "config/reader.hpp"
 #include "material/at_rest.hpp"
+#include "scene/bond_records.hpp"
 #include "store/material_file.hpp"
 #include "tensor/stress.hpp"
 
@@ -107,6 +108,7 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
   if (const RigidContact* controlled = statics.controlled()) record.scalars["travel_" + controlled->name] = state.travel;
   record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
+  if (!statics.bonds().none()) tell_bonds(statics, record);
   return record;
 }
 
@@ -119,6 +121,7 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
     state.r.push_back(record.contacts.at(contact.name).r);
     if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);
   }
+  take_bonds(record, scene.contacts, state);
   return state;
 }
 

@@ -1,4 +1,4 @@
-// Whether a scene is its own image under a symmetry of its mesh.
+// Whether a scene is the image of another one on the same mesh, or of itself, under a symmetry of that mesh.
 //   fibres      the set of (law, a a^T) of each cell goes over into that of its image: families may change places, as those at +theta
 //               and -theta do in a mirror; a family without direction (kappa: 1/3) has nothing to turn
 //   supports, imposed displacements, forces on the surface    the image's, turned
@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "mesh/symmetry.hpp"
+#include "mesh/image.hpp"
 #include "scene/scene.hpp"
 
 namespace langer {
 
 struct SceneImage {
-  std::string broken;        // what is not its own image; empty where nothing
+  std::string broken;        // what is not the image; empty where nothing
   std::vector<int> contact;  // image of each
 };
-SceneImage image_of(const Symmetry& g, const Mesh& mesh, const Scene& scene);
+SceneImage image_of(const MeshImage& g, const Mesh& mesh, const Scene& scene, const Scene& image);
 
 }  // namespace langer

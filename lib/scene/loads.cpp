@@ -14,23 +14,10 @@ namespace {
 
 using Find = std::function<Place(const std::string&)>;
 
-// of a section those that turn about its axis or lie along its depth; its two planes are none of the body's surface
-std::vector<Facet> facets_of(const Mesh& mesh, const std::string& set) {
-  const auto found = mesh.facet_sets.find(set);
-  std::vector<Facet> facets = found == mesh.facet_sets.end() ? std::vector<Facet>{} : found->second;
-  if (mesh.section)
-    std::erase_if(facets, [&](const Facet& facet) {
-      const std::vector<int> nodes = facet_nodes(mesh, facet);
-      const auto in_front = std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < n_front(mesh); });
-      return in_front == 0 || in_front == static_cast<std::ptrdiff_t>(nodes.size());
-    });
-  return facets;
-}
-
 std::string sets_with_facets(const Mesh& mesh) {
   std::string list;
   for (const auto& [name, facets] : mesh.facet_sets)
-    if (!facets_of(mesh, name).empty()) list += (list.empty() ? "" : ", ") + name;
+    if (!surface_of(mesh, name).empty()) list += (list.empty() ? "" : ", ") + name;
   return list;
 }
 
@@ -45,7 +32,7 @@ bool is_held(const SolveConfig& config, const Mesh& mesh, const std::string& set
   for (const SupportConfig& support : config.supports)
     if (std::find(support.hold.begin(), support.hold.end(), static_cast<Axis>(axis)) != support.hold.end()) take(support.on);
   for (const LoadConfig& load : config.loads)
-    if (load.imposed(axis)) take(load.on);
+    if (load.tells(axis)) take(load.on);
   return left.empty();
 }
 
@@ -63,7 +50,7 @@ std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& me
       errors.push_back({where(at), at, std::move(found), std::move(expected), std::move(hint)});
     };
     if (!mesh.node_sets.count(load.on)) continue;  // said where its nodes are asked for
-    const std::vector<Facet> facets = facets_of(mesh, load.on);
+    const std::vector<Facet> facets = surface_of(mesh, load.on);
     double area = nodal_areas(mesh, facets).sum();
     if (mesh.section) area *= cell_share(*mesh.section);
     if (!(area > 0)) {

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "contact/surface_check.hpp"
 #include "contact/touch.hpp"
 #include "geometry/read_surface.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/reference.hpp"
+#include "scene/adhesion.hpp"
 #include "scene/loads.hpp"
 #include "scene/section.hpp"
 
@@ -39,19 +42,20 @@ class Nodes {
     return none;
   }
 
-  // to [mm]; false, and an error, where the same direction of the node was told something else
-  bool prescribe(int node, int axis, const History& to, const std::string& key) {
+  // false, and an error, where the same direction of the node was told something else
+  bool prescribe(int node, int axis, const History& to, const std::string& key, const std::optional<Turn>& turn = {}) {
     const std::size_t dof = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
-    if (!named_by_[dof].empty() && !(to_[dof] == to)) {
+    const Prescribed told{static_cast<int>(dof), to.value, to.factor, turn};
+    if (!named_by_[dof].empty() && !to_[dof].moves_as(told)) {
       const bool other_way = to_[dof].value == to.value;
       errors.push_back({where_(key), key,
-                        fmt::format("asks for {} = {} mm at a node that {} sets to {} mm{}", "xyz"[axis], to.value, named_by_[dof],
-                                    to_[dof].value, other_way ? " by another history" : ""),
+                        fmt::format("asks for {} at a node that {} sets to {}{}", words(told), named_by_[dof],
+                                    words(to_[dof], false), other_way && !turn && !to_[dof].turn ? " by another history" : ""),
                         "one value for each direction of a node", ""});
       return false;
     }
-    named_by_[dof] = key, to_[dof] = to;
-    prescribed.push_back({static_cast<int>(dof), to.value, to.factor});
+    named_by_[dof] = key, to_[dof] = told;
+    prescribed.push_back(told);
     return true;
   }
 
@@ -59,11 +63,21 @@ class Nodes {
   std::vector<Error> errors;
 
  private:
+  static std::string words(const Prescribed& told, bool with_name = true) {
+    const std::string name = with_name ? fmt::format("{} = ", "xyz"[told.dof % 3]) : "";
+    return told.turn ? fmt::format("{}{} mm and a rotation", name, told.value) : fmt::format("{}{} mm", name, told.value);
+  }
   const Mesh& mesh_;
   const Find& where_;
   std::vector<std::string> named_by_;  // by dof: the key; empty where none
-  std::vector<History> to_;            // by dof [mm]
+  std::vector<Prescribed> to_;         // by dof
 };
+
+History radians(const HistoryConfig& degrees, std::optional<double> seconds) {
+  History history = history_of(degrees, seconds);
+  history.value *= std::numbers::pi / 180;
+  return history;
+}
 
 void set_angles(Material& material, const std::vector<double>& angles, const std::string& key, const Find& where,
                 std::vector<Error>& errors) {
@@ -145,7 +159,8 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
 std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, const std::vector<Prescribed>& prescribed) {
   double moves = 0;
   std::vector<Vec3> held(mesh.X.size(), Vec3::Zero());
-  for (const Prescribed& p : prescribed) held[p.dof / 3][p.dof % 3] = 1, moves = std::max(moves, std::abs(p.value));
+  for (const Prescribed& p : prescribed)
+    held[p.dof / 3][p.dof % 3] = 1, moves = std::max(moves, std::abs(p.value) + (p.turn ? 2 * p.turn->radius() : 0));
   std::vector<int> nodes = SurfaceCheck(mesh).reached(contact, moves);
   std::erase_if(nodes, [&](int n) {
     const Vec3 normal = shape_at(contact.shape, mesh.X[n]).normal;
@@ -187,22 +202,44 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>&
     for (const auto& [at, history] : load.histories_by_key())
       take_stops(history.points, config.path.seconds, key + "." + at, stops, nodes);
     bool agrees = true;
-    for (int node : nodes.of_set(load.on, key + ".on"))
-      for (int axis = 0; axis < 3 && agrees; ++axis)
+    const auto& on = nodes.of_set(load.on, key + ".on");
+    for (int node : on)
+      for (int axis = 0; axis < 3 && agrees && !load.rotation; ++axis)
         if (to[axis]) agrees = nodes.prescribe(node, axis, *to[axis], key + ".displacement");
   }
 }
 
-// shape and path as the config gives them; no candidates yet
-RigidContact indenter_of(const std::string& name, const ContactConfig& contact, std::optional<double> seconds) {
-  RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
-  if (auto* facets = std::get_if<Facets>(&rigid.shape)) {
-    Triangles triangles = read_surface(facets->file.path);
-    for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
-    facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
+// All three directions of each node: what is rigid is turned or moved, and does nothing else.
+void turn(Nodes& nodes, const TurnedSet& set, const Mesh& mesh, const std::string& key) {
+  for (int node : set.nodes) {
+    const AboutLine at = about(set.axis, mesh.X[node]);
+    const Vec3 across = at.rho * at.outward, along = cross(set.axis.along, across);
+    for (int k = 0; k < 3; ++k)
+      if (!nodes.prescribe(node, k, set.to[k], key, Turn{set.angle, along[k], across[k]})) return;
   }
-  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
-  return rigid;
+}
+
+void add_turned(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh) {
+  scene.turned = turned_sets(config, mesh);
+  auto set = scene.turned.begin();
+  for (std::size_t i = 0; i < config.loads.size() && set != scene.turned.end(); ++i) {
+    const LoadConfig& load = config.loads[i];
+    if (!load.rotation || load.on != set->name) continue;
+    const std::string key = fmt::format("loads[{}].rotation", i);
+    if (config.contacts.count(set->name))
+      nodes.errors.push_back({nodes.place_of(key), key,
+                              fmt::format("turns the set \"{}\", and an indenter has the same name", set->name),
+                              "names of their own", fmt::format("torque_{} would be that of both", set->name)});
+    turn(nodes, *set++, mesh, key);
+  }
+}
+
+void read_triangles(RigidContact& rigid) {
+  auto* facets = std::get_if<Facets>(&rigid.shape);
+  if (!facets) return;
+  Triangles triangles = read_surface(facets->file.path);
+  for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
+  facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
 }
 
 void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
@@ -218,9 +255,8 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
 }
 
 // How far a force pushes is not known before: candidates are named, and what is across its direction moves as told.
-void take_control(Scene& scene, RigidContact& rigid, const ContactConfig& contact, std::optional<double> seconds,
-                  const std::string& key, const Find& where, std::vector<Error>& errors) {
-  rigid.control = ForceControl{vec(contact.control->along).normalized(), history_of(contact.control->force, seconds)};
+void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key, const Find& where,
+                   std::vector<Error>& errors) {
   if (contact.on.empty())
     errors.push_back({where(key), key + ".on", "missing, beside control", "a node set that may touch the indenter",
                       "how far a force pushes the indenter is not known before"});
@@ -230,19 +266,37 @@ void take_control(Scene& scene, RigidContact& rigid, const ContactConfig& contac
                         "one indenter under force control", "others may move as told by `motion`"});
 }
 
+// A hole that no candidate lies beyond has nothing to press on.
+void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
+                      std::vector<Error>& errors) {
+  const auto* aperture = std::get_if<Aperture>(&rigid.shape);
+  if (!aperture || rigid.nodes.empty()) return;
+  double widest = 0;
+  for (int node : rigid.nodes) widest = std::max(widest, about(*aperture->axis(), mesh.X[node]).rho);
+  if (widest > aperture->radius) return;
+  errors.push_back(
+      {where(key), key + ".radius",
+       fmt::format("a hole of {:g} mm, and all that may touch the plate is within {:.4g} mm of its axis", aperture->radius, widest),
+       "a hole that the body reaches beyond", "look at the place of the hole and at `on`"});
+}
+
 void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh, const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
     RigidContact rigid = indenter_of(name, contact, config.path.seconds);
+    read_triangles(rigid);
     take_stops(contact.motion, config.path.seconds, key + ".motion", scene.stops, nodes);
     if (contact.control) take_stops(contact.control->force.points, config.path.seconds, key + ".control.force", scene.stops, nodes);
-    if (contact.control) take_control(scene, rigid, contact, config.path.seconds, key, where, nodes.errors);
+    if (contact.rotation) take_stops(contact.rotation->points, config.path.seconds, key + ".rotation", scene.stops, nodes);
+    if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
     if (rigid.nodes.empty() && contact.on.empty())
       nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
+    refuse_wide_hole(rigid, mesh, key + ".rigid.aperture", where, nodes.errors);
+    if (contact.adhesion) take_adhesion(rigid, contact, mesh, key, where, nodes.errors);
     const auto at_rest = [&](int node) { return mesh.X[static_cast<std::size_t>(node)]; };
     if (rigid.control && !rigid.nodes.empty() && !travel_to_touch(rigid, 0, 0, at_rest))
       nodes.errors.push_back({where(key + ".control"), key + ".control.along", "the indenter passes all of its nodes by",
@@ -252,6 +306,32 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
 }
 
 }  // namespace
+
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact, std::optional<double> seconds) {
+  RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
+  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
+  if (contact.control)
+    rigid.control = ForceControl{vec(contact.control->along).normalized(), history_of(contact.control->force, seconds)};
+  if (contact.rotation) rigid.rotation = Rotation{axis_of(rigid.shape).value(), radians(*contact.rotation, seconds)};
+  return rigid;
+}
+
+std::vector<TurnedSet> turned_sets(const SolveConfig& config, const Mesh& mesh) {
+  std::vector<TurnedSet> turned;
+  for (const LoadConfig& load : config.loads) {
+    const auto set = mesh.node_sets.find(load.on);
+    if (!load.rotation || set == mesh.node_sets.end() || set->second.empty()) continue;
+    std::vector<Vec3> places;
+    for (int node : set->second) places.push_back(mesh.X[node]);
+    const RotationConfig& turn = *load.rotation;
+    TurnedSet& out = turned.emplace_back();
+    out.name = load.on, out.nodes = set->second, out.angle = radians(turn.angle, config.path.seconds);
+    out.axis = {turn.through ? vec(*turn.through) : bounding_box(places).middle(), direction(turn.axis)};
+    for (int k = 0; k < 3; ++k)
+      if (const auto to = load.imposed(k)) out.to[static_cast<std::size_t>(k)] = history_of(*to, config.path.seconds);
+  }
+  return turned;
+}
 
 int Scene::families() const {
   std::ptrdiff_t most = 0;
@@ -267,6 +347,7 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
     nodes.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
                             "mean_dilatation", "cells: hex27 in the mesh's config"});
   hold_and_move(nodes, config, scene.stops);
+  add_turned(scene, nodes, config, mesh);
   scene.loads = surface_loads(config, mesh, where, nodes.errors);
   add_contacts(scene, nodes, config, mesh, where);
   add_materials(scene, config, mesh, material, where, nodes.errors);

@@ -24,6 +24,7 @@ struct Scene {
   Dofs dofs;
   std::vector<SurfaceLoad> loads;      // empty: no code of loads runs
   std::vector<RigidContact> contacts;  // empty: no contact code runs
+  std::vector<TurnedSet> turned;       // their nodes are prescribed in dofs
   std::vector<double> stops;           // values of t where an indenter turns, or a history has a kink
 
   int families() const;  // with c1 other than 0, in the body that has most of them: others cost nothing
@@ -31,6 +32,11 @@ struct Scene {
 
 // a family that acts, and not in all directions alike
 inline bool has_direction(const Fibre& family) { return acts(family) && family.kappa < 1.0 / 3 - 1e-12; }
+
+// shape, friction and path as the config gives them; no candidates
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact, std::optional<double> seconds);
+
+std::vector<TurnedSet> turned_sets(const SolveConfig& config, const Mesh& mesh);  // those whose set the mesh has
 
 // material: of the bodies that `materials` gives none
 Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 namespace langer {
@@ -11,9 +10,8 @@ namespace {
 
 constexpr double same = same_place;
 
-// What stays as it is when turned by one radian does so for every turn: no multiple of it is a whole one.
 bool has_symmetry_of(SectionOf of, const Indenter& shape) {
-  if (of == SectionOf::axisymmetric) return unchanged_by(shape, {Eigen::AngleAxisd(1, Vec3::UnitY()).toRotationMatrix()});
+  if (of == SectionOf::axisymmetric) return is_revolved_about({}, shape);
   return unchanged_by(shape, {Vec3(1, 1, -1).asDiagonal()});
 }
 
@@ -43,8 +41,15 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
       refuse(key, fmt::format("found {:g}", history_of(*z, config.path.seconds).value), "none, or 0",
              "nothing moves out of the plane of a section");
     }
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].rotation)
+      refuse(fmt::format("loads[{}].rotation", i), "found a set that is turned", "none",
+             "nothing moves out of the plane of a section: a block is needed");
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = "contacts." + name;
+    if (contact.rotation)
+      refuse(key + ".rotation", "found an indenter that turns", "none",
+             "nothing moves out of the plane of a section: a block is needed");
     if (!has_symmetry_of(mesh.section->of, contact.rigid))
       refuse(key + ".rigid", "found a shape or place without its symmetry",
              is_round ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"

@@ -12,10 +12,12 @@
 #include "base/fields.hpp"
 #include "base/former.hpp"
 #include "base/history.hpp"
+#include "contact/adhesion.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "material/at_rest.hpp"
 #include "scene/fibre_field.hpp"
+#include "scene/load_config.hpp"
 #include "scene/mesh_config.hpp"
 #include "solve/kinsol.hpp"
 #include "solve/load_path.hpp"
@@ -36,83 +38,6 @@ struct SupportConfig {
   std::vector<Complaint> complaints() const {
     if (!hold.empty()) return {};
     return {{"hold", "found an empty list", "one or more of x, y, z", ""}};
-  }
-};
-
-struct Displacement {
-  std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  static void fields(auto& v) {
-    constexpr const char* says = "displacement at the end of the path, in proportion to t; or [{t: 0.5, to: 2}, {t: 1, to: 2}]";
-    v(&Displacement::x, "x", unit::mm, says);
-    v(&Displacement::y, "y", unit::mm, says);
-    v(&Displacement::z, "z", unit::mm, says);
-  }
-};
-
-struct DeadForce {
-  std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  static void fields(auto& v) {
-    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
-    v(&DeadForce::x, "x", unit::N, says);
-    v(&DeadForce::y, "y", unit::N, says);
-    v(&DeadForce::z, "z", unit::N, says);
-  }
-};
-
-struct DeadTraction {
-  std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  static void fields(auto& v) {
-    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
-    v(&DeadTraction::x, "x", unit::MPa, says);
-    v(&DeadTraction::y, "y", unit::MPa, says);
-    v(&DeadTraction::z, "z", unit::MPa, says);
-  }
-};
-
-struct LoadConfig {
-  std::string on;
-  std::optional<Displacement> displacement;
-  std::optional<DeadForce> force;
-  std::optional<DeadTraction> traction;
-  std::optional<HistoryConfig> pressure;
-  static void fields(auto& v) {
-    v(&LoadConfig::on, "on", unit::none, "node set of the mesh; of a force, a traction or a pressure one that covers facets",
-      required);
-    v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement");
-    v(&LoadConfig::force, "force", unit::none, "dead force on the whole set, spread evenly over its area at rest");
-    v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");
-    v(&LoadConfig::pressure, "pressure", unit::MPa,
-      "pressure that follows the surface, positive into the body; at the end of the path, in proportion to t; or a history");
-  }
-  bool on_surface() const { return !displacement; }
-  // components along an axis; none where there is none
-  std::optional<HistoryConfig> imposed(int axis) const { return displacement ? displacement->along(axis) : std::nullopt; }
-  std::optional<HistoryConfig> dead(int axis) const {
-    return force ? force->along(axis) : traction ? traction->along(axis) : std::nullopt;
-  }
-  std::map<std::string, HistoryConfig> histories_by_key() const {
-    std::map<std::string, HistoryConfig> all;
-    for (int axis = 0; axis < 3; ++axis)
-      for (const auto& [kind, one] :
-           {std::pair("displacement.", imposed(axis)), std::pair(force ? "force." : "traction.", dead(axis))})
-        if (one) all[std::string(kind) + "xyz"[axis]] = *one;
-    if (pressure) all["pressure"] = *pressure;
-    return all;
-  }
-  std::vector<HistoryConfig> histories() const {
-    std::vector<HistoryConfig> all;
-    for (const auto& [key, history] : histories_by_key()) all.push_back(history);
-    return all;
-  }
-  std::vector<Complaint> complaints() const {
-    constexpr const char* kinds = "exactly one of displacement, force, traction, pressure";
-    const int n = displacement.has_value() + force.has_value() + traction.has_value() + pressure.has_value();
-    if (n != 1) return {{"", n == 0 ? "found no load" : "found several kinds of load", kinds, ""}};
-    if (!histories().empty()) return {};
-    return {{displacement ? "displacement" : force ? "force" : "traction", "found no component", "x, y or z", ""}};
   }
 };
 
@@ -151,6 +76,8 @@ struct ContactConfig {
   double friction = 0;
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
+  std::optional<HistoryConfig> rotation = {};
+  std::optional<Adhesion> adhesion = {};
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
@@ -160,10 +87,22 @@ struct ContactConfig {
     v(&ContactConfig::motion, "motion", unit::none,
       "where the indenter goes, straight from point to point; beside control only across its direction");
     v(&ContactConfig::control, "control", unit::none, "the indenter is pushed with a given force, and its travel is found");
+    v(&ContactConfig::rotation, "rotation", unit::deg,
+      "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
+      "history, as a displacement");
+    v(&ContactConfig::adhesion, "adhesion", unit::none, "bonds that hold what has touched the indenter, until they come loose");
   }
   std::vector<Complaint> complaints() const {
-    if (control && motion.empty()) return {};
-    std::vector<Complaint> found = place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place");
+    std::vector<Complaint> found = of_rotation();
+    if (control && adhesion)
+      found.push_back({"control", "found beside adhesion", "one of the two",
+                       "a pull of given force jumps off without an end: move the indenter"});
+    if (rotation && adhesion)
+      found.push_back(
+          {"rotation", "found beside adhesion", "one of the two", "bonds are told where an indenter is, not how it is turned"});
+    if (control && motion.empty()) return found;
+    for (Complaint& complaint : place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
+      found.push_back(std::move(complaint));
     for (std::size_t i = 0; control && i < motion.size(); ++i) {
       double dot = 0, size = 0;
       for (std::size_t k = 0; k < 3; ++k)
@@ -173,6 +112,18 @@ struct ContactConfig {
                          "how far it goes there follows from control.force"});
     }
     return found;
+  }
+
+ private:
+  std::vector<Complaint> of_rotation() const {
+    if (!rotation) return {};
+    if (!axis_of(rigid))
+      return {{"rotation", "found with a shape that has no axis of revolution",
+               "a sphere, a plane, a cylinder, an ellipsoid with two equal half axes",
+               "another shape is another one once it has turned"}};
+    if (friction == 0)
+      return {{"rotation", "found without friction", "friction above 0", "what turns without it does not reach the body"}};
+    return {};
   }
 };
 
@@ -213,13 +164,17 @@ enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
 // How the errors of a result are estimated (accuracy/error_estimate.hpp).
-enum class EstimateBy { none, recovery, refinement, automatic };
-constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto"}; }
+enum class EstimateBy { none, recovery, refinement, automatic, dual };
+constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto", "dual"}; }
 constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }
 
 // What a block or disc leaves out that stands for a larger body (accuracy/truncation.hpp).
 enum class Truncation { sides, bottom };
 constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
+
+// Whether what a fit does not know of its parameters is carried into the forces (inverse/uncertainty.hpp).
+enum class UncertaintyBy { none, linear };
+constexpr auto names(UncertaintyBy) { return std::array{"none", "linear"}; }
 
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
@@ -239,9 +194,11 @@ struct SolveConfig {
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::each_step;
   OnUnstable on_unstable = OnUnstable::warn;
-  SymmetryChoice symmetry = SymmetryChoice::none;
+  SymmetryChoice symmetry = SymmetryChoice::automatic;
   Reduce reduce = Reduce::none;
   Homogeneous homogeneous = Homogeneous::automatic;
+  std::vector<std::string> sensitivity;
+  std::optional<UncertaintyBy> uncertainty;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
@@ -254,8 +211,9 @@ struct SolveConfig {
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other "
       "increments; wants a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is "
-      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. recovery, on any mesh and at once: what the stress lacks to be smooth; of force "
-      "and stress, and in an indentation some times too large");
+      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. dual, on any mesh of an elastic body, without "
+      "friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration. recovery, on "
+      "any mesh and at once: what the stress lacks to be smooth; of force and stress, and in an indentation some times too large");
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
@@ -279,7 +237,7 @@ struct SolveConfig {
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
-      "supports, loads and contacts have. Unsymmetric instabilities are not seen then");
+      "supports, loads and contacts have. Unsymmetric instabilities are not seen then: none solves the whole body");
     v(&SolveConfig::reduce, "reduce", unit::none,
       "auto: an indented_block with free sides whose scene is the same around its axis is solved as an axisymmetric section, a disc "
       "of its area, where the discs inside and around the block tell that its sides change the force by less than accuracy or "
@@ -287,6 +245,11 @@ struct SolveConfig {
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
       "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
       "solved in place of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
+    v(&SolveConfig::sensitivity, "sensitivity", unit::none,
+      "numbers of the scene, such as matrix.yeoh.a1, fibres[0].alpha, materials.dermis.matrix.yeoh.a1 or contacts.sphere.friction: at "
+      "every increment the derivatives of displacements, reactions and forces with respect to each");
+    v(&SolveConfig::uncertainty, "uncertainty", unit::none,
+      "linear: what the fit behind --material does not know of its parameters is carried into the forces");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",
@@ -310,7 +273,7 @@ struct SolveConfig {
     const char* laid_out = "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
     if (estimate == EstimateBy::refinement && !numbers)
       found.push_back({"estimate", "refinement, and " + other_mesh, laid_out,
-                       "coarser cells are made from those numbers; estimate: recovery is for any mesh"});
+                       "coarser cells are made from those numbers; estimate: dual is for any mesh"});
     const bool indented = mesh && has_edge_in_contact_radii(mesh->geometry);
     if (!truncation.empty() && !indented)
       found.push_back({"truncation", "a mesh that is no indented_block or indented_disc", "one of the two",
@@ -325,8 +288,9 @@ struct SolveConfig {
       if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
         found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
     }
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers)
-      found.push_back({key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: recovery is for any mesh"});
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && estimate != EstimateBy::dual)
+      found.push_back(
+          {key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: dual beside it judges any mesh as it is"});
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : estimates ? "estimate" : nullptr) {
@@ -335,9 +299,11 @@ struct SolveConfig {
       if (pushed)
         found.push_back({key, "found beside an indenter under force control", "one that moves as told",
                          "errors are told of its force, which is given here"});
-      else if (contacts.empty() && !moved && (accuracy || fidelity || refines))
-        found.push_back({key, "found where forces alone load the body", "an indenter or an imposed displacement",
-                         "errors are told of the force that it needs; estimate: recovery tells that of the stress"});
+      else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) && (accuracy || fidelity || refines))
+        found.push_back(
+            {key, "found where forces alone load the body", "an indenter, an imposed displacement, or points in the mesh",
+             "errors are told of the force that it needs, or of the displacement of mesh.points; estimate: recovery tells "
+             "that of the stress"});
     }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
@@ -360,8 +326,15 @@ struct SolveConfig {
                          "a point more where the value stays to the end"});
     };
     for (const auto& [name, contact] : contacts) {
+      if (contact.adhesion && contact.adhesion->viscosity > 0 && !path.seconds)
+        found.push_back(
+            {"contacts." + name + ".adhesion.viscosity", "found on a path without seconds", "path: {seconds: ...}", ""});
+      if (contact.adhesion && std::holds_alternative<KinsolOptions>(solver))
+        found.push_back({"contacts." + name + ".adhesion", "found beside solver.kinsol", "solver: {newton: {}}",
+                         "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
       look_at(contact.motion, "contacts." + name + ".motion");
       if (contact.control) look_at(contact.control->force.points, "contacts." + name + ".control.force");
+      if (contact.rotation) look_at(contact.rotation->points, "contacts." + name + ".rotation");
     }
     for (std::size_t i = 0; i < loads.size(); ++i)
       for (const auto& [key, history] : loads[i].histories_by_key())

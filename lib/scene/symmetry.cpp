@@ -8,7 +8,10 @@
 #include <numeric>
 
 #include "element/solid.hpp"
+#include "mesh/bounding_box.hpp"
+#include "mesh/image.hpp"
 #include "mesh/section.hpp"
+#include "scene/bond_records.hpp"
 #include "scene/image.hpp"
 #include "scene/section.hpp"
 
@@ -54,13 +57,20 @@ struct Generator {
 // by name, each looked for once
 class Found {
  public:
-  Found(const Mesh& mesh, const Scene& scene, const Vec3& centre) : mesh_(mesh), scene_(scene), centre_(centre) {}
+  Found(const Mesh& mesh, const Scene& scene, const Scene* varied, const Vec3& centre)
+      : mesh_(mesh), scene_(scene), varied_(varied), centre_(centre) {}
   const Generator* operator()(const Operation& op) {
     const auto known = known_.find(op.name);
     if (known != known_.end()) return known->second ? &*known->second : nullptr;
     std::optional<Generator>& found = known_[op.name];
     auto g = find_symmetry(mesh_, op.signs, centre_);
-    SceneImage image = g ? image_of(*g, mesh_, scene_) : SceneImage{"the mesh", {}};
+    const auto image_in = [&](const Scene& scene) {
+      return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
+    };
+    SceneImage image = g ? image_in(scene_) : SceneImage{"the mesh", {}};
+    if (image.broken.empty() && varied_)
+      if (const SceneImage other = image_in(*varied_); !other.broken.empty())
+        image.broken = other.broken + ", where the numbers of `sensitivity` are others";
     if (!image.broken.empty())
       breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
     else
@@ -72,6 +82,7 @@ class Found {
  private:
   const Mesh& mesh_;
   const Scene& scene_;
+  const Scene* varied_;
   const Vec3 centre_;
   std::map<std::string, std::optional<Generator>> known_;
   std::string breaks_;
@@ -90,20 +101,14 @@ std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>&
   return group;
 }
 
-Vec3 middle_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  return 0.5 * (low + high);
-}
-
 }  // namespace
 
 std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-                                               const std::function<Place(const std::string&)>& where) {
+                                               const std::function<Place(const std::string&)>& where, const Scene* varied) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
-  const Vec3 centre = middle_of(mesh);
-  Found found(mesh, scene, centre);
+  const Vec3 centre = bounding_box(mesh.X).middle();
+  Found found(mesh, scene, varied, centre);
   for (const auto& operations : operations(wanted)) {
     std::vector<const Generator*> generators;
     for (const Operation& op : operations)
@@ -163,7 +168,7 @@ void ReducedScene::take_supports(const Scene& scene) {
   for (const Prescribed& p : scene.dofs.prescribed) {
     const Image& image = q.node_image[p.dof / 3];
     if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
-      prescribed.push_back({3 * image.of + p.dof % 3, p.value, p.factor});
+      prescribed.push_back(p), prescribed.back().dof = 3 * image.of + p.dof % 3;
   }
   scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
 }
@@ -186,7 +191,8 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
   std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
-    RigidContact part{whole.name, whole.shape, whole.mu, {}, whole.motion, whole.control};
+    RigidContact part = whole;
+    part.nodes.clear(), part.area.clear();
     std::vector<double> share;
     std::vector<std::array<int, 2>> origin;
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
@@ -194,6 +200,7 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
       if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
       index[{c, kept.node}] = {static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
       part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
+      if (whole.adhesion) part.area.push_back(kept.share * whole.area[i]);
     }
     if (part.nodes.empty() && !whole.nodes.empty()) continue;  // another indenter stands for it
     scene_.contacts.push_back(std::move(part));
@@ -286,6 +293,11 @@ void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) 
       contact.status.push_back(kept.status[image.of]);
       contact.gap.push_back(kept.gap[image.of]);
       force -= contact.r.back();
+      if (kept.beta.empty()) continue;
+      contact.beta.push_back(kept.beta[image.of]);
+      contact.bonded_at.push_back(image.T * kept.bonded_at[image.of]);
+      contact.adhesive.push_back(image.T * kept.adhesive[image.of] / candidate_share_[image.contact][image.of]);
+      force -= contact.adhesive.back();
     }
     if (contacts_.size() < 2) continue;
     for (int k = 0; k < 3; ++k) {
@@ -328,7 +340,13 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     }
     const RigidContact& contact = scene_.contacts[c];
     if (contact.control) state.travel = whole.scalars.at("travel_" + contact.name);
+    if (!whole.scalars.count("adhesion_stored")) continue;
+    std::vector<Bond>& bonds = state.bonds.emplace_back();
+    for (const auto& [of, candidate] : origin_[c])
+      if (const ContactRecord& record = whole.contacts.at(contacts_[of].name); !record.beta.empty())
+        bonds.push_back(bond_of(record, static_cast<std::size_t>(candidate)));
   }
+  state.in_bonds = bond_energies(whole);
   return state;
 }
 

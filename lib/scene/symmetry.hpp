@@ -27,9 +27,10 @@ namespace langer {
 class ReducedScene {
  public:
   // Nothing where `wanted` is none, or auto and nothing is found; a section always.
+  // varied: the scene with other numbers, which has to have the symmetry too, where derivatives with respect to them are asked for.
   // Throws Failure(config) where a named symmetry is not there, saying what breaks it.
   static std::optional<ReducedScene> find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-                                          const std::function<Place(const std::string&)>& where);
+                                          const std::function<Place(const std::string&)>& where, const Scene* varied = nullptr);
 
   const Mesh& mesh() const { return quotient_.mesh; }
   const Scene& scene() const { return scene_; }

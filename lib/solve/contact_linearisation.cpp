@@ -5,16 +5,11 @@
 
 #include "base/traps.hpp"
 #include "contact/supported_problem.hpp"
+#include "solve/condensed_contact.hpp"
 
 namespace langer {
 
 namespace {
-
-struct Near {
-  std::size_t contact, candidate;
-  LinearisedContact law;
-  Vec3 r, move;  // local: present reaction, movement without any change of reaction
-};
 
 // Far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away. Those with springs
 // are all needed, to take the springs out.
@@ -34,8 +29,10 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
         d[j] = row >= 0 ? move[row] : 0;
       }
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
-      if (!factor.with_springs() && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
+      const bool bonded = state.bonds && state.bonds->holds(k, i);
+      if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, state.r[k][i]), {}, {}};
+      if (bonded) n.law.D += n.law.frame.transpose() * state.bonds->tangent(k, i) * n.law.frame;
       n.r = n.law.frame.transpose() * state.r[k][i];
       n.move = n.law.frame.transpose() * d;
       near.push_back(n);
@@ -44,22 +41,7 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
   return near;
 }
 
-// A force change s on the body moves the near candidates by  d = move + W s  and leaves the reactions  r = present + s - E d.
-struct Condensed {
-  MatX B, W;                     // of forces on the rows of last(); compliance
-  VecX move, present, q, mu;     // q: positions without movement
-  std::vector<Mat3> T, E;        // the law feels q + T d; force that follows the movement: turning frame, and springs
-  bool follows = false;          // some E is not 0
-  VecX along;                    // under force control: of its candidates its direction, of others 0; else empty
-  std::vector<Mat3> springs;     // their part of E, where there are any
-  MatX slipping(MatX M) const {  // T times the rows of each contact
-    for (std::size_t p = 0; p < T.size(); ++p) {
-      const auto row = 3 * static_cast<Eigen::Index>(p);
-      M.middleRows<3>(row) = (T[p] * M.middleRows<3>(row)).eval();
-    }
-    return M;
-  }
-};
+}  // namespace
 
 Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near) {
   const auto m = static_cast<Eigen::Index>(near.size()), n_last = static_cast<Eigen::Index>(factor.last().size());
@@ -94,6 +76,8 @@ Condensed condensed(const ContactState& state, const TangentFactor& factor, cons
       out.along.segment<3>(3 * p) = near[p].law.frame.transpose() * state.contacts[near[p].contact].control->along;
   return out;
 }
+
+namespace {
 
 struct Answer {
   VecX s, r;  // local

@@ -45,7 +45,7 @@ double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts,
 }  // namespace
 
 Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses) {
+                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses, bool in_tangent) {
   Forecast out;
   out.size = linear.size();
   const VecX rest = VecX::Zero(body.dofs().n);
@@ -61,8 +61,18 @@ Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vect
   out.factor = out.size.flops / (efficiency * rate);
   // forward and back through the factor, as fast as memory gives it: 8 bytes each at 10 GB/s
   out.solving = 2 * 8 * out.size.factor_nonzeros / 10e9;
-  // a full matrix over the contacts, of which two thirds of those covered come to be, over the path 0.43 of its entries: measured
-  out.contact = 4e4 * std::pow(most_covered(body.mesh(), contacts, stops), 2) / rate;
+  const double covered = most_covered(body.mesh(), contacts, stops);
+  if (in_tangent) {  // the tangent turned into the candidates' axes, and once more with what they do
+    out.contact = 30 * out.size.nonzeros / 1e9 + 2 * out.solving;
+    out.bytes += 2 * 8 * out.size.nonzeros;
+  } else {
+    // Full matrices over the contacts. While they grow one after the other two thirds of those covered come to be, over the path 0.43 of
+    // the entries; 290 operations for each n^3 where all of them close at once: measured.
+    out.contact = std::max(4e4 * std::pow(covered, 2), 290 * std::pow(covered, 3)) / rate;
+    double candidates = 0;
+    for (const RigidContact& contact : contacts) candidates += static_cast<double>(contact.nodes.size());
+    out.bytes += 8 * 9 * (6 * covered * covered + 2 * covered * candidates);
+  }
   const bool friction = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& c) { return c.mu > 0; });
   // 2.3 iterations in steps of 0.01 of the path, 3.7 in steps of 0.1; with tangents used again 1.3 and 2.4, and 6 to 8 corrections
   // with them, and with friction 3.8 in steps of 0.25: measured on the indentation

@@ -26,9 +26,9 @@ struct Forecast {
 double forecast_bytes(const LinearSolver& linear);
 
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
-// reuses: corrections with a tangent that is there already
+// reuses: corrections with a tangent that is there already; in_tangent: contact stands in it (Statics::contact_in_tangent)
 Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses);
+                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses, bool in_tangent = false);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

@@ -20,6 +20,7 @@ struct LoadPathOptions {
 
   double first_increment() const { return steps ? 1.0 / *steps : first; }
   double largest_increment() const { return steps ? 1.0 / *steps : largest; }
+  double shortest_with_a_jump() const { return largest_increment() / 32; }              // of what adheres (solve/release.hpp)
   void use_increment(double increment) { steps.reset(), first = largest = increment; }  // for all of the path
 
   static void fields(auto& v) {

@@ -62,7 +62,7 @@ class OldTangent {
 }  // namespace
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
-  constexpr double strict = 1e-3;
+  const double strict = options.relative > NewtonOptions{}.relative ? 1 : 1e-3;
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);

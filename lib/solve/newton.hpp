@@ -7,7 +7,8 @@
 // There is no test that the residual decreases: near incompressibility the first residuals of a step are huge by nature.
 // After a correction others with the same tangent follow (modified Newton) for as long as they are cheaper: each takes off about the
 // same part of the residual, and a new tangent costs `price` of them. What they leave is as large as the residual says, where
-// Newton's own correction would have left its square: they have to reach a thousandth of the tolerance.
+// Newton's own correction would have left its square: they have to reach a thousandth of the usual tolerance; who asks for less than
+// that gets what he asks for.
 #pragma once
 
 #include <functional>

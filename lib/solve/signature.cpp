@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.hpp"
 #include "solve/statics.hpp"
 
 namespace langer {
@@ -19,13 +20,15 @@ struct NodeContact {
 std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector<Vec3>& X, std::size_t n_nodes) {
   std::vector<NodeContact> out(n_nodes);
   const BodyState& state = statics.accepted();
+  const Bonds& bonds = statics.bonds();
   const auto defects = statics.defects();
   for (std::size_t k = 0; k < defects.size(); ++k) {
     const RigidContact& contact = statics.contacts()[k];
     const Vec3 c = indenter_displacement(contact, state.t, state.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-      if (defects[k].status[i] == ContactStatus::open) continue;
       const int node = contact.nodes[i];
+      if (bonds.holds(k, i)) out[node].turning += bonds.tangent(k, i);
+      if (defects[k].status[i] == ContactStatus::open) continue;
       const ShapePoint shape = shape_at(contact.shape, X[node] + state.u.segment<3>(3 * node) - c);
       const Mat3 frame = contact_frame(shape.normal);
       out[node].held.push_back(frame.col(0));
@@ -64,16 +67,43 @@ Signature signs(const MatX& M, bool zero_energy_too) {
 
 }  // namespace
 
-Signature Statics::signature() {
-  const Dofs& dofs = equilibrium_.dofs();
+void Statics::need_factor_of_accepted(double within) {
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
-  using Kind = TangentFactor::Kind;
-  if (factor_.kind() == Kind::none || (now_.u - factored_at_).lpNorm<Eigen::Infinity>() > 0.02 * moved) {
-    const TangentFactor::Counts needed = factor_.counts();
-    need_tangent();
-    factorize();
-    factor_.uncount(needed);  // they count what the solution needed
+  if (factor_.kind() != TangentFactor::Kind::none && (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= within * moved) return;
+  const TangentFactor::Counts needed = factor_.counts();
+  need_tangent();
+  factorize();
+  factor_.uncount(needed);  // they count what the solution needed
+}
+
+// Where contact stands in the tangent: it is positive definite, or its pivots tell.
+Signature Statics::signature_with_contact() {
+  const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
+  std::vector<std::vector<ContactStatus>> status;
+  for (ContactDefect& defect : defects()) status.push_back(std::move(defect.status));
+  ContactInTangent& contact = *factor_.in_tangent();
+  const bool recent = factor_.kind() != TangentFactor::Kind::none && factored_at_.size() == now_.u.size() &&
+                      (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
+  if (recent && factor_.kind() == TangentFactor::Kind::whole && contact.factored(status)) return {};
+  need_tangent();
+  const std::vector<Vec3> c = indenters(now_.t, now_.travel), c_start = indenters(before_.t, before_.travel);
+  const std::vector<double> values =
+      contact.constrained({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_.K(), status);
+  const TangentFactor::Counts needed = factor_.counts();
+  {
+    const Stopwatch watch(cost_.factor);
+    factored_at_ = u_, factor_serves_ = false;
+    factor_.factorize_with_contact(values);
   }
+  factor_.uncount(needed);
+  return factor_.kind() == TangentFactor::Kind::whole ? Signature{} : Signature{factor_.linear().negative_pivots(values), 0};
+}
+
+Signature Statics::signature() {
+  if (contact_in_tangent()) return signature_with_contact();
+  const Dofs& dofs = equilibrium_.dofs();
+  using Kind = TangentFactor::Kind;
+  need_factor_of_accepted(0.02);
   if (factor_.kind() == Kind::whole && contacts_.empty()) return {};
   const auto contacts = contacts_.empty() ? std::vector<NodeContact>(equilibrium_.mesh().n_nodes())
                                           : node_contacts(*this, equilibrium_.mesh().X, equilibrium_.mesh().n_nodes());

@@ -7,14 +7,16 @@
 #include "base/stopwatch.hpp"
 #include "contact/touch.hpp"
 #include "mesh/reference.hpp"
+#include "solve/krylov.hpp"
 
 namespace langer {
 
 namespace {
 
-TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, double& seconds) {
+TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, const StaticsOptions& options,
+                           double& seconds) {
   const Stopwatch watch(seconds);
-  return {body, contacts, threads};
+  return {body, contacts, options.threads, options.contact_by};
 }
 
 }  // namespace
@@ -23,11 +25,13 @@ Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, c
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),
       options_(options),
-      factor_(timed_factor(equilibrium_, contacts_, options_.threads, cost_.analysis)) {
+      factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)),
+      bonds_(contacts_) {
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
+  now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
   before_ = now_;
   u_ = now_.u, r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
@@ -46,36 +50,34 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
+  if (!bonds_.none()) begin_bonds();
 }
 
 void Statics::begin(double t) {
-  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false;
+  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false, begun_ = {};
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
+  if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
   equilibrium_.load_to(t);
   equilibrium_.pressures_from(now_.u);
   const bool pushed = controlled_ >= 0 && controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
   // then the last movement does not go on
   const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
-  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on(last)) extrapolate(std::min((t - now_.t) / last, 2.0));
+  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
+  begun_.travel = travel_;
 }
 
 // Behind a kink of what moves nodes the last movement says nothing.
-bool Statics::goes_on(double last) const {
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) {
-    if (!p.factor) continue;
-    const double rate = (p.at(t_) - p.at(now_.t)) / (t_ - now_.t), before = (p.at(now_.t) - p.at(before_.t)) / last;
-    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
-  }
-  if (controlled_ >= 0) {
-    const History& force = controlled()->control->force;
-    const double rate = (force.at(t_) - force.at(now_.t)) / (t_ - now_.t), before = (force.at(now_.t) - force.at(before_.t)) / last;
-    if (std::abs(rate - before) > 1e-6 * std::max(std::abs(rate), std::abs(before))) return false;
-  }
+bool Statics::goes_on() const {
+  for (const Prescribed& p : equilibrium_.dofs().prescribed)
+    if (!p.in_proportion() && !p.goes_on(before_.t, now_.t, t_)) return false;
+  if (controlled_ >= 0 && !controlled()->control->force.goes_on(before_.t, now_.t, t_)) return false;
+  for (const RigidContact& contact : contacts_)
+    if (contact.rotation && !contact.rotation->angle.goes_on(before_.t, now_.t, t_)) return false;
   return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
 }
 
@@ -83,7 +85,7 @@ void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
-  u_ += step;
+  u_ += step, begun_.extrapolated = s;
   travel_ += s * (now_.travel - before_.travel);
 }
 
@@ -98,24 +100,19 @@ void Statics::bring_to_touch() {
   const auto k = static_cast<std::size_t>(controlled_);
   if (std::any_of(r_[k].begin(), r_[k].end(), [](const Vec3& r) { return !r.isZero(0); })) return;
   const auto position = [&](int node) { return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node)); };
-  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch;
+  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch, begun_.at_touch = true;
 }
 
-// A node that is open where the increment begins slips only from where it touches: at the share of the extrapolated movement that
-// its gap takes to close. Without this its reaction is that of a slip it never made, an error of first order in the increment.
 void Statics::slip_from_touch() {
-  const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
     if (contact.mu == 0) continue;
     const Vec3 c = indenter_displacement(contact, t_, travel_), c0 = indenter_displacement(contact, now_.t, now_.travel);
-    for (int node : contact.nodes) {
-      const auto u0 = now_.u.segment<3>(3 * node), u = u_.segment<3>(3 * node);
-      const double gap = shape_at(contact.shape, X[node] + u0 - c0).gap;
-      if (!(gap > options_.gap_tolerance)) continue;
-      const double closed = gap - shape_at(contact.shape, X[node] + u - c).gap;
-      u_start_[k].segment<3>(3 * node) = u0 + (closed > gap ? gap / closed : 1) * (u - u0 - (c - c0));
-    }
+    const double angle = contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0;
+    for (int node : contact.nodes)
+      u_start_[k].segment<3>(3 * node) =
+          slips_from(contact, {equilibrium_.mesh().X[node], now_.u.segment<3>(3 * node), u_.segment<3>(3 * node), c0, c, angle},
+                     options_.gap_tolerance);
   }
 }
 
@@ -132,15 +129,31 @@ void Statics::accept() {
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_, travel_};
+  if (!bonds_.none()) accept_bonds();
 }
 
 double Statics::motion(double t0) const {
   double largest = 0;
   const double travel = t0 == now_.t ? now_.travel : before_.travel;
   for (const RigidContact& contact : contacts_)
-    largest = std::max(largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm());
+    largest = std::max({largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm(),
+                        turning(contact, t0, indenter_displacement(contact, t0, travel))});
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    largest = std::max(largest, std::abs(p.factor ? p.at(t_) - p.at(t0) : p.value * (t_ - t0)));
+    largest = std::max(largest, std::abs(p.in_proportion() ? p.value * (t_ - t0) : p.at(t_) - p.at(t0)));
+  return largest;
+}
+
+double Statics::turning(const RigidContact& contact, double t0, const Vec3& c0) const {
+  if (!contact.rotation) return 0;
+  const double angle = contact.rotation->angle.at(t_) - contact.rotation->angle.at(t0);
+  const std::vector<Vec3>& r = r_[static_cast<std::size_t>(&contact - contacts_.data())];
+  double largest = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const int node = contact.nodes[i];
+    if (r[i].isZero(0)) continue;
+    const Vec3 x = equilibrium_.mesh().X[node] + u_.segment<3>(3 * node);
+    largest = std::max(largest, carried(contact, angle, x, c0).norm());
+  }
   return largest;
 }
 
@@ -161,6 +174,7 @@ VecX Statics::free_residual() const {
   VecX f = -equilibrium_.f_int();
   if (F_ext_.size() > 0) f += t_ * F_ext_;
   if (!equilibrium_.loads().empty()) f += equilibrium_.f_ext();
+  if (!bonds_.none()) bonds_.add_forces(f);
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   return on_free_rows(f);
@@ -173,6 +187,7 @@ double Statics::force_scale() const {
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
   if (F_ext_.size() > 0) sum += (t_ * F_ext_).squaredNorm();
   if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
+  if (!bonds_.none()) sum += bonds_.squared_norm();
   return std::sqrt(sum);
 }
 
@@ -210,6 +225,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
                       : "an element is turned inside out";
     return out;
   }
+  if (!bonds_.none()) bonds_.evaluate(equilibrium_.mesh().X, u, indenters(t_, travel_));
   out.residual = free_residual().norm();
   out.reference = force_scale();
   out.floor = 3 * equilibrium_.rounding_floor();
@@ -270,27 +286,75 @@ double Statics::price() const {
 std::optional<VecX> Statics::correction() {
   need_tangent();
   again_ = false;
-  if (!factorize()) return std::nullopt;
+  const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
+  std::optional<VecX> du;
+  if (contact_in_tangent())
+    du = corrected_with_contact(rhs);
+  else if (!factorize())
+    return std::nullopt;
   // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
   factor_serves_ = factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
-  return corrected(free_residual() - on_free_rows(equilibrium_.K_du()));
+  return contact_in_tangent() ? du : corrected(rhs);
 }
 
 // K at another state of this increment stands for the one here, in the mixed equations of u and p.
 std::optional<VecX> Statics::correction_again() {
   if (!factor_serves_ || !remaining_prescribed(u_).isZero(0)) return std::nullopt;
   again_ = true;
-  return corrected(free_residual() + on_free_rows(equilibrium_.turned_dilatations()));
+  const VecX rhs = free_residual() + on_free_rows(equilibrium_.turned_dilatations());
+  return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
+}
+
+VecX Statics::with_prescribed(const VecX& free) const {
+  VecX du = remaining_prescribed(u_);
+  for (Eigen::Index row = 0; row < free.size(); ++row) du[equilibrium_.dofs().free[row]] = free[row];
+  return du;
+}
+
+// Contact in the tangent itself; again_: by the last one.
+std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
+  const double factor_before = cost_.factor;
+  std::optional<ContactInTangent::Answer> answer;
+  {
+    const Stopwatch watch(cost_.contact);
+    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+    const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
+    const auto factorize = [this](const std::vector<double>& values) {
+      const Stopwatch factoring(cost_.factor);
+      factored_at_ = u_;
+      return factor_.factorize_with_contact(values);
+    };
+    ContactInTangent& contact = *factor_.in_tangent();
+    answer = again_ ? contact.solve_again(state, rhs, factor_.linear())
+                    : contact.solve(state, equilibrium_.K(), rhs, factor_.linear(), factorize);
+  }
+  cost_.contact -= cost_.factor - factor_before;
+  if (!answer) return std::nullopt;
+  r_next_ = std::move(answer->r), cost_.sweeps += answer->solutions;
+  return with_prescribed(answer->move);
+}
+
+// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to the whole for a few iterations.
+VecX Statics::with_free_rims(const VecX& rhs) {
+  constexpr double accurate = 1e-6;  // of the correction
+  LinearSolver& linear = factor_.linear();
+  if (!equilibrium_.loads().follow()) return linear.solve(rhs);
+  const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
+  const auto product = [&](const VecX& x) {
+    VecX du = VecX::Zero(u_.size());
+    for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
+    return VecX(x - linear.solve(on_free_rows(equilibrium_.skew_pressures(u_, du))));
+  };
+  return solve_near_identity(product, linear.solve(known), accurate, 40);
 }
 
 std::optional<VecX> Statics::corrected(const VecX& rhs) {
-  const Dofs& dofs = equilibrium_.dofs();
   LinearSolver& linear = factor_.linear();
   VecX move;
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = linear.solve(rhs);
+    move = with_free_rims(rhs);
   } else {
     LinearSolver::Half half;
     {
@@ -302,8 +366,8 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       const Stopwatch watch(cost_.contact);
       const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
       const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force}, factor_,
-                                  half.last);
+      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, &bonds_},
+                                  factor_, half.last);
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
@@ -316,9 +380,7 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       move = linear.solve(all);
     }
   }
-  VecX du = remaining_prescribed(u_);
-  for (int row = 0; row < dofs.n_free(); ++row) du[dofs.free[row]] = move[row];
-  return du;
+  return with_prescribed(move);
 }
 
 void Statics::moved(const VecX& du, double step) {
@@ -398,6 +460,7 @@ VecX Statics::reactions() const {
     for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] -= equilibrium_.f_ext()[p.dof];
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < r_[k].size(); ++i) out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+  if (!bonds_.none()) bonds_.add_forces(out);
   return out;
 }
 

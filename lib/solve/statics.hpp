@@ -13,6 +13,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "solve/bonds.hpp"
 #include "solve/contact_linearisation.hpp"
 #include "solve/free_balance.hpp"
 #include "solve/newton.hpp"
@@ -25,7 +26,9 @@ struct BodyState {
   double t = 0;
   VecX u;  // (3 n) [mm]
   Reactions r;
-  double travel = 0;  // of the indenter under force control [mm]
+  double travel = 0;      // of the indenter under force control [mm]
+  BondStates bonds = {};  // empty where nothing adheres
+  BondEnergy in_bonds = {};
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
@@ -37,12 +40,25 @@ struct Signature {
   int negative = 0, zero_energy = 0;
 };
 
+// A small change of what holds and drives a state, and what follows from it while every contact keeps its status: closed ones stay
+// closed, sticking ones stick, slipping ones glide with friction in proportion to their pressure.
+struct Disturbance {
+  VecX force = {};                   // (3 n) [N]; empty: none
+  VecX prescribed = {};              // (3 n) movement of prescribed dofs [mm], 0 elsewhere; empty: none
+  std::vector<Vec3> indenters = {};  // movement of each [mm]; empty: none
+};
+struct Movement {
+  VecX u;  // (3 n) [mm]
+  Reactions r;
+};
+
 struct StaticsOptions {
   int threads = 1;               // of the BLAS
   double gap_tolerance = 1e-10;  // [mm]
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one
   double seconds = 0;            // of the path, for viscous bodies
+  ContactBy contact_by = ContactBy::by_count;
 };
 
 class Statics {
@@ -55,6 +71,18 @@ class Statics {
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
+  // Where indenters adhere: bonds on trial, and what moves the trial within an increment (solve/release.hpp).
+  Bonds& bonds() { return bonds_; }
+  const Bonds& bonds() const { return bonds_; }
+  struct Trial {
+    VecX u;
+    Reactions r;
+  };
+  Trial kept_trial() const { return {u_, r_}; }
+  void back_to(const Trial& trial);
+  double stored() const;                         // in body and bonds, of the trial
+  double work_of_loads(const VecX& from) const;  // on the way to the trial, as they are now
+  void jumped(double work, double released) { jump_.work_of_jumps = work, jump_.released = released; }
   double time_error();                 // of the trial, once it is in equilibrium; before accept() of a viscous body
   void accept();                       // the trial becomes the accepted state
   void replay(const BodyState& next);  // accepts a state that was found before; a viscous body follows
@@ -67,6 +95,8 @@ class Statics {
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
+  // Nothing where a node lies between two indenters or one adheres, the tangent is singular or has contact in it. Wants an indenter that moves as told.
+  std::optional<Movement> movement(const Disturbance& by);
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
   int n_indefinite() const { return factor_.counts().indefinite; }
@@ -77,10 +107,12 @@ class Statics {
   };
   Cost cost() const;
   const LinearSolver& linear() const { return factor_.linear(); }
+  bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
 
  private:
-  bool goes_on(double last) const;  // imposed displacements, as in the last increment
-  void extrapolate(double s);       // by s times the last increment
+  friend class StateTangent;   // solve/state_tangent.hpp
+  bool goes_on() const;        // imposed displacements, as in the last increment
+  void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
@@ -88,15 +120,23 @@ class Statics {
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
   std::optional<VecX> corrected(const VecX& rhs);
+  VecX with_free_rims(const VecX& rhs);
+  std::optional<VecX> corrected_with_contact(const VecX& rhs);
+  VecX with_prescribed(const VecX& free) const;
+  Signature signature_with_contact();
   void need_tangent();
   bool factorize();
-  double price() const;  // of a correction with a new tangent in units of one with the last
+  void need_factor_of_accepted(double within);  // a share of the step's movement
+  double price() const;                         // of a correction with a new tangent in units of one with the last
   bool admissible(const VecX& u) const;
   bool slips_away() const;
   void moved(const VecX& du, double step);
   double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
-  std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
-  void bring_to_touch();                                       // the indenter under force control, where it bears nothing
+  double turning(const RigidContact& contact, double t0, const Vec3& c0) const;  // the same of what turns with it
+  std::vector<Vec3> indenters(double t, double travel) const;                    // displacement of each
+  void begin_bonds();
+  void accept_bonds();
+  void bring_to_touch();  // the indenter under force control, where it bears nothing
   bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
   VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
@@ -107,10 +147,17 @@ class Statics {
   StaticsOptions options_;
   Cost cost_;
   TangentFactor factor_;
-  VecX F_ext_;              // empty without dead loads
+  VecX F_ext_;  // empty without dead loads
+  Bonds bonds_;
+  BondEnergy jump_;         // of the increment
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;
+  struct {
+    double extrapolated = 0;  // of the movement of the last increment, with which this one was begun
+    double travel = 0;        // [mm]
+    bool at_touch = false;    // where the indenter under force control was brought
+  } begun_;
   int controlled_ = -1;                  // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found

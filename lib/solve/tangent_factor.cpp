@@ -8,8 +8,32 @@
 
 namespace langer {
 
-TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads) {
+namespace {
+
+constexpr std::size_t many_candidates = 400;
+
+// of the order of what the body opposes to a movement of one node
+double node_stiffness(const Equilibrium& body) {
+  double mu = 0;
+  const int n_cells = body.mesh().n_cells();
+  for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
+  return mu * std::cbrt(quality(body.mesh()).volume / n_cells);
+}
+
+}  // namespace
+
+TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
+                             ContactBy contact_by) {
   const Dofs& dofs = body.dofs();
+  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
+  std::size_t candidates = 0;
+  for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
+  const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_count && candidates >= many_candidates);
+  if (wide && candidates > 0 && !loose && ContactInTangent::serves(contacts)) {
+    in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
+    linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads);
+    return;
+  }
   if (!contacts.empty()) last_of_.assign(dofs.n, -1);
   for (const RigidContact& contact : contacts)
     for (int node : contact.nodes)
@@ -19,12 +43,8 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
           last_.push_back(dofs.equation[dof]);
         }
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
-  if (last_.empty() || zero_energy_modes(body.mesh(), dofs).empty()) return;
-  // of the order of what the body opposes to a movement of one node: the weak resistance of contact to a free motion stays visible
-  double mu = 0;
-  const int n_cells = body.mesh().n_cells();
-  for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
-  loose_ = mu * std::cbrt(quality(body.mesh()).volume / n_cells);
+  if (last_.empty() || !loose) return;
+  loose_ = node_stiffness(body);  // the weak resistance of contact to a free motion stays visible beside it
 }
 
 bool TangentFactor::factorize(const Equilibrium& body) {
@@ -57,6 +77,14 @@ bool TangentFactor::factorize_supported(const Equilibrium& body) {
   // says nothing, and the same point comes within reach by shorter ones.
   kind_ = Kind::indefinite, ++counts_.unstable;
   return supported_ = linear_->factorize_with_springs(K_with_springs());
+}
+
+bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole;
+  if (linear_->factorize(values)) return true;
+  ++counts_.indefinite, ++counts_.unstable, kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(values);
 }
 
 bool TangentFactor::factorize_fixed_reactions(const Equilibrium& body) {

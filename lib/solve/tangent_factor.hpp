@@ -3,36 +3,47 @@
 //   supported   K with springs gamma on the diagonal of the candidates, by Cholesky: a body that is not held, or not stable,
 //               without its contacts; linearised_contact() takes the springs out again exactly
 //   indefinite  with stabilisation springs in the body, which LinearSolver takes out; without contact K as it is, by UMFPACK
+// Contact is either condensed to its candidates, which are eliminated last (solve/contact_linearisation.hpp), or where they are many
+// stands in the tangent itself (solve/contact_in_tangent.hpp).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "solve/contact_in_tangent.hpp"
 #include "solve/linear.hpp"
 
 namespace langer {
+
+// by_count: in the tangent where candidates are many (many_candidates in tangent_factor.cpp) and it serves
+enum class ContactBy { by_count, compliance, tangent };
 
 class TangentFactor {
  public:
   enum class Kind { none, whole, supported, indefinite };
 
   // threads: of the BLAS; refers to the pattern of the body
-  TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads);
+  TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
+                ContactBy contact_by = ContactBy::by_count);
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment() { supported_ = false; }
   // The body's K; false where it is singular.
   bool factorize(const Equilibrium& body);
-  // The same where reactions of contacts are fixed: K as it is, by UMFPACK where it is not positive definite.
+  // What contact makes of the tangent, where it stands in it: by Cholesky, or by UMFPACK.
+  bool factorize_with_contact(const std::vector<double>& values);
+  // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not positive definite.
   bool factorize_fixed_reactions(const Equilibrium& body);
 
   Kind kind() const { return kind_; }
-  bool with_springs() const { return supported_; }        // on the candidates
-  double gamma() const { return gamma_; }                 // [N/mm]
-  bool held_by_contact() const { return loose_ > 0; }     // the supports leave rigid motions
-  const std::vector<int>& last() const { return last_; }  // free rows of the candidates, eliminated last
-  int last_of(int dof) const { return last_of_[dof]; }    // index in last(), or -1
+  ContactInTangent* in_tangent() const { return in_tangent_.get(); }  // none: contact is condensed
+  bool with_springs() const { return supported_; }                    // on the candidates
+  double gamma() const { return gamma_; }                             // [N/mm]
+  bool held_by_contact() const { return loose_ > 0; }                 // the supports leave rigid motions
+  const std::vector<int>& last() const { return last_; }              // free rows of the candidates, eliminated last
+  int last_of(int dof) const { return last_of_[dof]; }                // index in last(), or -1
 
   const LinearSolver& linear() const { return *linear_; }
   LinearSolver& linear() { return *linear_; }
@@ -49,6 +60,7 @@ class TangentFactor {
   bool factorize_supported(const Equilibrium& body);
 
   std::vector<int> last_, last_of_;
+  std::unique_ptr<ContactInTangent> in_tangent_;
   std::unique_ptr<LinearSolver> linear_;
   Kind kind_ = Kind::none;
   bool supported_ = false;

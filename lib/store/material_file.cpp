@@ -64,6 +64,9 @@ void write_parameters(const h5::Group& group, const std::vector<FittedParameter>
     one.write_scalar("lower", p.lower, p.unit);
     one.write_scalar("upper", p.upper, p.unit);
     one.write_scalar("standard_error", p.standard_error, p.unit);
+    one.write_scalar("interval_factor", p.factor);
+    if (std::isfinite(p.truth)) one.write_scalar("truth", p.truth, p.unit);
+    if (!p.key.empty()) one.attribute("key", p.key);
     order += (order.empty() ? "" : " ") + p.name;
   }
   parameters.attribute("order", order);
@@ -92,9 +95,69 @@ void write_tests(const h5::Group& root, const std::vector<FittedTest>& fitted) {
   tests.attribute("order", names);
 }
 
+std::vector<double> flat(const std::vector<Vec3>& places) {
+  std::vector<double> all;
+  for (const Vec3& x : places) all.insert(all.end(), x.data(), x.data() + 3);
+  return all;
+}
+
+void write_curves_of_scenes(const h5::Group& root, const std::vector<FittedCurve>& fitted) {
+  if (fitted.empty()) return;
+  const h5::Group scenes = root.make_group("scenes");
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const FittedCurve& curve = fitted[i];
+    const h5::Group one = scenes.make_group(std::to_string(i + 1));
+    one.attribute("name", curve.name);
+    one.attribute("quantity", curve.quantity);
+    one.attribute("over", curve.x_name);
+    one.write_scalar("standard_deviation", curve.standard_deviation, curve.unit);
+    write_vector(one, "x", curve.x, curve.x_unit);
+    write_vector(one, "measured", curve.measured, curve.unit);
+    write_vector(one, "model", curve.model, curve.unit);
+    if (!curve.places.empty()) one.write<double>("place", {curve.places.size(), 3}, flat(curve.places), "mm");
+    one.write_scalar("r2", curve.r2);
+    one.write_scalar("mean_error", curve.mean_error_percent, "percent");
+    one.write_scalar("max_error", curve.max_error_percent, "percent");
+    one.write_scalar("discretisation_error", curve.discretisation_percent, "percent");
+  }
+}
+
+std::vector<FittedCurve> read_curves_of_scenes(const h5::Group& root) {
+  std::vector<FittedCurve> fitted;
+  if (!root.has("scenes")) return fitted;
+  const h5::Group scenes = root.group("scenes");
+  for (int i = 1; scenes.has(std::to_string(i)); ++i) {
+    const h5::Group one = scenes.group(std::to_string(i));
+    FittedCurve curve{one.text_attribute("name"),
+                      one.text_attribute("quantity"),
+                      one.unit("measured"),
+                      one.text_attribute("over"),
+                      one.unit("x"),
+                      0,
+                      {},
+                      {},
+                      {},
+                      {}};
+    curve.standard_deviation = one.read_scalar("standard_deviation");
+    curve.x = one.read_finite("x", {h5::any});
+    curve.measured = one.read_finite("measured", {curve.x.size()});
+    curve.model = one.read_finite("model", {curve.x.size()});
+    if (one.has("place")) {
+      const std::vector<double> all = one.read_finite("place", {curve.x.size(), 3});
+      for (std::size_t k = 0; k < all.size(); k += 3) curve.places.push_back({all[k], all[k + 1], all[k + 2]});
+    }
+    curve.r2 = one.read_scalar("r2"), curve.discretisation_percent = one.read_scalar("discretisation_error");
+    curve.mean_error_percent = one.read_scalar("mean_error"), curve.max_error_percent = one.read_scalar("max_error");
+    fitted.push_back(std::move(curve));
+  }
+  return fitted;
+}
+
 std::vector<Summary> summary_of(const FitRecord& fit) {
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
+  if (!fit.curves.empty())
+    for (const FittedParameter& p : fit.parameters) summary.push_back({p.name + "_standard_error", p.standard_error, p.unit});
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
   summary.push_back({"max_error", fit.max_error_percent, "percent"});
   summary.push_back({"r2", fit.r2, "-"});
@@ -134,6 +197,7 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   write_vector(curve, "stress", fit.stress, "MPa");
   write_vector(curve, "model", fit.model, "MPa");
   write_tests(root, fit.tests);
+  write_curves_of_scenes(root, fit.curves);
   write_summary(root, summary_of(fit));
   write_study(root, fit.study);
 }
@@ -164,6 +228,9 @@ FitRecord read_fit(const h5::Group& root) {
     for (const char* other : {"lower", "upper", "standard_error"}) need_unit(one, other, one.unit("value"));
     fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"), one.read_scalar("upper"),
                               one.read_scalar("standard_error")});
+    if (one.has("truth")) fit.parameters.back().truth = one.read_scalar("truth");
+    if (one.has("interval_factor")) fit.parameters.back().factor = one.read_scalar("interval_factor");
+    if (one.has_attribute("key")) fit.parameters.back().key = one.text_attribute("key");
   }
   const std::size_t p = fit.parameters.size();
   fit.covariance = read_matrix(group, "covariance", {p, p});
@@ -177,6 +244,7 @@ FitRecord read_fit(const h5::Group& root) {
   fit.strain = curve.read_finite("strain", {h5::any});
   fit.stress = curve.read_finite("stress", {fit.strain.size()});
   fit.model = curve.read_finite("model", {fit.strain.size()});
+  fit.curves = read_curves_of_scenes(root);
   fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"), fit.bic = group.read_scalar("bic");
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));

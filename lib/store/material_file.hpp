@@ -1,6 +1,7 @@
 // material.h5: a material, and where it comes from a fit the record of that fit.                  docs/schema.md
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,11 @@ struct FittedParameter {
   std::string name;  // a1, c1, ...; unique
   std::string unit;
   double value = 0;
-  double lower = 0, upper = 0;  // bounds; may be infinite
-  double standard_error = 0;    // NaN where the curve does not determine it
+  double lower = 0, upper = 0;                              // bounds; may be infinite
+  double standard_error = 0;                                // NaN where the curve does not determine it
+  double truth = std::numeric_limits<double>::quiet_NaN();  // of synthetic data; NaN where nobody knows
+  double factor = 1.959963984540054;                        // standard errors to each end of a 95 % interval
+  std::string key = "";                                     // its path in the config
 };
 
 // One of the tests of a fit. n points; x and z are the axes of the specimen.
@@ -29,6 +33,16 @@ struct FittedTest {
   std::vector<double> first, second;  // stretch (simple shear: its amount) along x; stretch along z, biaxial tests only
   std::vector<double> stress_x, stress_z, model_x, model_z;  // [MPa]; z may be empty
   double r2 = 0, mean_error_percent = 0, max_error_percent = 0;
+};
+
+// A curve or a field that was measured in a scene, of n values; x is what the file gives them over, such as the travel of an indenter.
+struct FittedCurve {
+  std::string name, quantity, unit, x_name, x_unit;  // quantity: force, u_x, ...
+  double standard_deviation = 0;
+  std::vector<double> x, measured, model;
+  std::vector<Vec3> places;  // of a field [mm]; else empty
+  double r2 = 0, mean_error_percent = 0, max_error_percent = 0;
+  double discretisation_percent = std::numeric_limits<double>::quiet_NaN();  // estimated, of the largest value; NaN: not estimated
 };
 
 // How the parameters were found. p parameters, n points of the curve, k starts.
@@ -42,6 +56,7 @@ struct FitRecord {
   double strain_min = 0, strain_max = 0;                 // range of the curve that was fitted
   std::vector<double> strain, stress, model;             // (n) of the first test [-], [MPa], [MPa]
   std::vector<FittedTest> tests;                         // all of them
+  std::vector<FittedCurve> curves;                       // of scenes
   double r2 = 0, aicc = 0, bic = 0;                      // see fit/fit.hpp; NaN where there are too few points
   std::optional<StiffnessAtRest> at_rest;                // where its bound was raised
   // correlation of the residuals from value to value, and how many independent values they count as; 0 in files without it

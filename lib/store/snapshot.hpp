@@ -17,7 +17,8 @@ struct Field {
 };
 
 // the mesh's own positions are written: shift them by the displacement beforehand for a deformed picture
+// time: of the state, in FieldData/TimeValue; the first scalar, vector and symmetric tensor are marked as VTK's active ones
 void write_snapshot(const std::string& path, const Mesh& mesh, const std::vector<Field>& point_fields,
-                    const std::vector<Field>& cell_fields, const Identity& identity);
+                    const std::vector<Field>& cell_fields, const Identity& identity, double time = 0);
 
 }  // namespace langer

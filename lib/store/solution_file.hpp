@@ -23,6 +23,10 @@ struct ContactRecord {
   std::vector<Vec3> r;      // reaction on the body, global frame [N], one per candidate node
   std::vector<int> status;  // 0 open, 1 stick, 2 slip
   std::vector<double> gap;  // [mm]
+  // where the indenter adheres, else empty: intensity, -1 where nothing has bonded yet; displacement of the node less that of the
+  // indenter where it bonded [mm]; force of the bond on the body, beside r [N]
+  std::vector<double> beta = {};
+  std::vector<Vec3> bonded_at = {}, adhesive = {};
 };
 
 struct StepRecord {
@@ -32,6 +36,7 @@ struct StepRecord {
   double residual = 0;                                     // relative
   std::vector<Vec3> u;                                     // (n) [mm]
   std::vector<Vec3> reaction;                              // (n) internal minus external force: supports and contact [N]
+  std::map<std::string, std::vector<Vec3>> point_fields;   // (n) further ones: derivatives of u and reaction
   std::map<std::string, std::vector<double>> cell_fields;  // (e): J, I4_bar, von_mises [MPa], pressure [MPa]
   std::map<std::string, double> scalars;                   // further /history values, e.g. penetration, cone, complementarity
   Vec3 u_ind = Vec3::Zero();                               // [mm]; only with contact
@@ -74,6 +79,7 @@ class SolutionWriter {
   int n_steps() const;
   const std::vector<EarlierRun>& earlier() const;  // which runs the steps are of that it was continued from
   void append(const StepRecord& record);
+  void say_image_of(const std::string& which);  // a solution that is the image of another: how, and of which
   using Histories = std::map<std::string, std::vector<double>>;  // by name, a value for each step
   // cost: none where the work was done in several runs; summary: what is said of the result as a whole; found_later: histories that
   // only the whole path tells

@@ -66,11 +66,16 @@ void check_units(const h5::Group& root) {
   const auto of_list = [](const std::string& name) { return solution::unit_of(name); };
   units_of(root.group("history"), of_list);
   units_of(root.group("VTKHDF").group("CellData"), of_list);
-  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) { return name == "u" ? "mm" : "N"; });
+  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) {
+    return name == "u" ? "mm" : name == "reaction" ? "N" : "-";
+  });
   if (!root.has("contact")) return;
   const h5::Group contacts = root.group("contact");
   for (const std::string& name : contacts.groups())
-    units_of(contacts.group(name), [](const std::string& array) { return array == "r" ? "N" : array == "gap" ? "mm" : "-"; });
+    units_of(contacts.group(name), [](const std::string& array) {
+      const bool length = array == "gap" || array == "bonded_at";
+      return array == "r" || array == "adhesive" ? "N" : length ? "mm" : "-";
+    });
 }
 
 }  // namespace
@@ -134,6 +139,8 @@ StepRecord SolutionReader::step(int index) const {
   const h5::Group points = grid.group("PointData"), cells = grid.group("CellData");
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
   record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
+  for (const std::string& name : points.datasets())
+    if (name != "u" && name != "reaction") record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
   for (const std::string& name : cells.datasets())
     if (!solution::is_static(name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
 
@@ -149,6 +156,10 @@ StepRecord SolutionReader::step(int index) const {
       if (status < 0 || status > 2) group.refuse("status", std::to_string(status), "0 open, 1 stick or 2 slip");
       contact.status.push_back(static_cast<int>(status));
     }
+    if (!group.has("beta")) continue;
+    contact.beta = finite_rows(group, "beta", i, 1, {nodes.size()});
+    contact.bonded_at = vectors(finite_rows(group, "bonded_at", i, 1, {nodes.size(), 3}));
+    contact.adhesive = vectors(finite_rows(group, "adhesive", i, 1, {nodes.size(), 3}));
   }
   return record;
 }

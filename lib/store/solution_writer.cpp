@@ -141,6 +141,10 @@ void SolutionWriter::State::check(const StepRecord& record) const {
   check_finite("reaction", record.reaction);
   check_finite("u_ind, force_ind, t, increment or residual",
                std::vector<Vec3>{record.u_ind, record.force_ind, {record.t, record.increment, record.residual}});
+  for (const auto& [name, values] : record.point_fields) {
+    check_length(name, values.size(), header.mesh.X.size());
+    check_finite(name, values);
+  }
   for (const auto& [name, values] : record.cell_fields) {
     check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells()));
     check_finite(name, values);
@@ -149,9 +153,11 @@ void SolutionWriter::State::check(const StepRecord& record) const {
     check_finite(name, std::vector{value});
     if (solution::among(solution::histories, name)) bug("scalars." + name, "a name of the file's own", "another name");
   }
-  if (last && (names_of(record.cell_fields) != names_of(last->cell_fields) || names_of(record.scalars) != names_of(last->scalars)))
-    bug("cell_fields and scalars", names_of(record.cell_fields) + names_of(record.scalars),
-        names_of(last->cell_fields) + names_of(last->scalars) + "as in the steps before");
+  const auto all_names = [](const StepRecord& r) {
+    return names_of(r.point_fields) + names_of(r.cell_fields) + names_of(r.scalars);
+  };
+  if (last && all_names(record) != all_names(*last))
+    bug("point_fields, cell_fields and scalars", all_names(record), all_names(*last) + "as in the steps before");
   check_length("contacts", record.contacts.size(), header.contact_nodes.size());
   for (const auto& [name, nodes] : header.contact_nodes) {
     const auto found = record.contacts.find(name);
@@ -176,6 +182,10 @@ void SolutionWriter::State::append(const StepRecord& record) {
   extend<double>(points, "u", {3}, n, flat(record.u), "mm");
   extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
   for (const char* name : {"u", "reaction"}) add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  for (const auto& [name, values] : record.point_fields) {
+    extend<double>(points, name, {3}, n, flat(values), "-");
+    add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  }
   for (const auto& [name, values] : record.cell_fields) {
     extend<double>(cells, name, {}, e, values, solution::unit_of(name));
     add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
@@ -220,12 +230,20 @@ void SolutionWriter::State::contact(const StepRecord& record) {
     extend<double>(group, "r", {k, 3}, 1, flat(contact.r), "N");
     extend<std::int64_t>(group, "status", {k}, 1, {contact.status.begin(), contact.status.end()});
     extend<double>(group, "gap", {k}, 1, contact.gap, "mm");
+    if (contact.beta.empty()) continue;
+    extend<double>(group, "beta", {k}, 1, contact.beta, "-");
+    extend<double>(group, "bonded_at", {k, 3}, 1, flat(contact.bonded_at), "mm");
+    extend<double>(group, "adhesive", {k, 3}, 1, flat(contact.adhesive), "N");
   }
   for (int s = 0; s < 3; ++s)
     add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
 }
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
+
+void SolutionWriter::say_image_of(const std::string& which) {
+  state_->file.root().group("provenance").write_text("image_of", which);
+}
 
 namespace {
 // steps that were made by other settings than those of the config in the file

@@ -37,7 +37,7 @@ class Packer {
     put(map.size());
     for (const auto& [name, value] : map) put(name), put(value);
   }
-  void put(const ContactRecord& c) { put(c.r), put(c.status), put(c.gap); }
+  void put(const ContactRecord& c) { put(c.r), put(c.status), put(c.gap), put(c.beta), put(c.bonded_at), put(c.adhesive); }
 
  private:
   void put_all(const double* values, std::size_t n) { bytes.append(reinterpret_cast<const char*>(values), n * sizeof(double)); }
@@ -67,7 +67,7 @@ class Unpacker {
       get(name), get(map[name]);
     }
   }
-  void get(ContactRecord& c) { get(c.r), get(c.status), get(c.gap); }
+  void get(ContactRecord& c) { get(c.r), get(c.status), get(c.gap), get(c.beta), get(c.bonded_at), get(c.adhesive); }
 
  private:
   std::size_t length(std::size_t of_one) {
@@ -88,7 +88,8 @@ class Unpacker {
 enum Kind : char { of_task = 'T', of_run = 'R', of_step = 'S' };
 
 void each_field(auto& r, auto&& field) {
-  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u), field(r.reaction), field(r.cell_fields);
+  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u), field(r.reaction), field(r.point_fields),
+      field(r.cell_fields);
   field(r.scalars), field(r.u_ind), field(r.force_ind), field(r.contacts);
 }
 

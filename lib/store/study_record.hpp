@@ -40,7 +40,8 @@ struct IdentifiabilityRecord {
   MatX correlation, combination;
   std::string words;  // of the least felt combination
   std::vector<ProfileRecord> profiles;
-  MatX bootstrap;  // (n, p)
+  MatX bootstrap;           // (n, p)
+  bool linearised = false;  // the bootstrap is that of the linearised model; noise is in standard deviations of the tests
   VecX bootstrap_low, bootstrap_high;
   std::vector<AdviceRecord> advice;
 };

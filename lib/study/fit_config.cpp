@@ -19,8 +19,19 @@ std::vector<Complaint> FitData::complaints() const {
     all.push_back({"strain_to", "found " + number_text(*strain_to), "more than strain_from, " + number_text(*strain_from), ""});
   if (weight && standard_deviation)
     all.push_back({"weight", "beside standard_deviation", "one of the two", "the weight is 1/standard_deviation"});
-  const bool biaxial = kind == TestKind::biaxial;
-  if (!columns && (biaxial || kind == TestKind::simple_shear))
+  if (is_scene()) {
+    complain_of_scene(all);
+    return all;
+  }
+  if (file.path.empty()) all.push_back({"file", "missing", "the path of a file, relative to this one (measured test, CSV)", ""});
+  if (!solve.path.empty()) all.push_back({"solve", "found in a test that is no scene", "kind: scene", ""});
+  if (columns)
+    for (const auto& [key, text, says] :
+         {std::tuple("strain_x", &columns->strain_x, "text (deformation along x; in simple shear its amount)"),
+          {"stress_x", &columns->stress_x, "text (stress along x; in simple shear the shear stress)"}})
+      if (text->empty()) all.push_back({std::string("columns.") + key, "missing", says, ""});
+  const bool biaxial = kind == DataKind::biaxial;
+  if (!columns && (biaxial || kind == DataKind::simple_shear))
     all.push_back({"kind", std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
                    "the columns of deformation and stress",
                    "columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}"});
@@ -32,7 +43,7 @@ std::vector<Complaint> FitData::complaints() const {
          "both axes at the same instants in one file; of an equibiaxial or pure shear test each axis may be an item of its own, "
          "the second with fibre_angle: 90"});
   const bool own_grids = columns && !biaxial && !columns->strain_z.empty();
-  if (own_grids && kind != TestKind::equibiaxial && kind != TestKind::pure_shear)
+  if (own_grids && kind != DataKind::equibiaxial && kind != DataKind::pure_shear)
     all.push_back({"columns.strain_z", "found in a test without stress along z",
                    "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())
@@ -45,9 +56,9 @@ std::vector<Complaint> FitData::complaints() const {
     if (own_grids)
       all.push_back({"columns.time", "found with a grid of its own for each axis", "both axes at the same instants", ""});
   }
-  if (toe && kind == TestKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
+  if (toe && kind == DataKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
   if (toe && own_grids) all.push_back({"toe", "found with a grid of its own for each axis", "no toe: data that start at rest", ""});
-  if (columns && !columns->stress_z.empty() && (kind == TestKind::uniaxial || kind == TestKind::simple_shear))
+  if (columns && !columns->stress_z.empty() && (kind == DataKind::uniaxial || kind == DataKind::simple_shear))
     all.push_back({"columns.stress_z", "found in a test without stress along z", "equibiaxial, biaxial or pure_shear", ""});
   return all;
 }
@@ -93,6 +104,32 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
   return box;
 }
 
+namespace {
+
+// one that is no number of the law
+FreeParameter free_number(const FitConfig& config, const FitParameter& p, const SceneNumber& number) {
+  FreeParameter one{p.key, 0, 0, 0, false, "friction", unit::none};
+  Range box{0, 2};
+  const FitData* data = number.of == SceneNumber::Of::friction ? nullptr : &config.data[number.data];
+  if (!data)
+    one.start = 0.3, one.name = "friction_" + number.contact;
+  else {
+    const std::string behind = config.data.size() > 1 ? "_" + std::to_string(number.data + 1) : "";
+    if (number.of == SceneNumber::Of::touch_offset)
+      one.name = "touch_offset" + behind, one.unit = unit::mm, one.start = data->touch_offset, box = {-0.5, 0.5};
+    else if (number.of == SceneNumber::Of::force_offset)
+      one.name = "force_offset" + behind, one.unit = unit::N, one.start = data->force_offset, box = {-1, 1};
+    else
+      one.name = "compliance" + behind, one.unit = "mm/N", one.start = data->compliance, box = {0, 1};
+  }
+  one.start = p.start.value_or(one.start);
+  if (config.bounds == Bounds::custom) box = {0, 0};
+  one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
+  return one;
+}
+
+}  // namespace
+
 std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   Material law = config.law;
   const std::vector<MaterialParameter> known = parameters(law);
@@ -100,6 +137,7 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   for (const FitParameter& p : config.parameters) {
     FreeParameter one{p.key, p.start.value_or(0), p.lower.value_or(0), p.upper.value_or(0)};
     const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
+    if (const auto number = scene_number(config, p.key)) one = free_number(config, p, *number);
     if (found != known.end()) {
       if (!p.start) one.start = *found->value;
       Range box = default_bounds(*found, config.bounds, one.start);
@@ -172,9 +210,23 @@ void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.dilatation == Dilatation::compressible)
     all.push_back({"dilatation", "compressible, and a viscous law", "incompressible", ""});
   for (std::size_t i = 0; i < config.data.size(); ++i)
-    if (const auto& columns = config.data[i].columns; !columns || columns->time.empty())
+    if (const auto& columns = config.data[i].columns; !config.data[i].is_scene() && (!columns || columns->time.empty()))
       all.push_back({fmt::format("data[{}].columns.time", i), "missing, and the law is viscous", "the column of times in s",
                      "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
+}
+
+// what does not go with whole scenes
+void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all) {
+  if (config.cross_check != SecondAnswer::none)
+    all.push_back({"cross_check", "found in a fit with scenes", "none", "it takes thousands of runs"});
+  if (config.dilatation == Dilatation::compressible)
+    all.push_back({"dilatation", "compressible, beside scenes", "incompressible", "scenes count the volume term anyway"});
+  for (std::size_t i = 0; i < config.data.size(); ++i) {
+    const FitData& data = config.data[i];
+    if (!data.is_scene() && data.weight)
+      all.push_back(
+          {fmt::format("data[{}].weight", i), "found beside scenes", "standard_deviation: what weighs MPa against N", ""});
+  }
 }
 
 void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
@@ -214,7 +266,8 @@ std::vector<Complaint> FitConfig::complaints() const {
   if (parameters.empty()) all.push_back({"parameters", "an empty list", "one number to find at least", ""});
   if (dilatation == Dilatation::compressible)
     for (std::size_t i = 0; i < data.size(); ++i)
-      if (data[i].kind != TestKind::uniaxial || data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0)
+      if (!data[i].is_scene() &&
+          (data[i].kind != DataKind::uniaxial || data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0))
         all.push_back({"data[" + std::to_string(i) + "].kind", "a test whose state is solved without change of volume",
                        "uniaxial tests with held shear and no fibre_angle, or dilatation: incompressible", ""});
   if (is_viscous(law)) complain_about_time(*this, all);
@@ -228,8 +281,12 @@ std::vector<Complaint> FitConfig::complaints() const {
     const FitParameter& p = parameters[i];
     const std::string at = "parameters[" + std::to_string(i) + "].";
     const auto found = std::find(keys.begin(), keys.end(), p.key);
-    if (found == keys.end()) {
+    const auto number = scene_number(*this, p.key);
+    if (found == keys.end() && !number) {
       all.push_back(unknown(at + "key", p.key, known));
+      if (has_scenes())
+        all.back().expected +=
+            ", contacts.<name>.friction, data[i].touch_offset, data[i].force_offset, data[i].compliance of a scene";
       continue;
     }
     if (!seen.insert(p.key).second) all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
@@ -238,7 +295,8 @@ std::vector<Complaint> FitConfig::complaints() const {
       continue;
     }
     const double lower = free[i].lower, upper = free[i].upper;
-    const Range& range = known[static_cast<std::size_t>(found - keys.begin())].range;
+    const bool from_zero = number && (number->of == SceneNumber::Of::friction || number->of == SceneNumber::Of::compliance);
+    const Range range = number ? (from_zero ? at_least(0) : Range{}) : known[static_cast<std::size_t>(found - keys.begin())].range;
     if (!(lower < upper)) {
       all.push_back(
           {at + (p.upper ? "upper" : "key"), "found " + number_text(upper), "more than lower, " + number_text(lower), ""});
@@ -257,16 +315,18 @@ std::vector<Complaint> FitConfig::complaints() const {
                      p.start ? "" : "the start is the law's own value unless `start` is given"});
   }
   complain_about_ties(*this, known, all);
+  if (has_scenes()) complain_about_scenes(*this, all);
   return all;
 }
 
 std::vector<Test> measured_tests(const FitConfig& config) {
   std::vector<Test> tests;
   for (const FitData& data : config.data) {
+    if (data.is_scene()) continue;
     TestFormat format;
     Test& like = format.like;
     like.name = data.name.empty() ? std::filesystem::path(data.file.path).stem().string() : data.name;
-    like.kind = data.kind;
+    like.kind = static_cast<TestKind>(data.kind);
     like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
     like.weight = data.standard_deviation ? 1 / *data.standard_deviation : data.weight.value_or(1);
     format.strain = data.strain, format.stress = data.stress, format.strain_unit = data.strain_unit;
@@ -284,6 +344,8 @@ std::vector<Test> measured_tests(const FitConfig& config) {
     if (data.strain_to) format.strain_to = *data.strain_to;
     std::vector<Test> found = read_tests(data.file.path, format);
     for (Test& test : found) {
+      if (config.has_scenes() && !data.standard_deviation)
+        test.weight = 1 / (config.noise() * std::max(largest_stress(test), 1e-300));
       const std::string name = test.name;
       const auto taken = [&] {
         return std::any_of(tests.begin(), tests.end(), [&](const Test& t) { return t.name == test.name; });

@@ -11,6 +11,22 @@
 
 namespace langer {
 
+namespace {
+
+// of 95 %, by Student's factor for the noise that the residuals show (fit/residual_noise.hpp)
+void set_intervals(const FitResult& fit, FitRecord& record) {
+  const VecX factors = interval_factors(fit.columns, fit.left_out, fit.noise);
+  const MatX white = covariance(fit.best.J, fit.left_out, white_noise(fit.noise.total(), fit.best.J.rows()));
+  for (std::size_t i = 0; i < record.parameters.size(); ++i) {
+    FittedParameter& p = record.parameters[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const double half = p.factor * factors[k] * std::sqrt(white(k, k));
+    if (p.standard_error > 0 && std::isfinite(half)) p.factor = half / p.standard_error;
+  }
+}
+
+}  // namespace
+
 FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   FitRecord record;
   Material material = fit.material;
@@ -19,8 +35,11 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
     const FreeParameter& p = problem.free[i];
     const auto k = static_cast<Eigen::Index>(i);
     const auto known = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
-    record.parameters.push_back({known->name, known->unit, fit.best.p[k], p.lower, p.upper, std::sqrt(fit.covariance(k, k))});
+    record.parameters.push_back({p.of_law() ? known->name : p.name, p.of_law() ? known->unit : p.unit, fit.best.p[k], p.lower,
+                                 p.upper, std::sqrt(fit.covariance(k, k))});
+    record.parameters.back().key = p.key;
   }
+  if (fit.columns.size() > 0) set_intervals(fit, record);
   record.covariance = fit.covariance;
   record.cost = fit.best.cost;
   record.kkt_residual = fit.best.kkt;
@@ -51,6 +70,7 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
     one.model_z.assign(model, model + test.stress_z.size()), model += test.stress_z.size();
     record.tests.push_back(std::move(one));
   }
+  if (problem.tests.empty()) return record;
   // the range of engineering strain along x, over all tests that stretch
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Test& test : problem.tests)
@@ -72,6 +92,7 @@ std::string fit_csv(const FitRecord& record) {
       for (double s : *list) largest = std::max(largest, std::abs(s));
     return largest > 0 ? 100 * (model - stress) / largest : std::numeric_limits<double>::quiet_NaN();
   };
+  if (record.tests.empty()) return "";
   const FittedTest& only = record.tests.front();
   if (record.tests.size() == 1 && only.kind == "uniaxial") {
     std::vector<double> e;
@@ -117,6 +138,18 @@ bool at_symmetry(const FittedParameter& p) {
 }
 }  // namespace
 
+namespace {
+std::string in_words(const FittedCurve& c) {
+  double square = 0;
+  for (std::size_t i = 0; i < c.model.size(); ++i) square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
+  const double missed = std::sqrt(square / static_cast<double>(c.model.size()));
+  return fmt::format(
+      "{:>10}: {} missed by {:.3g} {} (root mean square, {:.2f} standard deviations), {:.3g} % of the largest{}", c.name,
+      c.quantity, missed, c.unit, missed / c.standard_deviation, c.mean_error_percent,
+      std::isnan(c.discretisation_percent) ? "" : fmt::format("; cells may make {:.2g} %", c.discretisation_percent));
+}
+}  // namespace
+
 std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
   const bool held = std::any_of(record.parameters.begin(), record.parameters.end(), at_symmetry);
@@ -132,19 +165,21 @@ std::vector<std::string> fit_results(const FitRecord& record) {
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
   }
   for (const Tie& tie : record.ties) lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
-  if (record.tests.size() > 1)
+  if (record.tests.size() + record.curves.size() > 1)
     for (const FittedTest& t : record.tests)
       lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2, t.mean_error_percent,
                                   t.max_error_percent));
+  for (const FittedCurve& c : record.curves) lines.push_back(in_words(c));
   std::size_t points = 0;
   for (const FittedTest& t : record.tests) points += t.first.size();
+  for (const FittedCurve& c : record.curves) points += c.x.size();
   const std::string aicc = std::isnan(record.aicc) ? fmt::format("no AICc (the points count as {:.0f}, too few for {} parameters)",
                                                                  record.effective_values, record.parameters.size())
                                                    : fmt::format("AICc {:.6g}", record.aicc);
   lines.push_back(fmt::format("R2 {:.6f}, {}, BIC {:.6g}", record.r2, aicc, record.bic));
-  lines.push_back(
-      fmt::format("mean error {:.3g} %, largest {:.3g} % of the largest stress; KKT residual {:.1e}; {} points, {} starts",
-                  record.mean_error_percent, record.max_error_percent, record.kkt_residual, points, record.starts.rows()));
+  lines.push_back(fmt::format("mean error {:.3g} %, largest {:.3g} % of the largest {}; KKT residual {:.1e}; {} points, {} starts",
+                              record.mean_error_percent, record.max_error_percent, record.curves.empty() ? "stress" : "value",
+                              record.kkt_residual, points, record.starts.rows()));
   return lines;
 }
 
@@ -165,6 +200,7 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   if (record.residual_correlation > 0) {
     std::size_t values = 0;
     for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
+    for (const FittedCurve& c : record.curves) values += c.measured.size();
     lines.push_back(
         fmt::format("residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
                     "errors, intervals and AICc; the law misses the curves, or the device drifts",

@@ -79,6 +79,7 @@ double reach_of(const CandidateChoice& choice, const Material& material, const s
 // would leave the worst known parameter the error that it has.
 std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
                                     const Identifiability& s) {
+  if (problem.tests.empty()) return {};  // how far a candidate would go is not known
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
     if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -95,6 +96,7 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     const double reach = reach_of(choice, fit.material, problem.tests);
     if (!(reach > 0)) continue;
     FitProblem more = problem;
+    more.further.reset();
     more.tests = {test_like(choice, problem.tests, reach)};
     const LeastSquares q = least_squares_problem(more);
     VecX stress;
@@ -115,12 +117,19 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   return records;
 }
 
-// how much wider samples must be for rho and deviation that are estimated: the mean over the parameters
-double growth(const ResidualNoise& noise, const FitResult& fit) {
-  VecX with = interval_factors(fit.columns, fit.left_out, noise);
-  ResidualNoise known = noise;
-  known.freedom = std::numeric_limits<double>::infinity();
-  return with.cwiseQuotient(interval_factors(fit.columns, fit.left_out, known)).mean();
+// the problem with the model that its derivatives make at the optimum: fits to it cost nothing
+LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
+  LeastSquares line = q;
+  line.residual = [r0 = best.r, J0 = best.J, p0 = best.p](const VecX& p, VecX& r) {
+    r = r0 + J0 * (p - p0);
+    return true;
+  };
+  line.slope = [J0 = best.J](const VecX&, MatX& J) {
+    J = J0;
+    return true;
+  };
+  line.start = best.p;
+  return line;
 }
 
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
@@ -131,7 +140,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   const auto n = p.size();
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
-  const ResidualNoise noise = with_least(fit.noise, config.noise * largest);
+  const ResidualNoise noise = problem.further ? fit.noise : with_least(fit.noise, config.noise * largest);
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
@@ -142,7 +151,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   record.singular = s.singular;
   record.correlation = s.correlation, record.combination = s.combination;
   if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
-  if (config.profiles) {
+  if (config.profiles.value_or(!problem.further)) {
     ProfileOptions options;
     options.factor = factors, options.threads = config.threads, options.progress = say("profiles");
     for (const Profile& one : profiles([&] { return least_squares_problem(problem); }, p, s.error, s.noise, options))
@@ -151,8 +160,12 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   if (config.bootstrap > 0) {
     BootstrapOptions options;
     options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
-    options.growth = growth(noise, fit), options.threads = config.threads, options.progress = say("bootstrap");
-    const Bootstrap b = bootstrap([&] { return least_squares_problem(problem); }, p, noise, options);
+    const VecX growth = growth_of_intervals(fit.columns, fit.left_out, noise);
+    options.growth = growth.mean(), options.threads = config.threads, options.progress = say("bootstrap");
+    if (noise.rho > 0) options.spread = growth / options.growth;
+    const auto maker = [&] { return problem.further ? linearised(q, fit.best) : least_squares_problem(problem); };
+    const Bootstrap b = bootstrap(maker, p, noise, options);
+    record.linearised = problem.further != nullptr;
     record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
   }
   record.advice = advice_of(problem, fit, config, s);
@@ -184,7 +197,7 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
   options.to = config.stability_to, options.points = 51, options.stretches = 41, options.threads = config.threads;
   if (progress) options.progress = progress("stability map");
   record.map = stability_map(material, options);
-  const Test& first = problem.tests.front();
+  const Test first = problem.tests.empty() ? Test{} : problem.tests.front();
   const double own = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
   const Path path = first.kind == TestKind::simple_shear ? Path::simple_shear
                     : first.kind == TestKind::pure_shear ? Path::pure_shear
@@ -193,12 +206,13 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
   std::vector<double> fine;
   for (int i = 0; i <= 200; ++i) fine.push_back(config.stability_to * i / 200);
   const PathStability along = path_stability(turned(material, first.fibre_angle_deg), path, fine);
-  const double reach = *std::max_element(first.first.begin(), first.first.end());
+  const std::string reach =
+      first.first.empty() ? "" : fmt::format("; data reach {:.2f}", *std::max_element(first.first.begin(), first.first.end()));
   const double angle = own + first.fibre_angle_deg;
   const std::string where = material.fibres.empty() ? ""
                             : angle == 0            ? " along the fibre"
                                                     : fmt::format(" with the fibre at {:g} degrees", angle);
-  record.verdict = fmt::format("{}{}: {}; data reach {:.2f}", word(path), where, up_to(along, config.stability_to), reach);
+  record.verdict = fmt::format("{}{}: {}{}", word(path), where, up_to(along, config.stability_to), reach);
   return record;
 }
 
@@ -207,9 +221,11 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
 std::vector<std::string> parameter_names(const FitProblem& problem) {
   Material law = problem.law;
   std::vector<std::string> result;
-  for (const FreeParameter& f : problem.free)
+  for (const FreeParameter& f : problem.free) {
+    if (!f.of_law()) result.push_back(f.name);
     for (const MaterialParameter& p : parameters(law))
       if (p.key == f.key) result.push_back(p.name);
+  }
   return result;
 }
 
@@ -231,7 +247,7 @@ StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyCo
   StudyRecord record;
   record.identifiability = identify(problem, fit, config, progress);
   if (config.stability) record.stability = stability_of(fit.material, problem, config, progress);
-  record.range = fitted_range(fit.material, problem.tests);
+  if (!problem.further) record.range = fitted_range(fit.material, problem.tests);
   return record;
 }
 
@@ -239,11 +255,12 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
   std::vector<std::string> lines;
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
+    const char* of = r.linearised ? " standard deviations" : " MPa";
     lines.push_back(r.rho > 0
-                        ? fmt::format("with a noise of {:.3g} MPa, correlated by {:.3f} from value to value, so that they count as "
+                        ? fmt::format("with a noise of {:.3g}{}, correlated by {:.3f} from value to value, so that they count as "
                                       "{:.0f} in all, the data tell:",
-                                      r.noise, r.rho, r.effective)
-                        : fmt::format("with a noise of {:.3g} MPa the data tell:", r.noise));
+                                      r.noise, of, r.rho, r.effective)
+                        : fmt::format("with a noise of {:.3g}{} the data tell:", r.noise, of));
     const bool held = std::find(r.symmetric.begin(), r.symmetric.end(), true) != r.symmetric.end();
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
@@ -256,7 +273,9 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
         s += fmt::format(", {}profile {}{:.4g} to {:.4g}{}", held && !r.symmetric[i] ? "as it turns: " : "",
                          p.low_open ? "[bound] " : "", p.low, p.high, p.high_open ? " [bound]" : "");
       }
-      if (r.bootstrap.rows() > 1) s += fmt::format(", bootstrap {:.4g} to {:.4g}", r.bootstrap_low[k], r.bootstrap_high[k]);
+      if (r.bootstrap.rows() > 1)
+        s += fmt::format(", {}bootstrap {:.4g} to {:.4g}", r.linearised ? "linearised " : "", r.bootstrap_low[k],
+                         r.bootstrap_high[k]);
       lines.push_back(s);
     }
     if (!r.words.empty()) lines.push_back("least identifiable combination: " + r.words);

@@ -2,6 +2,7 @@
 //   study: {noise: 0.01, bootstrap: 200, candidates: [{kind: uniaxial, fibre_angle: 90}]}
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/fields.hpp"
@@ -20,7 +21,7 @@ struct CandidateChoice {
 
 struct StudyConfig {
   double noise = 0.01;
-  bool profiles = true;
+  std::optional<bool> profiles;
   int bootstrap = 200;
   int seed = 1;
   std::vector<CandidateChoice> candidates{{TestKind::uniaxial, 0},     {TestKind::uniaxial, 45},     {TestKind::uniaxial, 90},
@@ -33,8 +34,10 @@ struct StudyConfig {
   static void fields(auto& v) {
     v(&StudyConfig::noise, "noise", unit::none,
       "least standard deviation of a measured value, as part of the largest stress; more where the fit misses by more", positive);
-    v(&StudyConfig::profiles, "profiles", unit::none, "intervals by holding each parameter while the others follow");
-    v(&StudyConfig::bootstrap, "bootstrap", unit::none, "fits to fresh noise; 0 for none", between(0, 1000000));
+    v(&StudyConfig::profiles, "profiles", unit::none,
+      "intervals by holding each parameter while the others follow; none: of tests only, as with scenes they take many runs");
+    v(&StudyConfig::bootstrap, "bootstrap", unit::none,
+      "fits to fresh noise, with scenes of the model linearised where it was found; 0 for none", between(0, 1000000));
     v(&StudyConfig::seed, "seed", unit::none, "of that noise", at_least(0));
     v(&StudyConfig::candidates, "candidates", unit::none, "tests that could be made next; the advice ranks them");
     v(&StudyConfig::stability, "stability", unit::none, "map where the law is stable");

@@ -30,13 +30,21 @@ struct GatherMember {
   }
 };
 
+// What a row of the table is.
+enum class GatherRows { members, parameters };
+constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
+
 struct GatherConfig {
+  GatherRows rows = GatherRows::members;
   std::vector<std::string> columns;
   std::vector<GatherAxis> axes;
   std::vector<GatherMember> members;
   std::map<std::string, SweepFigure> figures;
   std::map<std::string, SweepMap> maps;
   static void fields(auto& v) {
+    v(&GatherConfig::rows, "rows", unit::none,
+      "members: one for each file; parameters: one for each number that a fit found, of one fit, with what it is where data were made up, "
+      "its standard error and 95 % interval");
     v(&GatherConfig::columns, "columns", unit::none, "names of /summary in the order wanted; none means all of the first member");
     v(&GatherConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg, .png and .csv");
     v(&GatherConfig::maps, "maps", unit::none,
@@ -46,6 +54,9 @@ struct GatherConfig {
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> all;
+    if (rows == GatherRows::parameters && !(columns.empty() && axes.empty() && figures.empty() && maps.empty()))
+      all.push_back(
+          {"rows", "parameters, beside columns, axes, figures or maps", "none of them", "the table has columns of its own"});
     for (std::size_t i = 0; i < members.size(); ++i)
       if (members[i].at.size() != axes.size())
         all.push_back({"members[" + std::to_string(i) + "].at", "found " + std::to_string(members[i].at.size()) + " values",

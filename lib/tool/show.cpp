@@ -132,7 +132,12 @@ void show_solution(Page& page, const std::string& path) {
   page.list("cell fields", fields);
   const bool contact = !header.contact_nodes.empty();
   std::vector<std::vector<std::string>> rows{{"step", "t", "iterations", "residual"}};
-  if (contact) rows[0].insert(rows[0].end(), {"u_ind mm", "force N"});
+  std::vector<std::string> several;  // indenters: the sum of their forces may be that of a pinch, nothing
+  if (header.contact_nodes.size() > 1)
+    for (const auto& [name, nodes] : header.contact_nodes) several.push_back("force_" + name);
+  if (contact) rows[0].push_back("u_ind mm");
+  if (contact && several.empty()) rows[0].push_back("force N");
+  for (const std::string& force : several) rows[0].push_back(force + " N");
   rows[0].push_back("largest u mm");
   for (int i = 0; i < file.n_steps(); ++i) {
     if (file.n_steps() > 12 && i == 5) rows.push_back({"..."});
@@ -141,7 +146,12 @@ void show_solution(Page& page, const std::string& path) {
     double u = 0;
     for (const Vec3& v : step.u) u = std::max(u, v.norm());
     rows.push_back({std::to_string(i + 1), number(step.t), std::to_string(step.iterations), fmt::format("{:.1e}", step.residual)});
-    if (contact) rows.back().insert(rows.back().end(), {number(step.u_ind.norm()), number(step.force_ind.norm())});
+    if (contact) rows.back().push_back(number(step.u_ind.norm()));
+    if (contact && several.empty()) rows.back().push_back(number(step.force_ind.norm()));
+    for (const std::string& force : several) {
+      const auto found = step.scalars.find(force);
+      rows.back().push_back(found == step.scalars.end() ? "" : number(found->second));
+    }
     rows.back().push_back(number(u));
   }
   page.table(fmt::format("{} steps", file.n_steps()), rows);

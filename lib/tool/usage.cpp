@@ -130,6 +130,12 @@ Usage plan_usage() {
   Usage u{"langer-plan", "Turns a pipeline into a Makefile.", {}, {}, "", "", ""};
   u.options = {{"PIPELINE", "", "YAML file with nodes", "yaml yml", {}, true},
                {"-o,--output", "FOLDER", "folder of the run; runs/<name of the pipeline> by default", "/", {}},
+               {"--set", "NODE.KEY=VALUE", "replace a value of a node's config; may be repeated", "", {}},
+               {"--sweep",
+                "NODE.KEY=[VALUES]",
+                "vary a key of a node's config as a sweep does; AXIS:NODE.KEY=[VALUES] names the axis; may be repeated",
+                "",
+                {}},
                {"--slurm", "", "also write slurm/submit, which sends the run to Slurm as arrays of jobs", "", {}},
                {"--dry-run", "", "check everything that the pipeline names; write nothing", "", {}}};
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));

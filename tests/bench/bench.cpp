@@ -1,6 +1,6 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, paper, depths, grading, growth
+//                               only when named: coverage, inverse, inverse_coverage, relaxation, paper, depths, grading, growth, wide
 #include <fmt/format.h>
 
 #include <array>
@@ -23,6 +23,10 @@ using namespace langer;
 
 void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
+void measure_relaxation_coverage();
+void measure_wide();  // wide.cpp
+void measure_inverse();   // inverse.cpp
+void measure_inverse_coverage();
 
 namespace {
 
@@ -153,6 +157,9 @@ int main(int argc, char** argv) {
   }
   if (wanted("fit")) measure_fit();
   if (asked.count("coverage")) measure_coverage();
+  if (asked.count("relaxation")) measure_relaxation_coverage();
+  if (asked.count("inverse")) measure_inverse();
+  if (asked.count("inverse_coverage")) measure_inverse_coverage();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))
     for (int threads : {1, 2}) {
@@ -163,6 +170,7 @@ int main(int argc, char** argv) {
   if (asked.count("depths")) measure_depths(fine);
   if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);
+  if (asked.count("wide")) measure_wide();
   if (asked.count("grading")) {
     test::Indentation scene;
     scene.nx = scene.nz = 36, scene.ny = 12, scene.h = 0.2;

@@ -20,8 +20,9 @@ Vec3 in_cube(double half) {
   return {u(random_numbers), u(random_numbers), u(random_numbers)};
 }
 
-const std::vector<Indenter> smooth{Sphere{2.5, {0.1, 3, -0.2}}, Sphere{0.4, {0, 0, 0}}, Plane{{0, 1, 0}, {0.2, 1, 0.3}},
-                                   Cylinder{2, 0.5, {0, 4, 0}, {0.1, 1, 0.2}}, Ellipsoid{{3, 1.5, 2}, {0, 3, 0.5}}};
+const std::vector<Indenter> smooth{Sphere{2.5, {0.1, 3, -0.2}},         Sphere{0.4, {0, 0, 0}},
+                                   Plane{{0, 1, 0}, {0.2, 1, 0.3}},     Cylinder{2, 0.5, {0, 4, 0}, {0.1, 1, 0.2}},
+                                   Ellipsoid{{3, 1.5, 2}, {0, 3, 0.5}}, Aperture{2, 0.5, {0, 1, 0}, {0.1, 1, 0.2}}};
 
 // a closed candidate: its node at X, u, in an increment that began at u0, the shape displaced from c0 to c
 struct Candidate {

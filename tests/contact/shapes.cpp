@@ -41,6 +41,7 @@ std::vector<std::pair<const char*, Indenter>> shapes() {
           {"plane", Plane{{0, 1, 0}, {0.2, 1, 0.3}}},
           {"cylinder", Cylinder{2, 0.5, {0, 4, 0}, {0.1, 1, 0.2}}},
           {"ellipsoid", Ellipsoid{{3, 1.5, 2}, {0, 5, 0.5}}},
+          {"aperture", Aperture{2, 0.4, {0.1, 1, 0.2}, {0.1, 1, -0.2}}},
           {"facets", facets}};
 }
 

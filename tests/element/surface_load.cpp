@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <random>
 
 #include "element/surface.hpp"
@@ -46,6 +47,13 @@ TEST_CASE("the stiffness of a following pressure is the symmetric part of its fo
         const MatX K = differences(cell, f, x), symmetric = 0.5 * (K + K.transpose()), ours = follower_stiffness(cell, f, x);
         CHECK((ours - symmetric).lpNorm<Eigen::Infinity>() < 1e-7 * symmetric.lpNorm<Eigen::Infinity>());
         CHECK((ours - K).lpNorm<Eigen::Infinity>() > 1e-3 * K.lpNorm<Eigen::Infinity>());  // the rim is not symmetric
+        const ElementNodes dx = random_cell(cell, random, 1), change = follower_pressure_change(cell, f, x, dx);
+        for (int a = 0; a < cell.n_nodes; ++a)
+          for (int i = 0; i < 3; ++i) {
+            double sum = 0;
+            for (int b = 0; b < cell.n_nodes; ++b) sum += K.block<1, 3>(3 * a + i, 3 * b).dot(dx.row(b));
+            CHECK(std::abs(change(a, i) - sum) < 1e-7 * change.lpNorm<Eigen::Infinity>());
+          }
       }
     }
 }

@@ -1,11 +1,12 @@
 // Measured curves: units, and what is refused, to the line and column.
-#include "fit/curve.hpp"
+#include "support/uniaxial.hpp"
 
 #include <doctest/doctest.h>
 
 #include "base/error.hpp"
 
 using namespace langer;
+using test::Curve, test::parse_curve;
 
 namespace {
 
@@ -80,7 +81,7 @@ TEST_CASE("columns that are missing, doubled or without unit are refused") {
 
 TEST_CASE("a missing file is refused by name") {
   try {
-    read_curve("no/such/curve.csv");
+    read_tests("no/such/curve.csv", {});
     CHECK(false);
   } catch (const Failure& f) {
     CHECK(f.code() == Exit::input);

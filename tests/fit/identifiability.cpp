@@ -204,6 +204,45 @@ TEST_CASE("95 % intervals of noisy tests hold the true parameters 90 to 99 times
   }
 }
 
+TEST_CASE("bootstrap: percentiles of each parameter spread from its estimate as told, not beyond a bound; samples stay") {
+  VecX y(10);
+  for (int i = 0; i < 10; ++i) y[i] = 1 + 0.5 * i + (i % 3 - 1) * 0.2;
+  const VecX best = least_squares(line(y)).p;
+  BootstrapOptions plain;
+  plain.samples = 50;
+  BootstrapOptions wide = plain;
+  wide.spread = vec({2, 0.5});
+  const auto draw = [&](const BootstrapOptions& options, double upper = 100) {
+    return bootstrap([&] { return line(y, -100, upper); }, best, white_noise(0.2, 10), options);
+  };
+  const Bootstrap a = draw(plain), b = draw(wide);
+  CHECK(a.samples == b.samples);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(a.low[i] < best[i]);
+    CHECK(b.low[i] - best[i] == doctest::Approx(wide.spread[i] * (a.low[i] - best[i])).epsilon(1e-12));
+    CHECK(b.high[i] - best[i] == doctest::Approx(wide.spread[i] * (a.high[i] - best[i])).epsilon(1e-12));
+  }
+  const double bound = best[0] + 1.2 * (a.high[0] - best[0]);
+  CHECK(draw(wide, bound).high[0] == bound);
+}
+
+TEST_CASE("intervals grow most for the parameter that the correlation hides best: a level more than what a few values tell") {
+  // a level, and a peak of three values in the middle of 100
+  MatX columns = MatX::Zero(100, 2);
+  columns.col(0).setOnes();
+  columns.col(1).segment(48, 3).setOnes();
+  VecX r(100);
+  Random random(3, 1);
+  double e = random.normal();
+  for (double& x : r) x = e, e = 0.9 * e + std::sqrt(1 - 0.81) * random.normal();
+  const ResidualNoise noise = residual_noise(r, columns, {100}, 100);
+  REQUIRE(noise.rho > 0.6);
+  const VecX growth = growth_of_intervals(columns, {false, false}, noise);
+  CHECK(growth.minCoeff() > 1);
+  CHECK(growth[0] > 1.05 * growth[1]);
+  CHECK(growth_of_intervals(columns, {false, false}, white_noise(1, 100)) == VecX::Ones(2));
+}
+
 TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
   const FitProblem q = exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
                              {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});

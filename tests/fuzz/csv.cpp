@@ -1,7 +1,7 @@
-// Text -> CSV -> a curve, and tests of two kinds.
+// Text -> CSV -> tests of two kinds, by their columns' names or as told.
 #include <cmath>
 
-#include "fit/curve.hpp"
+#include "fit/test_data.hpp"
 #include "fuzz.hpp"
 
 namespace {
@@ -15,9 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace langer;
   const std::string text(reinterpret_cast<const char*>(data), size);
   fuzz::reads_or_refuses("input.csv", [&] {
-    const Curve curve = parse_curve(text, "input.csv");
-    finite(curve.strain), finite(curve.stress);
-    if (curve.strain.size() != curve.stress.size() || curve.size() < 2) std::abort();
+    const Test test = parse_tests(text, "input.csv", {}).front();
+    finite(test.first), finite(test.stress_x);
+    if (test.first.size() != test.stress_x.size() || test.points() < 2) std::abort();
   });
   TestFormat uniaxial, biaxial;
   uniaxial.strain_x = "strain", uniaxial.stress_x = "cauchy_stress_MPa";

@@ -81,7 +81,7 @@ Fitted fitted(const std::string& along, const std::string& across) {
   FitConfig config = read_config<FitConfig>(load_yaml(starter + "fit.yaml")).config;
   config.data[0].file.path = along, config.data[1].file.path = across;
   FitProblem problem = fit_problem(config);
-  const FitOptions options{config.starts, static_cast<unsigned>(config.seed), {}};
+  const FitOptions options{config.searches(), static_cast<unsigned>(config.seed), {}};
   Fitted one{fit(problem, options), {}};
   REQUIRE(one.fit.best.converged);
   one.at_rest = stiffen_at_rest(problem, one.fit, options, 0.01);

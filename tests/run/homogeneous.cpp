@@ -132,6 +132,43 @@ TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy
   }
 }
 
+TEST_CASE("a block under uniform tractions and pressures is solved at a point, and gives what its mesh gives") {
+  const auto scene = [](const char* loads) {
+    return test::config_of(
+        "mesh: {geometry: {block: {size: [3, 2, 2], divisions: [3, 2, 2]}}, cells: hex8}\n"
+        "material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-2}}}\n"
+        "supports: [{on: x_min, hold: [x]}, {on: bottom, hold: [y]}, {on: z_min, hold: [z]}]\npath: {steps: 4}\nloads: " +
+        std::string(loads) + "\n");
+  };
+  const auto states = [](const SolveConfig& config, bool at_a_point, bool& reduced) {
+    Run run(test::mesh_in(config), config, config.material, test::nowhere, at_a_point);
+    reduced = run.reduction.kind() == Reduction::Kind::homogeneous;
+    std::vector<StepRecord> steps;
+    RunListener each;
+    each.of_whole = [&](const StepRecord& step, const SolveReport&) { steps.push_back(step); };
+    REQUIRE(run.follow(each).path.complete);
+    return steps;
+  };
+  for (const char* loads : {"[{on: x_max, traction: {x: 0.3}}]",
+                            "[{on: x_max, force: {x: 1}}, {on: top, pressure: [{t: 0.5, to: 0.1}, {t: 1, to: 0.1}]}]"}) {
+    CAPTURE(loads);
+    bool reduced = false;
+    const auto point = states(scene(loads), true, reduced);
+    CHECK(reduced);
+    const auto mesh = states(scene(loads), false, reduced);
+    CHECK_FALSE(reduced);
+    REQUIRE(point.size() == mesh.size());
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      CHECK(test::largest_difference(point[i].u, mesh[i].u) < 1e-6);
+      CHECK(test::largest_difference(point[i].reaction, mesh[i].reaction) < 1e-6);
+      CHECK(point[i].scalars.at("energy") == doctest::Approx(mesh[i].scalars.at("energy")).epsilon(1e-6));
+    }
+  }
+  bool reduced = true;
+  states(scene("[{on: x_max, traction: {y: 0.01}}]"), true, reduced);  // bends
+  CHECK_FALSE(reduced);
+}
+
 TEST_CASE("what does not deform alike everywhere is solved as it is") {
   const Case usual;
   const Mesh mesh = mesh_of(usual);

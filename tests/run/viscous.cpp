@@ -1,7 +1,12 @@
 // Viscous bodies on their way through time, against what is known of them.
 #include <doctest/doctest.h>
 
+#include <complex>
+#include <numbers>
+#include <tuple>
+
 #include "element/viscous_points.hpp"
+#include "post/cycle.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
 #include "tensor/kinematics.hpp"
@@ -224,6 +229,62 @@ TEST_CASE("viscous: a continued run is the run, to the last digit") {
       CHECK(k + 1 == whole.steps.size());
     }
   }
+}
+
+TEST_CASE("viscous: storage and loss of small cycles are those of the branches, in a pulled and in a sheared block") {
+  const double size = 1e-4, period = 1;
+  std::string triangle;
+  for (int i = 0; i < 8; ++i) triangle += "{s: " + std::to_string(0.25 + 0.5 * i) + ", to: " + (i % 2 ? "-" : "") + "1.0e-4}, ";
+  const std::string law = "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-6}}",
+                    newton = "solver: {newton: {relative: 1e-12}}\n";
+  const std::string sheared =
+      "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [3, 2, 2]}}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}, {on: top, hold: [y, z]}]\nloads: [{on: top, displacement: {x: ";
+  const std::string pulled =
+      "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [3, 2, 2]}}}\n"
+      "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\nloads: [{on: x_max, displacement: {x: ";
+  for (const auto& [scene, face, point] : {std::tuple(sheared, "top", false), {pulled, "x_max", false}}) {
+    CAPTURE(face);
+    const auto found = [&](const std::string& text) {
+      const Mesh mesh = test::mesh_in(test::config_of(text));
+      std::array<std::vector<double>, 3> curve{{{0}, {0}, {0}}};  // s, mm, N
+      for (const StepRecord& step : follow(text, point).steps) {
+        double force = 0;
+        for (int n : mesh.node_sets.at(face)) force += step.reaction[static_cast<std::size_t>(n)][0];
+        curve[0].push_back(step.scalars.count("time") ? step.scalars.at("time") : step.t);
+        curve[1].push_back(step.u[static_cast<std::size_t>(mesh.node_sets.at(face)[0])][0]), curve[2].push_back(force);
+      }
+      return curve;
+    };
+    const auto elastic = found(scene + "1.0e-4}}]\n" + law + "}\npath: {steps: 1}\n" + newton);
+    const double stiffness = elastic[2].back() / size;
+    const auto cycles =
+        found(scene + "[" + triangle + "{s: 4.25, to: 1.0e-4}]}}]\n" + law +
+              ", viscous: [{tau: 0.05, gamma: 0.5}, {tau: 0.3, gamma: 0.4}]}\npath: {seconds: 4.25, steps: 40}\n" + newton);
+    std::complex<double> exact = 1;
+    for (const auto& [tau, gamma] : {std::pair{0.05, 0.5}, {0.3, 0.4}}) {
+      const std::complex<double> x(0, 2 * std::numbers::pi / period * tau);
+      exact += gamma * x / (1. + x);
+    }
+    const Cycle cycle = last_cycle(cycles[0], cycles[1], cycles[2], period);
+    CHECK(cycle.storage == doctest::Approx(stiffness * exact.real()).epsilon(1e-3));
+    CHECK(cycle.loss == doctest::Approx(stiffness * exact.imag()).epsilon(1e-3));
+    CHECK(cycle.tan_delta() == doctest::Approx(exact.imag() / exact.real()).epsilon(1e-3));
+    CHECK(cycle.change < 1e-3);
+  }
+}
+
+TEST_CASE(
+    "viscous: what the branches remember is told before the run: 6 numbers for each, and 13 beside them, at each Gauss point") {
+  const auto bytes = [](const std::string& more) {
+    const SolveConfig config = test::config_of(block("hex8") + material(more) + ball(hold) + "path: {seconds: 10}\n");
+    Run run(mesh_of(config), config, config.material, test::nowhere, false);
+    return run.body.viscous() ? run.body.memory()->bytes() : 0;
+  };
+  CHECK(bytes("") == 0);
+  const double points = 6 * 2 * 6 * 8;
+  CHECK(bytes(", viscous: [{tau: 1, gamma: 0.5}]") == 8 * points * (2 * 6 + 6 + 1));
+  CHECK(bytes(", viscous: [{tau: 1, gamma: 0.5}, {tau: 2, gamma: 0.5}, {tau: 3, gamma: 0.5}]") == 8 * points * (2 * 6 + 3 * 6 + 1));
 }
 
 TEST_CASE("viscous: a viscous material wants the duration of the path") {

@@ -27,3 +27,21 @@ TEST_CASE("two unlike displacements of one node are refused by the keys of both,
   CHECK(twice.find("loads[1].displacement") != std::string::npos);
   CHECK(twice.find("loads[0]") != std::string::npos);
 }
+
+TEST_CASE("what cannot be turned is refused by its key: a set that is moved otherwise, one with an indenter's name, a section") {
+  const std::string held = "supports: [{on: y_min, hold: [x, y, z]}]\n";
+  CHECK(said_of(held + "loads: [{on: y_max, rotation: {angle: 20}, displacement: {y: 0.1}}]") == "accepted");
+  const std::string twice = said_of(held + "loads: [{on: y_max, rotation: {angle: 20}}, {on: y_max, displacement: {y: 0.1}}]");
+  CHECK(twice.find("loads[0].rotation") != std::string::npos);
+  CHECK(twice.find("and a rotation at a node that loads[1].displacement sets to 0.1 mm") != std::string::npos);
+  const std::string named = said_of(
+      held +
+      "loads: [{on: y_max, rotation: {angle: 20}}]\n"
+      "contacts: {y_max: {on: x_max, rigid: {plane: {point: [1, 0, 0], normal: [-1, 0, 0]}}, motion: [{t: 1, to: [-0.1, 0, 0]}]}}");
+  CHECK(named.find("an indenter has the same name") != std::string::npos);
+  const std::string wide = said_of(
+      held +
+      "contacts: {plate: {on: y_max, rigid: {aperture: {radius: 2, edge: 0.1, face: [0.5, 1, 0.5]}}, motion: [{t: 1, to: [0, -0.1, 0]}]}}");
+  CHECK(wide.find("contacts.plate.rigid.aperture.radius") != std::string::npos);
+  CHECK(wide.find("a hole of 2 mm") != std::string::npos);
+}

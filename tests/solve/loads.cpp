@@ -205,6 +205,24 @@ TEST_CASE(
   CHECK(follows.iterations <= 1.5 * dead.iterations);
 }
 
+TEST_CASE("a cube that suction on a free face pulls far needs as many iterations as under a dead load that pulls it as far") {
+  for (CellType cells : {CellType::hex8, CellType::hex27}) {
+    const Mesh mesh = sided(test::cube(2), cells);
+    const double a1 = 0.1;
+    const Material law = test::neo_hooke(a1, 1e-4);
+    const auto& face = mesh.facet_sets.at("x_max");
+    // sigma = 2 a1 (l^2 - 1/l); a dead traction is sigma / l
+    const double l = 1.3, sigma = 2 * a1 * (l * l - 1 / l);
+    const Ended follows = solved(mesh, law, on_planes(mesh), {{face, Vec3::Zero(), -sigma, nullptr}}, 4);
+    const Ended dead = solved(mesh, law, on_planes(mesh), {{face, Vec3(sigma / l, 0, 0), 0, nullptr}}, 4);
+    CAPTURE(follows.iterations);
+    CAPTURE(dead.iterations);
+    CHECK(follows.iterations <= 1.5 * dead.iterations);
+    CHECK((follows.u - dead.u).lpNorm<Eigen::Infinity>() < 1e-6);
+    for (int n : mesh.node_sets.at("x_max")) CHECK(follows.u[3 * n] == doctest::Approx(l - 1).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("loads with histories of their own add up, and the body returns to rest when they are gone") {
   const Mesh mesh = sided(test::cube(2), CellType::hex8);
   const auto factor =

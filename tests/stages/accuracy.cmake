@@ -45,6 +45,18 @@ run(5 ${BIN}/langer-solve coarse.yaml -o short.h5 --set accuracy=0.2%)
 expect_said("asked for 0.2 %")
 expect_said("short.h5")
 run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution short.h5 -o curves.h5 --quiet)
+# a mesh whose cells follow from no numbers is judged as it is
+file(WRITE ${folder}/graded.yaml "include: configs/solve/trade_isotropic.yaml
+mesh: {include: configs/mesh/brick_graded.yaml}
+symmetry: none
+path: {first: 0.5, largest: 0.5}
+estimate: dual
+")
+run(0 ${BIN}/langer-solve graded.yaml -o graded.h5 --set accuracy=60%)
+expect_said("of the mesh as it is")
+run(5 ${BIN}/langer-solve graded.yaml -o graded_again.h5 --set accuracy=0.01%)
+expect_said("asked for 0.01 %")
+
 # an estimate that takes its turn by itself does not where it takes longer than a third of the solve
 run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 --set estimate=auto)
 expect_said("errors are not estimated: that takes more than a third of the solve")

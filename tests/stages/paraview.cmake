@@ -19,6 +19,11 @@ run(0 ${python} ${ROOT}/tests/support/read_vtk.py ${snapshot} ${WORK}/project/so
 message("${said}")
 expect_said("snapshot")
 
+# the series: times, fields and the path of the sphere's node, by the readers of VTK XML
+run(0 ${BIN}/langer-post configs/post/smoke.yaml --solution solution.h5 --quiet --set series=true -o curves.h5)
+run(0 ${python} ${ROOT}/tests/support/read_series.py ${WORK}/project/series.pvd ${snapshot})
+expect_said("3 states")
+
 # the reader's eyes are open: a wrong array is seen
 file(WRITE ${WORK}/spoil.py "import sys\ndata = open(sys.argv[1], 'rb').read()\nopen(sys.argv[2], 'wb').write(data.replace(b'von_mises', b'von_misez'))\n")
 run(0 ${python} ${WORK}/spoil.py ${snapshot} ${WORK}/project/spoilt.hdf)

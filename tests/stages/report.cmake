@@ -53,6 +53,7 @@ file(APPEND ${WORK}/tried.html [=[
     control.dispatchEvent(new Event('input'));
     await note(id);
   };
+  const press3d = key => document.querySelector('.stage canvas').dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
   await note('start');
   await set('clip', 'none');
   await set('state', 1);
@@ -68,6 +69,9 @@ file(APPEND ${WORK}/tried.html [=[
   await set('turn', true);
   await set('indenter', false);
   await set('member', 1);
+  await set('opacity', 0.4);
+  press3d('ArrowLeft');
+  await note('key');
   const canvas = document.querySelector('.stage canvas');
   let box = canvas.getBoundingClientRect();
   const mouse = (target, type, x, y, more) => target.dispatchEvent(new MouseEvent(type, { clientX: box.left + x, clientY: box.top + y, bubbles: true, button: 0, ...more }));
@@ -88,6 +92,27 @@ file(APPEND ${WORK}/tried.html [=[
     if (!/alpha/.test(document.getElementById('tip').textContent))
       chart.dispatchEvent(new MouseEvent('mousemove', { clientX: at.left + at.width / 2, clientY: at.top + at.height * y, bubbles: true }));
   root.dataset.hovered = document.getElementById('tip').textContent.replace(/\n/g, ' ');
+  // charts: closer, logarithmic, by keys, saved
+  const ticks = svg => [...svg.querySelectorAll('text')].map(t => t.textContent).join('|');
+  const press = (target, key) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
+  const place = chart.getBoundingClientRect(), drag = (type, fx, fy, target) => (target || chart).dispatchEvent(
+    new MouseEvent(type, { clientX: place.left + fx * place.width, clientY: place.top + fy * place.height, bubbles: true, button: 0 }));
+  const whole = ticks(chart);
+  drag('mousedown', 0.4, 0.3); drag('mousemove', 0.7, 0.6); drag('mouseup', 0.7, 0.6, window);
+  root.dataset.zoomed = ticks(chart) !== whole;
+  const button = text => [...chart.parentElement.querySelectorAll('button')].find(b => b.textContent === text);
+  button('whole').click();
+  root.dataset.whole = ticks(chart) === whole;
+  button('log y').click();
+  root.dataset.logarithmic = button('log y').getAttribute('aria-pressed') === 'true' && ticks(chart) !== whole;
+  button('log y').click();
+  document.getElementById('tip').hidden = true;
+  press(chart, 'ArrowRight');
+  root.dataset.walked = document.getElementById('tip').hidden ? '' : document.getElementById('tip').textContent.split('\n')[0];
+  root.dataset.saved = new DOMParser().parseFromString(L.savedSvg(chart), 'image/svg+xml').querySelector('parsererror') ? 'broken' : 'svg';
+  const first = data.charts.find(c => c.group === 'curves');
+  root.dataset.csv = L.csv(first).trim().split('\n').length - 1 === first.series.reduce((n, s) => n + s.x.length, 0);
+  root.dataset.unnamed = document.querySelectorAll('svg[role=img]:not([aria-label]), canvas[role=img]:not([aria-label])').length;
   root.dataset.tried = pictures.join(' ');
 })();
 </script>
@@ -101,7 +126,8 @@ if(NOT code EQUAL 0)
 endif()
 string(REGEX MATCH "<html[^>]*>" root "${dom}")
 message("${root}")
-foreach(expected "data-errors=\"\"" "data-ready=\"yes\"" "data-view=\"ready\"" "data-picked=\"displacement u_y [^\"]* mm" "data-hovered=\"alpha = ")
+foreach(expected "data-errors=\"\"" "data-ready=\"yes\"" "data-view=\"ready\"" "data-picked=\"displacement u_y [^\"]* mm" "data-hovered=\"alpha = " "data-zoomed=\"true\"" "data-whole=\"true\""
+    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"")
   if(NOT root MATCHES "${expected}")
     message(FATAL_ERROR "the page in the browser lacks ${expected}:\n${root}\n${log}")
   endif()
@@ -114,7 +140,7 @@ if(NOT root MATCHES "data-tried=\"([^\"]*)\"")
 endif()
 string(REPLACE " " ";" pictures "${CMAKE_MATCH_1}")
 list(LENGTH pictures n)
-expect_equal(${n} 19 "pictures taken")
+expect_equal(${n} 21 "pictures taken")
 set(before "")
 foreach(picture ${pictures})
   string(REGEX MATCH "=(.*)$" _ ${picture})
@@ -124,3 +150,50 @@ foreach(picture ${pictures})
   set(before ${CMAKE_MATCH_1})
 endforeach()
 message("${n} pictures, all different from the one before")
+
+# narrow, dark and printed: nothing wider than the screen, light text on dark, every part on paper
+file(COPY_FILE ${page} ${WORK}/looked.html)
+file(APPEND ${WORK}/looked.html [=[
+<script>
+setTimeout(() => {
+  const root = document.documentElement, colour = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number);
+  root.dataset.width = root.clientWidth;
+  root.dataset.wider = Math.max(0, root.scrollWidth - root.clientWidth);
+  root.dataset.dark = colour[0] + colour[1] + colour[2] < 150;
+  root.dataset.sentence = document.querySelector('.big').textContent;
+}, 500);
+</script>
+]=])
+macro(look name)
+  execute_process(COMMAND ${CHROMIUM} --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --virtual-time-budget=6000
+    --user-data-dir=${WORK}/browser_${name} --dump-dom ${ARGN} "file://${WORK}/looked.html" OUTPUT_VARIABLE dom ERROR_VARIABLE log TIMEOUT 120)
+  string(REGEX MATCH "<html[^>]*>" root "${dom}")
+  foreach(expected "data-errors=\"\"" "data-wider=\"0\"" "data-sentence=\"[^\"]*sphere of radius 20 mm pressed 0.2 mm along −y")
+    if(NOT root MATCHES "${expected}")
+      message(FATAL_ERROR "${name}: the page lacks ${expected}:\n${root}\n${log}")
+    endif()
+  endforeach()
+endmacro()
+look(narrow --window-size=390,844)
+if(NOT root MATCHES "data-width=\"390\"")
+  message("this chromium has no window as narrow as 390 pixels: seen at the least it has")
+endif()
+look(dark --window-size=1400,900 --blink-settings=preferredColorScheme=0)
+if(NOT root MATCHES "data-dark=\"true\"")
+  message(FATAL_ERROR "the page is not dark:\n${root}")
+endif()
+look(light --window-size=1400,900 --blink-settings=preferredColorScheme=1)
+if(NOT root MATCHES "data-dark=\"false\"")
+  message(FATAL_ERROR "the page is dark:\n${root}")
+endif()
+execute_process(COMMAND ${CHROMIUM} --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --virtual-time-budget=6000
+  --user-data-dir=${WORK}/browser_print --no-pdf-header-footer --print-to-pdf=${WORK}/page.pdf "file://${page}" OUTPUT_QUIET ERROR_QUIET TIMEOUT 120)
+find_program(PDFTOTEXT pdftotext)
+if(EXISTS ${WORK}/page.pdf AND PDFTOTEXT)
+  run(0 ${PDFTOTEXT} -layout ${WORK}/page.pdf -)
+  foreach(word "pressed 0.2 mm" "Deformed body" "Effective configs" "supports:")
+    expect_said("${word}")
+  endforeach()
+else()
+  message("skipped: the print, for want of pdftotext (Debian: poppler-utils)")
+endif()

@@ -1,6 +1,8 @@
 // Biaxial tests of a known law with noise that is correlated along each curve, for what intervals hold.
 #pragma once
 
+#include <algorithm>
+
 #include "base/random.hpp"
 #include "fit/fit.hpp"
 #include "support/laws.hpp"
@@ -29,6 +31,33 @@ inline FitProblem protocols(int n) {
     }
     q.tests.push_back(t);
   }
+  return q;
+}
+
+// Pulled to 1.3 in 0.5 s, held for 60 s in points that get sparser, back and held once more; branches of 0.1, 1 (of strength `middle`)
+// and 10 s.
+inline FitProblem relaxation_record(double middle) {
+  FitProblem q;
+  q.law = neo_hooke(0.05, 1e-6);
+  q.law.viscous = {{0.1, 0.4, BranchOf::all}, {1, middle, BranchOf::all}, {10, 0.2, BranchOf::all}};
+  q.free = {{"matrix.neo_hooke.a1", 0.05, 0, 10},
+            {"viscous[0].gamma", 0.4, 0, 10},
+            {"viscous[1].gamma", 0.3, 0, 10},
+            {"viscous[2].gamma", 0.2, 0, 10}};
+  Test t;
+  t.measure = StressMeasure::nominal;
+  const auto point = [&](double seconds, double stretch) {
+    t.time.push_back((t.time.empty() ? 0 : t.time.back()) + seconds), t.first.push_back(stretch);
+  };
+  point(0, 1);
+  for (double to : {1.3, 1.15}) {
+    const double from = t.first.back();
+    for (int i = 1; i <= 10; ++i) point(0.05, from + (to - from) * i / 10);
+    double step = 0.05;
+    for (double held = 0; held < 60; held += step) point(step = std::min(1.2 * step, 2.), to);
+  }
+  t.stress_x.resize(t.first.size());
+  if (model_stress(q.law, t, Dilatation::incompressible, t.stress_x.data())) q.tests = {t};
   return q;
 }
 

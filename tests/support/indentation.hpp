@@ -28,6 +28,7 @@ struct Indentation {
   bool extrapolate = true;
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   bool loose_base = false;  // the bottom may glide in x
+  ContactBy contact_by = ContactBy::by_count;
   NewtonOptions newton;
   std::optional<KinsolOptions> kinsol;                                                    // in place of newton
   std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
@@ -74,7 +75,7 @@ struct Indentation {
     Equilibrium body = equilibrium(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
                                    number_dofs(result.mesh.n_nodes(), held).dofs, threads);
     StaticsOptions options;
-    options.threads = threads, options.extrapolate = extrapolate;
+    options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by;
     Statics statics(body, {contact}, options);
     LoadPathOptions path;
     path.first = path.largest = step / depth;

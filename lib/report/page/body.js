@@ -94,16 +94,19 @@ L.bodyView = (place, all) => {
   const edges = box('edges', 'cells', true), fibres = box('fibres', 'fibres', false), indenter = box('indenter', 'indenters', true);
   const stateText = L.el('output'), missing = L.el('p'), scaleText = L.el('output'), atText = L.el('output');
   const views = ['oblique', 'from above', 'along z', 'along x'].map((name, i) => { const b = L.el('button', { type: 'button' }, name); b.onclick = () => look(i); return b; });
-  const save = L.el('button', { type: 'button' }, 'save picture');
-  panel.append(...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText),
+  const save = L.el('button', { type: 'button' }, 'save picture'), times = select('times', [1, 2, 4], ['as shown', '2 × as large', '4 × as large']);
+  const play = L.el('button', { type: 'button', id: 'play', 'aria-pressed': 'false' }, '▶ play'), opacity = range('opacity', 0.1, 1, 0.05, 1), opacityText = L.el('output');
+  const keys = L.el('p', { class: 'keys' }, 'With the picture in focus: arrows turn it, + and − come closer or go away, 0 fits it, space plays, [ and ] go through the states.');
+  panel.append(...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText), L.el('div', { class: 'row' }, play),
     labelled('displacement drawn', scale, scaleText), labelled('colours', L.el('div', { class: 'row' }, colours)), labelled('colour range', fit),
-    L.el('div', { class: 'row' }, low, '–', high), labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText),
-    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save), missing);
+    L.el('div', { class: 'row' }, low, '–', high), labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText), labelled('opacity', opacity, opacityText),
+    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save, times), keys, missing);
 
   // scene
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
-  renderer.setClearColor(0xffffff);
+  renderer.domElement.setAttribute('role', 'img');
+  renderer.domElement.setAttribute('tabindex', '0');
   renderer.localClippingEnabled = true;
   stage.append(renderer.domElement, over);
   const scene = new THREE.Scene(), camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
@@ -126,7 +129,7 @@ L.bodyView = (place, all) => {
   const plane = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
   const skin = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   const cutSkin = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
-  const line = new THREE.LineBasicMaterial({ color: 0x20262c, transparent: true, opacity: 0.42 });
+  const line = new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors, transparent: true, opacity: 0.5 });
   const fibreLine = new THREE.LineBasicMaterial({ color: 0xff3d7f });
   const steel = new THREE.MeshPhongMaterial({ color: 0xc2c8ce, shininess: 40, side: THREE.DoubleSide, transparent: true, opacity: 0.72, depthWrite: false });
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), skin), cut = new THREE.Mesh(new THREE.BufferGeometry(), cutSkin);
@@ -159,6 +162,7 @@ L.bodyView = (place, all) => {
     mesh.geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(2 * index.length), 2));
     wires.geometry = new THREE.BufferGeometry();
     wires.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * body.n), 3));
+    wires.geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * body.n), 3));
     wires.geometry.setIndex(new THREE.BufferAttribute(body.sides, 1));
     punches.children.slice().forEach(p => punches.remove(p));
     body.punches.forEach(p => {
@@ -208,6 +212,14 @@ L.bodyView = (place, all) => {
     for (const a of [position, normal, uv]) a.needsUpdate = true;
     wires.geometry.attributes.position.array.set(x);
     wires.geometry.attributes.position.needsUpdate = true;
+    const tint = wires.geometry.attributes.color;  // dark lines on bright colours, bright ones on dark
+    for (let k = 0; k < body.n; ++k) {
+      const c = L.colour(colours.value, uvOf(values[k])), bright = 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2] > 115, grey = bright ? 0.1 : 0.88;
+      tint.array[3 * k] = tint.array[3 * k + 1] = tint.array[3 * k + 2] = grey;
+    }
+    tint.needsUpdate = true;
+    for (const m of [skin, cutSkin]) { m.opacity = +opacity.value; m.transparent = m.opacity < 1; m.depthWrite = !m.transparent; }
+    opacityText.textContent = `${Math.round(100 * opacity.value)} %`;
     skin.map = cutSkin.map = scales[colours.value];
     skin.needsUpdate = cutSkin.needsUpdate = true;
     wires.visible = edges.c.checked;
@@ -291,9 +303,11 @@ L.bodyView = (place, all) => {
     const here = -plane.constant * plane.normal.getComponent(axis), end = plane.normal.getComponent(axis) > 0 ? body.box[1][axis] : body.box[0][axis];
     return to.setComponent(axis, (here + end) / 2 - middle.getComponent(axis));
   };
+  const fitted = () => look(-1);  // from where one looks now
   const look = which => {
     const directions = [[0.62, 0.62, 1], [0, 1, 1e-4], [0, 0, 1], [1, 0, 0]];
-    camera.position.copy(middle).addScaledVector(new THREE.Vector3(...directions[which]).normalize(), 2 * size);
+    const from = which < 0 ? camera.position.clone().sub(controls.target).normalize() : new THREE.Vector3(...directions[which]).normalize();
+    camera.position.copy(middle).addScaledVector(from, 2 * size);
     if (clip.value !== 'none') camera.position.addScaledVector(shift(), 1);
     controls.target.copy(middle).add(shift());
     camera.near = -5 * size;
@@ -312,7 +326,10 @@ L.bodyView = (place, all) => {
     }
     punches.visible && punches.children.forEach(p => {
       const points = p.geometry.attributes.position;
-      for (let i = 0; i < points.count; ++i) reach(new THREE.Vector3().fromBufferAttribute(points, i).add(p.position), 0);
+      for (let i = 0; i < points.count; ++i) {
+        const at = new THREE.Vector3().fromBufferAttribute(points, i).add(p.position);
+        if (at.distanceTo(middle) < 0.8 * size) reach(at, 0);  // of an indenter larger than the body what is near it
+      }
     });
     camera.zoom = 0.95 * Math.min((camera.right - camera.left - 170 * perPixel()) / (2 * w), (camera.top - camera.bottom - 80 * perPixel()) / (2 * h));
     camera.updateProjectionMatrix();
@@ -322,6 +339,7 @@ L.bodyView = (place, all) => {
   const resize = () => {
     const w = stage.clientWidth, h = stage.clientHeight, half = size / 2;
     renderer.setSize(w, h);
+    renderer.domElement.setAttribute('aria-label', `${body.label}: the deformed body`);
     camera.top = half;
     camera.bottom = -half;
     camera.left = -half * w / h;
@@ -345,10 +363,11 @@ L.bodyView = (place, all) => {
       pen.fillStyle = L.css(L.colour(colours.value, 1 - i / (height - 1)));
       pen.fillRect(left, top + i, width, 1.5);
     }
-    pen.strokeStyle = '#59636e';
+    const ink = L.dark() ? '#e6edf3' : '#1f2328', soft = L.dark() ? '#9da7b3' : '#59636e';
+    pen.strokeStyle = soft;
     pen.lineWidth = 1;
     pen.strokeRect(left, top, width, height);
-    pen.fillStyle = '#1f2328';
+    pen.fillStyle = ink;
     pen.font = font(14);
     pen.textAlign = 'right';
     L.withUnit(choice.label, choice.unit).replace(/ (\(|displacement)/g, '\n$1').split('\n').forEach((part, i, parts) => pen.fillText(part, w - 16, top - 16 - 18 * (parts.length - 1 - i)));
@@ -365,7 +384,7 @@ L.bodyView = (place, all) => {
     const inverse = new THREE.Matrix4().getInverse(camera.matrixWorld);
     ['x', 'y', 'z'].map((name, k) => ({ name, v: new THREE.Vector3(+(k === 0), +(k === 1), +(k === 2)).transformDirection(inverse) }))
       .sort((p, q) => p.v.z - q.v.z).forEach(({ name, v }) => {
-        pen.strokeStyle = '#1f2328';
+        pen.strokeStyle = ink;
         pen.lineWidth = 1.6;
         pen.beginPath(); pen.moveTo(...origin); pen.lineTo(origin[0] + 34 * v.x, origin[1] - 34 * v.y); pen.stroke();
         pen.textAlign = 'center';
@@ -377,7 +396,7 @@ L.bodyView = (place, all) => {
     pen.beginPath(); pen.moveTo(18, h - 22); pen.lineTo(18 + nice / mm, h - 22); pen.stroke();
     pen.textAlign = 'left';
     pen.fillText(`${L.number(nice)} mm`, 18, h - 30);
-    pen.fillStyle = '#59636e';
+    pen.fillStyle = soft;
     pen.fillText(`${body.label}   ${stateText.textContent}` + (+scale.value !== 1 ? `   displacement ${scaleText.textContent}` : ''), 18, 24);
   };
   let waiting = false;
@@ -387,6 +406,7 @@ L.bodyView = (place, all) => {
     waiting = true;
     later(() => {
       waiting = false;
+      renderer.setClearColor(L.dark() ? 0x0d1117 : 0xffffff);
       renderer.render(scene, camera);
       annotate();
       checksum();
@@ -419,17 +439,42 @@ L.bodyView = (place, all) => {
   });
   renderer.domElement.addEventListener('mouseleave', () => L.tip(''));
   save.onclick = () => {
+    const factor = +times.value, before = renderer.getPixelRatio();
+    const drawn = ratio => { renderer.setPixelRatio(ratio); resize(); renderer.render(scene, camera); annotate(); };
+    drawn(before * factor);
     const both = L.el('canvas', { width: over.width, height: over.height }), pen = both.getContext('2d');
     pen.drawImage(renderer.domElement, 0, 0);
     pen.drawImage(over, 0, 0);
-    both.toBlob(blob => {
-      const link = L.el('a', { download: `${body.label}_${choice.name}.png`.replace(/[^\w.+-]+/g, '_'), href: URL.createObjectURL(blob) });
-      link.click();
-    });
+    drawn(before);
+    both.toBlob(blob => L.give(blob, `${body.label}_${choice.name}.png`));
   };
 
-  member.oninput = () => { const keep = state.value; choose(); state.value = keep; update(); };
-  for (const control of [field, state, scale, fit, colours, clip, at, turn.c, edges.c, fibres.c, indenter.c]) control.oninput = update;
+  let timer = null;
+  const go = step => { state.value = (+state.value + step + body.states.length) % body.states.length; update(); };
+  play.onclick = () => {
+    const on = play.getAttribute('aria-pressed') === 'false';
+    play.setAttribute('aria-pressed', on);
+    play.textContent = on ? '⏸ stop' : '▶ play';
+    clearInterval(timer);
+    if (on) timer = setInterval(() => go(1), Math.max(60, 2500 / body.states.length));
+  };
+  const turned = (right, up) => {
+    const offset = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+    offset.theta -= right;
+    offset.phi = Math.min(Math.PI - 0.01, Math.max(0.01, offset.phi - up));
+    camera.position.copy(controls.target).add(new THREE.Vector3().setFromSpherical(offset));
+    controls.update();
+    draw();
+  };
+  const closer = factor => { camera.zoom *= factor; camera.updateProjectionMatrix(); draw(); };
+  const by = { ArrowLeft: () => turned(-0.1, 0), ArrowRight: () => turned(0.1, 0), ArrowUp: () => turned(0, 0.1), ArrowDown: () => turned(0, -0.1), '+': () => closer(1.15), '=': () => closer(1.15),
+    '-': () => closer(1 / 1.15), '0': () => fitted(), ' ': () => play.click(), '[': () => go(-1), ']': () => go(1) };
+  renderer.domElement.addEventListener('keydown', event => { if (by[event.key] && !event.ctrlKey && !event.metaKey) { event.preventDefault(); event.stopPropagation(); by[event.key](); } }, true);
+  L.redraws.push(() => { if (body) { resize(); renderer.setClearColor(L.dark() ? 0x0d1117 : 0xffffff); renderer.render(scene, camera); annotate(); } });
+
+  member.oninput = () => { const keep = state.value; choose(); state.value = keep; update(); fitted(); };
+  for (const control of [field, state, scale, fit, colours, at, opacity, edges.c, fibres.c, indenter.c]) control.oninput = update;
+  for (const control of [clip, turn.c]) control.oninput = () => { update(); fitted(); };  // what is left of the body fills the picture
   for (const end of [low, high]) end.oninput = () => { fit.value = 'own'; update(); };
   addEventListener('resize', () => { resize(); draw(); });
 

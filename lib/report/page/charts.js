@@ -3,6 +3,9 @@
 // Colours that stay apart for colour-blind readers: eight for names (Okabe and Ito), viridis where the series have an order.
 const L = {};
 L.names = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#000000', '#8c8c00'];
+L.namesOnDark = ['#4aa3e0', '#ff8a3d', '#2fc79a', '#e39ac6', '#8fd3ff', '#f5b83d', '#ffffff', '#c9c94a'];
+L.printing = false;
+L.dark = () => !L.printing && matchMedia('(prefers-color-scheme: dark)').matches;
 L.dashes = ['', '7 4', '2 3', '9 3 2 3'];
 // knots of the two scales, sRGB
 L.scales = {
@@ -24,7 +27,7 @@ L.number = (x, digits = 4) => {
   const s = a >= 1e5 || a < 1e-3 ? x.toExponential(digits - 1) : String(+x.toPrecision(digits));
   return s.replace('e', ' e').replace(/-/g, '−');
 };
-L.unit = u => (!u || u === '-' ? '' : { deg: '°', percent: '%' }[u] || u.replace('1/', '1/'));
+L.unit = u => (!u || u === '-' ? '' : { deg: '°', percent: '%' }[u] || u.replace('^2', '²').replace('^3', '³'));
 L.withUnit = (label, unit) => label + (L.unit(unit) ? ` (${L.unit(unit)})` : '');
 L.ticks = (low, high, wished = 5) => {
   const raw = (high - low) / wished, power = Math.pow(10, Math.floor(Math.log10(raw)));
@@ -49,7 +52,7 @@ L.tickTexts = ticks => {
 L.times = texts => texts.power === undefined ? '' : ` × 10${String(texts.power).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] || '⁻')}`;
 
 L.el = (name, attributes = {}, ...children) => {
-  const svg = ['svg', 'g', 'path', 'line', 'text', 'circle', 'rect'].includes(name);
+  const svg = ['svg', 'g', 'path', 'line', 'text', 'circle', 'rect', 'title', 'style'].includes(name);
   const e = svg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   for (const child of children) e.append(child);
@@ -65,11 +68,19 @@ L.tip = (text, event) => {
 };
 
 L.look = (chart, i) => {
-  const n = chart.series.length;
-  if (chart.ordered && n > 1) return { colour: L.css(L.colour('viridis', 0.92 * i / (n - 1))), dash: L.dashes[0] };
+  const n = chart.series.length, dark = L.dark(), names = dark ? L.namesOnDark : L.names, twin = chart.twins && chart.twins[i] >= 0;
+  if (chart.ordered && n > 1)
+    return { colour: L.css(L.colour('viridis', (dark ? 0.25 : 0) + (dark ? 0.75 : 0.92) * i / (n - 1))), dash: twin ? L.dashes[1 + i % 3] : L.dashes[0] };
   // a law has the colour of the points it was fitted to
   const pair = chart.group === 'fits' ? Math.floor(i / 2) : i;
-  return { colour: L.names[pair % 8], dash: L.dashes[Math.floor(pair / 8) % 4] };
+  return { colour: names[pair % 8], dash: L.dashes[twin ? 1 + i % 3 : Math.floor(pair / 8) % 4] };
+};
+// For each series the first one before it that it coincides with, to a line's width; -1: none.
+L.twinsOf = series => {
+  const lines = series.map(s => s.points ? [] : s.y.filter(v => v !== null)), all = lines.flat();
+  const width = 0.004 * (Math.max(...all) - Math.min(...all) || Math.abs(all[0]) || 1);
+  return series.map((s, i) => s.points ? -1 : series.findIndex((t, j) => j < i && !t.points && t.x.length === s.x.length && s.x.length > 1 &&
+    s.x.every((x, k) => x === t.x[k] && (s.y[k] === t.y[k] || Math.abs(s.y[k] - t.y[k]) < width))));
 };
 L.legend = (chart, shown) => {
   if (chart.series.length < 2) return '';
@@ -77,9 +88,9 @@ L.legend = (chart, shown) => {
     const look = L.look(chart, i), mark = L.el('svg', { viewBox: '0 0 24 10', style: 'width:24px' });
     mark.append(s.points ? L.el('circle', { cx: 12, cy: 5, r: 3.2, fill: 'none', stroke: look.colour, 'stroke-width': 1.6 })
       : L.el('line', { x1: 0, x2: 24, y1: 5, y2: 5, stroke: look.colour, 'stroke-width': 2.4, 'stroke-dasharray': look.dash }));
-    const item = L.el('span', {}, mark, s.name);
-    item.style.cursor = 'pointer';
-    item.onclick = () => { shown[i] = !shown[i]; item.style.opacity = shown[i] ? 1 : 0.35; shown.draw(); };
+    const twin = chart.twins && chart.twins[i] >= 0 ? ` (on ${chart.series[chart.twins[i]].name})` : '';
+    const item = L.el('button', { type: 'button', title: 'show or hide' }, mark, s.name + twin);
+    item.onclick = () => { shown[i] = !shown[i]; item.style.opacity = shown[i] ? 1 : 0.35; item.setAttribute('aria-pressed', shown[i]); shown.draw(); };
     return item;
   }));
 };
@@ -87,71 +98,201 @@ L.legend = (chart, shown) => {
 // a line with a band of its error about it
 L.banded = s => s.error && s.error.length > 0 && s.error.length === s.x.length;
 
+// An axis of a chart: ends, ticks and their words; `log` where all values that are shown are positive.
+L.axis = (values, log, zoom, isY) => {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) if (!log || v > 0) { low = Math.min(low, v); high = Math.max(high, v); }
+  if (zoom) [low, high] = zoom;
+  else if (log) { low = 10 ** Math.floor(Math.log10(low) + 1e-9); high = 10 ** Math.ceil(Math.log10(high) - 1e-9); if (low === high) high *= 10; }
+  else {
+    if (!(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high)))) { const half = Math.abs(low) * 0.1 || 0.5; low -= half; high += half; }
+    if (isY) {
+      const room = 0.05 * (high - low);
+      if (low > 0 && low < 0.3 * high) low = 0; else if (low !== 0) low -= room;
+      if (high < 0 && high > 0.3 * low) high = 0; else if (high !== 0) high += room;
+    }
+  }
+  const part = log ? v => Math.log(v / low) / Math.log(high / low) : v => (v - low) / (high - low);
+  const back = log ? f => low * (high / low) ** f : f => low + f * (high - low);
+  const decades = log ? Math.log10(high / low) : 0;
+  if (decades < 1.5) { const ticks = L.ticks(low, high, 5); return { low, high, part, back, ticks, texts: L.tickTexts(ticks) }; }
+  const ticks = [], every = Math.ceil(decades / 6);
+  for (let k = Math.ceil(Math.log10(low) - 1e-9); k <= Math.log10(high) + 1e-9; k += every) ticks.push(10 ** k);
+  return { low, high, part, back, ticks, texts: ticks.map(t => `10${L.raised(Math.round(Math.log10(t)))}`) };
+};
+L.raised = n => String(n).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] || '⁻');
+
+// A chart: drag a part to look closer, double click or `whole` to see all; arrows lead along the points.
 L.chart = chart => {
-  const W = 600, H = 350, box = { l: 74, r: 14, t: 10, b: 50 };
-  const figure = L.el('figure', { class: 'chart' }, L.el('figcaption', {}, chart.title));
-  const shown = chart.series.map(() => true), svg = L.el('svg', { viewBox: `0 0 ${W} ${H}` });
-  let points = [];
-  shown.draw = () => {
-    svg.replaceChildren();
-    points = [];
-    const all = chart.series.filter((s, i) => shown[i]);
-    const xs = all.flatMap(s => s.x).filter(v => v !== null);
-    const ys = all.flatMap(s => L.banded(s) ? s.y.flatMap((y, k) => [y - s.error[k], y + s.error[k]]) : s.y).filter(v => v !== null);
-    if (!ys.length) return;
-    const reach = values => {
-      let low = values.reduce((a, b) => Math.min(a, b)), high = values.reduce((a, b) => Math.max(a, b));
-      if (!(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high)))) { const half = Math.abs(low) * 0.1 || 0.5; low -= half; high += half; }
-      return [low, high];
-    };
-    const [x0, x1] = reach(xs);
-    let [y0, y1] = reach(ys);
-    const room = 0.05 * (y1 - y0);
-    if (y0 > 0 && y0 < 0.3 * y1) y0 = 0; else if (y0 !== 0) y0 -= room;
-    if (y1 < 0 && y1 > 0.3 * y0) y1 = 0; else if (y1 !== 0) y1 += room;
-    const px = x => box.l + (x - x0) / (x1 - x0) * (W - box.l - box.r), py = y => H - box.b - (y - y0) / (y1 - y0) * (H - box.t - box.b);
-    const xt = L.ticks(x0, x1, 6), yt = L.ticks(y0, y1), xw = L.tickTexts(xt), yw = L.tickTexts(yt);
-    yt.forEach((y, i) => svg.append(L.el('line', { x1: box.l, x2: W - box.r, y1: py(y), y2: py(y), stroke: y === 0 ? '#9aa4ae' : '#e4e8ec' }),
-      L.el('text', { x: box.l - 8, y: py(y) + 4, 'text-anchor': 'end' }, yw[i])));
-    xt.forEach((x, i) => svg.append(L.el('line', { x1: px(x), x2: px(x), y1: H - box.b, y2: H - box.b + 5, stroke: '#59636e' }),
-      L.el('text', { x: px(x), y: H - box.b + 19, 'text-anchor': 'middle' }, xw[i])));
-    svg.append(L.el('path', { d: `M${box.l} ${box.t}V${H - box.b}H${W - box.r}`, fill: 'none', stroke: '#59636e' }),
-      L.el('text', { x: (box.l + W - box.r) / 2, y: H - 10, 'text-anchor': 'middle' }, L.withUnit(chart.xLabel, chart.xUnit) + L.times(xw)),
+  const W = 480, H = 300, box = { l: 70, r: 20, t: 10, b: 48 };
+  chart.twins = L.twinsOf(chart.series);
+  const figure = L.el('figure', { class: 'chart' });
+  const shown = chart.series.map(() => true), svg = L.el('svg', { viewBox: `0 0 ${W} ${H}`, role: 'img', tabindex: 0 });
+  svg.setAttribute('aria-label', `${chart.title}: ${chart.yLabel} over ${chart.xLabel}; ${chart.series.map(s => s.name).join(', ')}`);
+  const state = { points: [], zoom: null, logX: false, logY: false, x: null, y: null };
+  const positive = values => values.some(v => v > 0) && !values.some(v => v !== null && v < 0);
+  const frame = () => {
+    const { x, y } = state;
+    const px = v => box.l + x.part(v) * (W - box.l - box.r), py = v => H - box.b - y.part(v) * (H - box.t - box.b);
+    y.ticks.forEach((v, i) => svg.append(L.el('line', { x1: box.l, x2: W - box.r, y1: py(v), y2: py(v), class: v === 0 ? 'zero' : 'rule' }),
+      L.el('text', { x: box.l - 8, y: py(v) + 4, 'text-anchor': 'end' }, y.texts[i])));
+    x.ticks.forEach((v, i) => svg.append(L.el('line', { x1: px(v), x2: px(v), y1: H - box.b, y2: H - box.b + 5, class: 'axis' }),
+      L.el('text', { x: px(v), y: H - box.b + 19, 'text-anchor': 'middle' }, x.texts[i])));
+    svg.append(L.el('path', { d: `M${box.l} ${box.t}V${H - box.b}H${W - box.r}`, class: 'axis' }),
+      L.el('text', { x: (box.l + W - box.r) / 2, y: H - 10, 'text-anchor': 'middle' }, L.withUnit(chart.xLabel, chart.xUnit) + L.times(x.texts)),
       L.el('text', { transform: `translate(16 ${(box.t + H - box.b) / 2}) rotate(-90)`, 'text-anchor': 'middle' },
-        (chart.yLabel.length > 38 ? L.unit(chart.yUnit) : L.withUnit(chart.yLabel, chart.yUnit)) + L.times(yw)));  // the title says it
-    chart.series.forEach((s, i) => {
-      if (!shown[i]) return;
-      const look = L.look(chart, i);
-      if (L.banded(s)) {
-        const ends = sign => s.x.map((x, k) => `${px(x).toFixed(1)} ${py(s.y[k] + sign * s.error[k]).toFixed(1)}`);
-        svg.append(L.el('path', { d: 'M' + [...ends(1), ...ends(-1).reverse()].join('L') + 'Z', fill: look.colour, 'fill-opacity': 0.18, class: 'band' }));
-      }
-      let d = '', pen = false;
-      s.x.forEach((x, k) => {
-        const y = s.y[k];
-        if (x === null || y === null) { pen = false; return; }
-        points.push({ px: px(x), py: py(y), x, y, name: s.name, colour: look.colour, error: L.banded(s) ? s.error[k] : null });
-        if (s.points) svg.append(L.el('circle', { cx: px(x), cy: py(y), r: 3.2, fill: 'none', stroke: look.colour, 'stroke-width': 1.6 }));
-        d += (pen ? 'L' : 'M') + px(x).toFixed(1) + ' ' + py(y).toFixed(1);
-        pen = true;
-      });
-      if (!s.points) svg.append(L.el('path', { d, fill: 'none', stroke: look.colour, 'stroke-width': 2, 'stroke-dasharray': look.dash,
-        'stroke-linejoin': 'round' }));
-      if (!s.points && s.x.length < 12) s.x.forEach((x, k) => s.y[k] !== null &&
-        svg.append(L.el('circle', { cx: px(x), cy: py(s.y[k]), r: 2.6, fill: look.colour })));
-    });
-    svg.append(L.el('circle', { r: 5, fill: 'none', 'stroke-width': 2, class: 'here', visibility: 'hidden' }));
+        (chart.yLabel.length > 30 ? L.unit(chart.yUnit) : L.withUnit(chart.yLabel, chart.yUnit)) + L.times(y.texts)));  // the title says it
+    return { px, py };
   };
-  L.hover(svg, W, () => points, chart.xLabel, chart.xUnit, chart.yUnit);
-  const legend = L.legend(chart, shown);
-  shown.draw();
-  figure.append(legend, svg);
+  const line = (s, look, { px, py }, within) => {
+    const usable = k => s.x[k] !== null && s.y[k] !== null && (!state.logX || s.x[k] > 0) && (!state.logY || s.y[k] > 0);
+    if (L.banded(s) && !state.logX && !state.logY) {
+      const ends = sign => s.x.map((x, k) => `${px(x).toFixed(1)} ${py(s.y[k] + sign * s.error[k]).toFixed(1)}`);
+      within.append(L.el('path', { d: 'M' + [...ends(1), ...ends(-1).reverse()].join('L') + 'Z', fill: look.colour, 'fill-opacity': 0.18, class: 'band' }));
+    }
+    let d = '', pen = false;
+    s.x.forEach((x, k) => {
+      if (!usable(k)) { pen = false; return; }
+      const at = { px: px(x), py: py(s.y[k]) };
+      state.points.push({ ...at, x, y: s.y[k], name: s.name, colour: look.colour, error: L.banded(s) ? s.error[k] : null });
+      if (s.points) within.append(L.el('circle', { cx: at.px, cy: at.py, r: 3.2, fill: 'none', stroke: look.colour, 'stroke-width': 1.6 }));
+      d += (pen ? 'L' : 'M') + at.px.toFixed(1) + ' ' + at.py.toFixed(1);
+      pen = true;
+    });
+    if (s.points) return;
+    within.append(L.el('path', { d, fill: 'none', stroke: look.colour, 'stroke-width': 2, 'stroke-dasharray': look.dash, 'stroke-linejoin': 'round' }));
+    if (s.x.length < 12) s.x.forEach((x, k) => usable(k) && within.append(L.el('circle', { cx: px(x), cy: py(s.y[k]), r: 2.6, fill: look.colour })));
+  };
+  shown.draw = () => {
+    svg.replaceChildren(L.el('title', {}, chart.title));
+    state.points = [];
+    const all = chart.series.filter((s, i) => shown[i]), number = v => v !== null;
+    const xs = all.flatMap(s => s.x).filter(number);
+    const ys = all.flatMap(s => L.banded(s) && !state.logY ? s.y.flatMap((y, k) => [y - s.error[k], y + s.error[k]]) : s.y).filter(number);
+    if (!ys.length) return;
+    state.x = L.axis(xs, state.logX, state.zoom && state.zoom.x, false);
+    state.y = L.axis(ys, state.logY, state.zoom && state.zoom.y, true);
+    // a drawing in the drawing ends at its own edges
+    const room = 5, left = box.l - room, top = box.t - room, width = W - box.l - box.r + 2 * room, height = H - box.t - box.b + 2 * room;
+    const to = frame(), within = L.el('svg', { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}`, style: `width:${width}px;height:${height}px` });
+    svg.append(within);
+    chart.series.forEach((s, i) => shown[i] && line(s, L.look(chart, i), to, within));
+    for (const at of chart.marks || []) {  // lines that the curves are compared with
+      const y = to.py(at.y);
+      if (y < box.t || y > H - box.b) continue;
+      svg.append(L.el('line', { x1: box.l, x2: W - box.r, y1: y, y2: y, class: 'mark' }), L.el('text', { x: W - box.r - 4, y: y - 5, 'text-anchor': 'end' }, at.name));
+    }
+    state.points = state.points.filter(p => p.px >= box.l - 1 && p.px <= W - box.r + 1 && p.py >= box.t - 1 && p.py <= H - box.b + 1);
+    svg.append(L.el('rect', { class: 'zoom', visibility: 'hidden' }), L.el('circle', { r: 5, fill: 'none', 'stroke-width': 2, class: 'here', visibility: 'hidden' }));
+  };
+  const legendPlace = L.el('div');
+  const redraw = () => { shown.draw(); const legend = L.legend(chart, shown); legendPlace.replaceChildren(legend); };
+  const xs = chart.series.flatMap(s => s.x), ys = chart.series.flatMap(s => s.y);
+  const toggle = (text, key, possible) => {
+    if (!possible) return '';
+    const b = L.el('button', { type: 'button', 'aria-pressed': 'false', title: `logarithmic ${key === 'logX' ? 'x' : 'y'}` }, text);
+    b.onclick = () => { state[key] = !state[key]; state.zoom = null; b.setAttribute('aria-pressed', state[key]); shown.draw(); };
+    return b;
+  };
+  const whole = L.el('button', { type: 'button', title: 'all of it again' }, 'whole');
+  whole.onclick = () => { state.zoom = null; shown.draw(); };
+  figure.append(L.el('figcaption', {}, L.el('span', {}, chart.title), L.el('span', { class: 'tools' }, toggle('log x', 'logX', positive(xs)), toggle('log y', 'logY', positive(ys)), whole,
+    ...L.savers(chart.title, svg, () => L.csv(chart)))), legendPlace, svg);
+  L.zoomed(svg, W, H, box, state, () => shown.draw());
+  L.hover(svg, W, () => state.points, chart.xLabel, chart.xUnit, chart.yUnit);
+  L.redraws.push(redraw);
+  redraw();
   return figure;
 };
+
+// drag a rectangle
+L.zoomed = (svg, W, H, box, state, draw) => {
+  let from = null;
+  const at = event => {
+    const r = svg.getBoundingClientRect(), k = W / r.width;
+    return [Math.min(W - box.r, Math.max(box.l, (event.clientX - r.left) * k)), Math.min(H - box.b, Math.max(box.t, (event.clientY - r.top) * k))];
+  };
+  svg.addEventListener('mousedown', event => { if (event.button === 0) { from = at(event); event.preventDefault(); svg.focus({ preventScroll: true }); } });
+  svg.addEventListener('mousemove', event => {
+    const rect = svg.querySelector('.zoom');
+    if (!from || !rect) return;
+    const to = at(event), values = { x: Math.min(from[0], to[0]), y: Math.min(from[1], to[1]), width: Math.abs(to[0] - from[0]), height: Math.abs(to[1] - from[1]), visibility: 'visible' };
+    for (const [key, value] of Object.entries(values)) rect.setAttribute(key, value);
+  });
+  addEventListener('mouseup', event => {
+    if (!from) return;
+    const to = at(event), far = Math.abs(to[0] - from[0]) > 8 && Math.abs(to[1] - from[1]) > 8, share = (p, a, b) => (p - a) / (b - a);
+    if (far && state.x) {
+      const x = [from[0], to[0]].sort((a, b) => a - b).map(p => state.x.back(share(p, box.l, W - box.r)));
+      const y = [from[1], to[1]].sort((a, b) => b - a).map(p => state.y.back(share(p, H - box.b, box.t)));
+      state.zoom = { x, y };
+    }
+    from = null;
+    draw();
+  });
+  svg.addEventListener('dblclick', () => { state.zoom = null; draw(); });
+};
+
+// What a chart shows, saved: the numbers, the drawing, a picture of twice its size.
+L.csv = chart => {
+  const cell = text => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  const head = [`${chart.xLabel}${chart.xUnit && chart.xUnit !== '-' ? ` ${chart.xUnit}` : ''}`, 'series', `${chart.yLabel}${chart.yUnit && chart.yUnit !== '-' ? ` ${chart.yUnit}` : ''}`];
+  return [head.map(cell).join(','), ...chart.series.flatMap(s => s.x.map((x, k) => [x, cell(s.name), s.y[k]].map(v => v === null ? '' : v).join(',')))].join('\n') + '\n';
+};
+L.savedSvg = svg => {
+  L.printing = true;  // light, whatever the screen is
+  L.redraws.forEach(draw => draw());
+  const copy = svg.cloneNode(true), [, , w, h] = svg.getAttribute('viewBox').split(' ');
+  L.printing = false;
+  L.redraws.forEach(draw => draw());
+  copy.querySelectorAll('.zoom, .here').forEach(e => e.remove());
+  for (const [key, value] of Object.entries({ width: w, height: h })) copy.setAttribute(key, value);
+  copy.prepend(L.el('style', {}, 'text{font:12.5px "Liberation Sans",Arial,Helvetica,sans-serif;fill:#1f2328}.axis{stroke:#59636e;fill:none}.rule{stroke:#e4e8ec}.zero{stroke:#9aa4ae}.mark{stroke:#59636e;stroke-dasharray:5 4}.halo{stroke:#fff;stroke-width:4;paint-order:stroke}'));
+  return new XMLSerializer().serializeToString(copy);
+};
+L.give = (blob, name) => { const link = L.el('a', { download: name.replace(/[^\w.+-]+/g, '_'), href: URL.createObjectURL(blob) }); link.click(); };
+L.savers = (title, svg, csv) => {
+  const button = (text, save) => { const b = L.el('button', { type: 'button', title: `save as ${text}` }, text); b.onclick = save; return b; };
+  const png = () => {
+    const image = new Image(), [, , w, h] = svg.getAttribute('viewBox').split(' ').map(Number);
+    image.onload = () => {
+      const canvas = L.el('canvas', { width: 3 * w, height: 3 * h }), pen = canvas.getContext('2d');
+      pen.fillStyle = '#fff';
+      pen.fillRect(0, 0, canvas.width, canvas.height);
+      pen.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob(blob => L.give(blob, `${title}.png`));
+    };
+    image.src = 'data:image/svg+xml;charset=utf-8,' + encodeURIComponent(L.savedSvg(svg));
+  };
+  return [button('CSV', () => L.give(new Blob([csv()], { type: 'text/csv' }), `${title}.csv`)),
+    button('SVG', () => L.give(new Blob([L.savedSvg(svg)], { type: 'image/svg+xml' }), `${title}.svg`)), button('PNG', png)];
+};
+// drawings whose colours follow the screen and the printer
+L.redraws = [];
+L.redrawAll = () => L.redraws.forEach(draw => draw());
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', L.redrawAll);
+addEventListener('beforeprint', () => { L.printing = true; L.redrawAll(); document.querySelectorAll('details').forEach(d => { d.dataset.open = d.open; d.open = true; }); });
+addEventListener('afterprint', () => { L.printing = false; L.redrawAll(); document.querySelectorAll('details').forEach(d => { d.open = d.dataset.open === 'true'; }); });
 
 // the nearest point of all series, in its words
 L.hover = (svg, W, points, xLabel, xUnit, yUnit) => {
   const hide = () => { const here = svg.querySelector('.here'); here && here.setAttribute('visibility', 'hidden'); L.tip(''); };
+  const words = p => `${p.name}\n${xLabel} = ${L.number(p.x)} ${L.unit(xUnit)}\n${L.number(p.y)}${p.error ? ` ± ${L.number(p.error, 2)}` : ''} ${L.unit(yUnit)}`;
+  const show = (p, event) => {
+    const here = svg.querySelector('.here');
+    for (const [key, value] of Object.entries({ cx: p.px, cy: p.py, stroke: p.colour, visibility: 'visible' })) here.setAttribute(key, value);
+    L.tip(words(p), event);
+  };
+  let walked = -1;
+  svg.onblur = hide;
+  svg.addEventListener('keydown', event => {
+    const all = points(), step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step || !all.length) return;
+    event.preventDefault();
+    walked = Math.max(0, Math.min(all.length - 1, walked + step));
+    const p = all[walked], r = svg.getBoundingClientRect(), k = r.width / W;
+    show(p, { clientX: r.left + p.px * k, clientY: r.top + p.py * k });
+  });
   svg.onmouseleave = hide;
   svg.onmousemove = event => {
     const r = svg.getBoundingClientRect(), k = W / r.width, x = (event.clientX - r.left) * k, y = (event.clientY - r.top) * k;
@@ -161,9 +302,7 @@ L.hover = (svg, W, points, xLabel, xUnit, yUnit) => {
       if (d < near) { near = d; best = p; }
     }
     if (!best) return hide();
-    const here = svg.querySelector('.here');
-    for (const [key, value] of Object.entries({ cx: best.px, cy: best.py, stroke: best.colour, visibility: 'visible' })) here.setAttribute(key, value);
-    L.tip(`${best.name}\n${xLabel} = ${L.number(best.x)} ${L.unit(xUnit)}\n${L.number(best.y)}${best.error ? ` ± ${L.number(best.error, 2)}` : ''} ${L.unit(yUnit)}`, event);
+    show(best, event);
   };
 };
 
@@ -171,28 +310,30 @@ L.hover = (svg, W, points, xLabel, xUnit, yUnit) => {
 L.polar = polar => {
   const W = 480, H = 440, cx = W / 2, cy = H / 2 + 4, R = 165;
   const chart = { series: polar.series, group: 'polar', ordered: false };
-  const figure = L.el('figure', { class: 'chart' }, L.el('figcaption', {}, `${polar.title} over ${polar.axis}${L.unit(polar.unit) ? `, ${L.unit(polar.unit)}` : ''}`));
-  const svg = L.el('svg', { viewBox: `0 0 ${W} ${H}` }), shown = polar.series.map(() => true);
+  const title = `${polar.title} over ${polar.axis}${L.unit(polar.unit) ? `, ${L.unit(polar.unit)}` : ''}`, figure = L.el('figure', { class: 'chart' });
+  const svg = L.el('svg', { viewBox: `0 0 ${W} ${H}`, role: 'img', tabindex: 0 }), shown = polar.series.map(() => true);
+  svg.setAttribute('aria-label', title);
+  const middle = L.el('div', { class: 'residuals' }), fromZero = L.el('button', { type: 'button', 'aria-pressed': 'false' }, 'from zero');
   const half = Math.max(...polar.angle) <= 180 && Math.min(...polar.angle) >= 0;
   let points = [];
   shown.draw = () => {
-    svg.replaceChildren();
+    svg.replaceChildren(L.el('title', {}, title));
     points = [];
     const values = polar.series.filter((s, i) => shown[i]).flatMap(s => s.y);
     if (!values.length) return;
     let low = Math.min(0, ...values), high = Math.max(0, ...values);
     if (high === low) high = 1;
     const spread = Math.max(...values) - Math.min(...values);
-    if (low === 0 && spread < 0.3 * high && spread > 0) low = Math.min(...values) - spread;  // far from zero: look closer
+    if (fromZero.getAttribute('aria-pressed') === 'true') { /* as asked */ } else if (low === 0 && spread < 0.3 * high && spread > 0) low = Math.min(...values) - spread;  // far from zero: look closer
     else if (high === 0 && spread < 0.3 * -low && spread > 0) high = Math.max(...values) + spread;
     const ticks = L.ticks(low, high, 4), step = ticks[1] - ticks[0];
     low = Math.min(low, ticks[0]) - (ticks[0] > low ? 0 : 0.4 * step);
     const r = v => R * (v - low) / (high - low);
-    ticks.forEach(t => svg.append(
-      L.el('circle', { cx, cy, r: Math.max(0, r(t)), fill: 'none', stroke: t === 0 ? '#59636e' : '#d8dee4', 'stroke-width': t === 0 ? 1.4 : 1 })));
+    middle.textContent = low === 0 ? '' : `the middle is ${L.number(low, 3)} ${L.unit(polar.unit)}, not zero`;
+    ticks.forEach(t => svg.append(L.el('circle', { cx, cy, r: Math.max(0, r(t)), fill: 'none', class: t === 0 ? 'zero' : 'rule' })));
     for (let a = 0; a < 360; a += 30) {
       const c = Math.cos(a * Math.PI / 180), s = Math.sin(a * Math.PI / 180);
-      svg.append(L.el('line', { x1: cx, y1: cy, x2: cx + (R + 8) * c, y2: cy - (R + 8) * s, stroke: '#e4e8ec' }),
+      svg.append(L.el('line', { x1: cx, y1: cy, x2: cx + (R + 8) * c, y2: cy - (R + 8) * s, class: 'rule' }),
         L.el('text', { x: cx + (R + 26) * c, y: cy - (R + 22) * s + 4, 'text-anchor': 'middle' }, a + '°'));
     }
     const words = L.tickTexts(ticks), slant = 15 * Math.PI / 180;
@@ -207,17 +348,21 @@ L.polar = polar => {
       svg.append(L.el('path', { d: 'M' + at.map(p => `${p.px.toFixed(1)} ${p.py.toFixed(1)}`).join('L') + (half ? 'Z' : ''), fill: 'none',
         stroke: look.colour, 'stroke-width': 2, 'stroke-dasharray': look.dash || L.dashes[i % 4] }));
       at.forEach(p => {
-        svg.append(L.el('circle', { cx: p.px, cy: p.py, r: 3.6, fill: p.computed ? look.colour : '#fff', stroke: look.colour, 'stroke-width': 1.4 }));
+        svg.append(L.el('circle', { cx: p.px, cy: p.py, r: 3.6, fill: p.computed ? look.colour : L.dark() ? '#0d1117' : '#fff', stroke: look.colour, 'stroke-width': 1.4 }));
         points.push({ px: p.px, py: p.py, x: p.a, y: p.v, name: s.name, colour: look.colour });
       });
     });
     ticks.forEach((t, i) => r(t) > 12 && svg.append(L.el('text', { x: cx + r(t) * Math.cos(slant), y: cy - r(t) * Math.sin(slant) + 4, 'text-anchor': 'middle',
-      stroke: '#fff', 'stroke-width': 4, 'paint-order': 'stroke', style: 'fill:#59636e' }, words[i])));
+      class: 'halo' }, words[i])));
     svg.append(L.el('circle', { r: 6, fill: 'none', 'stroke-width': 2, class: 'here', visibility: 'hidden' }));
   };
   L.hover(svg, W, () => points, polar.axis, 'deg', polar.unit);
-  shown.draw();
-  figure.append(L.legend(chart, shown), svg);
+  fromZero.onclick = () => { fromZero.setAttribute('aria-pressed', fromZero.getAttribute('aria-pressed') === 'false'); shown.draw(); };
+  const csv = () => L.csv({ ...chart, xLabel: polar.axis, xUnit: 'deg', yLabel: polar.title, yUnit: polar.unit, series: polar.series.map(s => ({ ...s, x: polar.angle })) });
+  const legend = L.el('div'), redraw = () => { shown.draw(); legend.replaceChildren(L.legend(chart, shown)); };
+  L.redraws.push(redraw);
+  redraw();
+  figure.append(L.el('figcaption', {}, L.el('span', {}, title), L.el('span', { class: 'tools' }, fromZero, ...L.savers(title, svg, csv))), legend, svg, middle);
   for (const x of polar.residuals)
     figure.append(L.el('div', { class: 'residuals' }, `${x.says}: holds to ${L.number(100 * x.value, 2)} % over ${x.pairs} pairs of angles`));
   return figure;

@@ -1,0 +1,1 @@
+version = "0.2.0"  # that of CMakeLists.txt

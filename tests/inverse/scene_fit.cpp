@@ -1,0 +1,275 @@
+// Parameters from scenes: what is read of a path, what a file may say, fits of data that were made up, what is refused.
+#include "inverse/inverse_fit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "config/reader.hpp"
+#include "inverse/scene_data.hpp"
+#include "mesh/select.hpp"
+#include "run/body_mesh.hpp"
+
+using namespace langer;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string folder = BINARY_DIR "/inverse";
+
+void write(const std::string& name, const std::string& text) {
+  fs::create_directories(folder);
+  std::ofstream(folder + "/" + name) << text;
+}
+
+// a coarse section under a sphere, forty cells
+constexpr const char* solve_yaml =
+    "mesh: {geometry: {section: {of: axisymmetric, size: [6, 3], divisions: [10, 4], centre: {edge: 0.3, within: 1.5}}}, points: {beside: [3, 3, 0]}}\n"
+    "supports: [{on: bottom, hold: [x, y]}]\n"
+    "contacts:\n  sphere:\n    on: top\n    rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}\n    motion: [{t: 1, to: [0, -1, 0]}]\n"
+    "material: {matrix: {yeoh: {a1: 0.012, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\n"
+    "stability: off\npath: {steps: 5}\n";
+
+constexpr const char* law =
+    "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.02}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
+constexpr const char* three = "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\n";
+
+Loaded<FitConfig> read(const std::string& yaml) {
+  write("solve.yaml", solve_yaml);
+  return read_config<FitConfig>(parse_yaml(yaml, "fit.yaml", folder));
+}
+
+// the force over travel, and the displacement beside, of the scene with its own material
+ForwardPath truth(double a1 = 0.012) {
+  write("solve.yaml", solve_yaml);
+  auto loaded = read_config<SolveConfig>(load_yaml(folder + "/solve.yaml"));
+  ForwardInput input{*loaded.config.material};
+  std::get<Yeoh>(input.law.matrix[0]).a1 = a1;
+  ForwardRun run(loaded.config, loaded.where, 0);
+  Observation beside{Observation::Of::displacement, 1};
+  beside.nodes = run.mesh().node_sets.at("beside"), beside.weights = {1};
+  run.observe({Observation{}, beside}, {});
+  return run.solve(input);
+}
+
+void write_force(const std::string& name, const ForwardPath& path, double touch = 0, double offset = 0, double compliance = 0) {
+  std::string text = fmt::format("travel_mm,force_mN,beside_um\n{},{},0\n", touch + compliance * offset, 1e3 * offset);
+  for (std::size_t i = 0; i < path.t.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double force = path.values(k, 0);
+    text += fmt::format("{},{},{}\n", path.t[i] + touch + compliance * force, 1e3 * (force + offset), 1e3 * path.values(k, 1));
+  }
+  write(name, text);
+}
+
+struct Found {
+  FitResult fit;
+  FitRecord record;
+  int runs = 0;
+};
+Found fitted(const std::string& yaml, const std::string& journal = "", std::vector<std::string>* said = nullptr) {
+  const auto loaded = read(yaml);
+  FitProblem problem = fit_problem(loaded.config);
+  InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {}, journal.empty() ? "" : folder + "/" + journal);
+  Found found{inverse.search()};
+  found.record = FitRecord{};
+  for (std::size_t i = 0; i < problem.free.size(); ++i) found.record.parameters.push_back({problem.free[i].key, "-"});
+  const auto lines = inverse.add_curves(found.fit, found.record);
+  if (said) *said = lines;
+  found.runs = inverse.runs();
+  return found;
+}
+
+std::string refusal(const std::string& yaml) {
+  try {
+    fitted(yaml);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "accepted";
+}
+
+void holds(const std::string& said, const std::string& part) {
+  CAPTURE(said);
+  CHECK(said.find(part) != std::string::npos);
+}
+
+constexpr const char* force =
+    "data: [{kind: scene, solve: solve.yaml, file: force.csv, columns: {u_ind: travel_mm, force: force_mN}";
+
+}  // namespace
+
+TEST_CASE("A cubic along a path is read exactly, with its rate, from either side of a kink, and rest is zero") {
+  const std::vector<double> t{0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 1};
+  const auto cubic = [](double x) { return x * (1 + x * (2 - 3 * x)); };
+  const auto of = [&](const std::vector<std::pair<Eigen::Index, double>>& weights, bool kinked) {
+    double sum = 0;
+    for (const auto& [i, w] : weights) {
+      const double x = t[static_cast<std::size_t>(i)];
+      sum += w * (kinked && x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x));
+    }
+    return sum;
+  };
+  for (double x : {0.03, 0.1, 0.3, 0.45, 0.62, 0.97, 1.0}) {
+    CAPTURE(x);
+    const PathPlace smooth = place_on(t, {0, 1}, x);
+    CHECK(of(smooth.value, false) == doctest::Approx(cubic(x)).epsilon(1e-12));
+    CHECK(of(smooth.rate, false) == doctest::Approx(1 + 4 * x - 9 * x * x).epsilon(1e-11));
+    const PathPlace kink = place_on(t, {0, 0.5, 1}, x);
+    CHECK(of(kink.value, true) == doctest::Approx(x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x)).epsilon(1e-12));
+  }
+  CHECK(place_on(t, {0, 1}, -0.1).value.empty());
+  CHECK(place_on(t, {0, 1}, 1.04).exists);
+  CHECK_FALSE(place_on(t, {0, 1}, 1.06).exists);
+  CHECK_FALSE(place_on({0.1, 0.2}, {0, 1}, 0.5).exists);
+}
+
+TEST_CASE("A history that comes back is followed in its order") {
+  Abscissa over;
+  over.t = {0, 0.5, 1}, over.s = {0, 2, 0};
+  std::size_t piece = 0;
+  CHECK(*over.find(1, piece, 0) == doctest::Approx(0.25));
+  CHECK(*over.find(2, piece, 0) == doctest::Approx(0.5));
+  piece = 1;
+  CHECK(*over.find(1, piece, 0) == doctest::Approx(0.75));
+  CHECK(over.rate(1) == doctest::Approx(-0.25));
+  CHECK_FALSE(over.find(2.1, piece, 0.01));
+}
+
+TEST_CASE("A place on the surface is found where its shape functions put it, on a block and on a section") {
+  for (const char* yaml : {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
+                           "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",
+                           "geometry: {section: {of: axisymmetric, size: [6, 2], divisions: [5, 2]}}\n"}) {
+    CAPTURE(yaml);
+    SolveConfig config;
+    config.mesh = read_config<MeshConfig>(parse_yaml(yaml, "mesh.yaml")).config;
+    const Mesh mesh = body_mesh(config, "", [](const std::string&) { return Place{}; });
+    const double z = mesh.section ? 0 : 1.37;
+    for (double x : {0.4, 2.5, 5.9})
+      for (double y : {std::nan(""), 2.0}) {
+        Observation at{Observation::Of::displacement, 0};
+        REQUIRE(find_place(mesh, {x, y, z}, at));
+        Vec3 found = Vec3::Zero();
+        for (std::size_t k = 0; k < at.nodes.size(); ++k) found += at.weights[k] * mesh.X[static_cast<std::size_t>(at.nodes[k])];
+        CHECK((found - Vec3(x, 2, z)).norm() < 1e-9);
+      }
+    Observation none;
+    CHECK_FALSE(find_place(mesh, {7, std::nan(""), z}, none));
+  }
+}
+
+TEST_CASE("Three numbers of Yeoh's law are found again from the force on a sphere, from starts on either side") {
+  write_force("force.csv", truth());
+  for (const char* start : {"{a1: 0.05, a2: 0.01, a3: 0.05}", "{a1: 0.004, a2: 0.004, a3: 0.001}"}) {
+    CAPTURE(start);
+    const std::string from =
+        std::string("law: {matrix: {yeoh: ") + start + "}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
+    const Found found = fitted(std::string(force) + "}]\n" + from + three + "jobs: 2\n");
+    REQUIRE(found.fit.best.converged);
+    CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-6));
+    CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-6));
+    CHECK(found.fit.best.p[2] == doctest::Approx(0.01).epsilon(1e-6));
+    REQUIRE(found.record.curves.size() == 1);
+    CHECK(found.record.curves[0].unit == "N");
+    CHECK(found.record.curves[0].max_error_percent < 1e-5);
+    CHECK(found.record.curves[0].discretisation_percent > 0.1);  // ten cells
+  }
+}
+
+TEST_CASE("The results do not depend on the number of scenes side by side, and a fit goes on with the runs that it has kept") {
+  write_force("force.csv", truth());
+  const std::string yaml = std::string(force) + "}]\n" + law + three + "draft: false\n";
+  fs::remove(folder + "/kept.runs");
+  const Found one = fitted(yaml), two = fitted(yaml + "jobs: 3\n", "kept.runs");
+  CHECK(one.fit.best.p == two.fit.best.p);
+  CHECK(one.runs == two.runs);
+  const Found again = fitted(yaml, "kept.runs");
+  CHECK(again.fit.best.p == one.fit.best.p);
+  CHECK(again.runs == 0);
+}
+
+TEST_CASE("Touch offset, force offset and compliance of the machine are found beside the law") {
+  const ForwardPath path = truth();
+  const std::string true_rest =
+      "law: {matrix: {yeoh: {a1: 0.02, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
+  struct Machine {
+    const char* key;
+    double touch, offset, compliance, value;
+  };
+  for (const Machine& machine : {Machine{"touch_offset", 0.02, 0, 0, 0.02}, Machine{"force_offset", 0, 0.003, 0, 0.003},
+                                 Machine{"compliance", 0, 0, 0.05, 0.05}}) {
+    CAPTURE(machine.value);
+    write_force("force.csv", path, machine.touch, machine.offset, machine.compliance);
+    const Found found = fitted(std::string(force) + "}]\n" + true_rest + "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0]." +
+                               machine.key + "\"}]\ndraft: false\n");
+    REQUIRE(found.fit.best.converged);
+    CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
+    CHECK(found.fit.best.p[1] == doctest::Approx(machine.value).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("The derivative by what the machine adds is that of the model") {
+  write_force("force.csv", truth());
+  const auto loaded = read(
+      std::string(force) + ", compliance: 0.3, touch_offset: 0.013}]\n" + law +
+      "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0].touch_offset\"}, {key: \"data[0].force_offset\"}, {key: \"data[0].compliance\"}]\n");
+  const FitProblem problem = fit_problem(loaded.config);
+  SceneTests scenes(loaded.config, loaded.where, problem, {}, std::make_shared<RunCache>(), {1, true});
+  VecX p(4);
+  p << 0.015, 0.013, 0.002, 0.3;
+  MatX J;
+  REQUIRE(scenes.slope(p, J));
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    VecX above, below, moved = p;
+    const double h = i == 0 ? 1e-3 * p[i] : 1e-5;
+    moved[i] = p[i] + h;
+    REQUIRE(scenes.model(moved, above));
+    moved[i] = p[i] - h;
+    REQUIRE(scenes.model(moved, below));
+    const VecX quotient = (above - below) / (2 * h);
+    CAPTURE(i);
+    CHECK((quotient - J.col(i)).norm() < 1e-3 * quotient.norm());
+  }
+}
+
+TEST_CASE("The derivatives of the runs are those of differences between runs") {
+  write_force("force.csv", truth());
+  const auto loaded = read(std::string(force) + "}]\n" + law + three);
+  const FitProblem problem = fit_problem(loaded.config);
+  const auto cache = std::make_shared<RunCache>();
+  SceneTests exact(loaded.config, loaded.where, problem, {}, cache, {1, false}),
+      quotients(loaded.config, loaded.where, problem, {}, cache, {1, true});
+  VecX p(3);
+  p << 0.015, 0.02, 0.012;
+  MatX J, Q;
+  REQUIRE(exact.slope(p, J));
+  REQUIRE(quotients.slope(p, Q));
+  for (Eigen::Index i = 0; i < 3; ++i) CHECK((J.col(i) - Q.col(i)).norm() < 1e-3 * J.col(i).norm());  // one-sided differences
+  CHECK(exact.runs() == 1);
+  CHECK(quotients.runs() == 4);
+}
+
+TEST_CASE("What a scene does not have, and files that do not fit it, are named where they stand") {
+  write_force("force.csv", truth());
+  const auto with = [](const std::string& data, const std::string& parameters = three) {
+    return "data: [" + data + "]\n" + law + parameters;
+  };
+  const std::string scene = "{kind: scene, solve: solve.yaml, file: force.csv, ";
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: forze_mN}}")), "no column \"forze_mN\"");
+  holds(refusal(with(scene + "columns: {u_ind: force_mN, force: force_mN}}")), "the unit mN of the column \"force_mN\"");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, u_y: beside_um}, on: nowhere}")), "the scene has no set \"nowhere\"");
+  holds(refusal(with(scene + "columns: {displacement: travel_mm, force: force_mN}, moved: top}")),
+        "no imposed displacement on \"top\"");
+  holds(refusal(with(scene + "columns: {time: travel_mm, force: force_mN}}")), "the unit mm of the column");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}", "parameters: [{key: contacts.cone.friction}]\n")),
+        "no scene has a contact \"cone\"");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}", "parameters: [{key: matrix.gent.mu}]\n")),
+        "the law has no number");
+  write("force.csv", "travel_mm,force_mN\n0.5,10\n1.2,40\n");
+  const std::string longer = refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}"));
+  holds(longer, "force.csv:3:1");
+  holds(longer, "0 to 1 mm");
+  write("force.csv", "travel_mm,force_mN\n0.5,10\n0.7,nan\n");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}")), "force.csv:3:5");
+}

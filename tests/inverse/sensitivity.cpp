@@ -1,0 +1,212 @@
+// Derivatives of whole runs, as a config asks for them, against central differences of runs with other numbers.
+#include "inverse/sensitivity.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "material/parameters.hpp"
+#include "support/solved_scene.hpp"
+
+using namespace langer;
+
+namespace {
+
+const std::string skin =
+    "{matrix: {yeoh: {a1: 0.05, a2: 0.05, a3: 0.02}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 30, switch: \"off\"}], volume: "
+    "{quadratic: {d: 1.0e-3}}}\n";  // a difference over the switch of the fibres is none of a derivative
+const std::string fat = "{matrix: {yeoh: {a1: 0.02, a2: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}\n";
+
+std::string block(const std::string& cells, const std::string& divisions, const std::string& more = "") {
+  return "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: " + divisions + "}}\n  cells: " + cells +
+         "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.4}}}}\n" + more +
+         "supports: [{on: bottom, hold: [x, y, z]}]\n";
+}
+std::string ball(double friction, const std::string& motion = "[{t: 1, to: [0, -0.6, 0]}]") {
+  return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: " +
+         std::to_string(friction) + ", motion: " + motion + "}}\n";
+}
+const std::string four = "path: {steps: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n";
+
+std::string listed(const std::vector<std::string>& keys) {
+  std::string list;
+  for (const std::string& key : keys) list += (list.empty() ? "" : ", ") + ("\"" + key + "\"");
+  return "sensitivity: [" + list + "]\n";
+}
+
+// the number of a config; its own material or that of a body
+void change(SolveConfig& config, const std::string& key, double by) {
+  if (key.starts_with("contacts.")) {
+    for (auto& [name, contact] : config.contacts)
+      if (key == "contacts." + name + ".friction") contact.friction += by;
+    return;
+  }
+  Material* material = &*config.material;
+  std::string rest = key;
+  for (auto& [name, body] : config.materials)
+    if (key.starts_with("materials." + name + ".")) material = &*body.material, rest = key.substr(11 + name.size());
+  for (const MaterialParameter& p : parameters(*material))
+    if (p.key == rest) *p.value += by;
+}
+
+double value_of(const SolveConfig& config, const std::string& key) {
+  SolveConfig other = config;
+  if (key.starts_with("contacts.")) return 0.3;
+  for (auto& [name, body] : other.materials)
+    if (body.material && key.starts_with("materials." + name + "."))
+      for (const MaterialParameter& p : parameters(*body.material))
+        if (key == "materials." + name + "." + p.key) return *p.value;
+  for (const MaterialParameter& p : parameters(*other.material))
+    if (p.key == key) return *p.value;
+  FAIL(key);
+  return 0;
+}
+
+using Steps = std::vector<StepRecord>;
+
+Steps steps_of(const SolveConfig& config, std::vector<Steps>* derivatives = nullptr) {
+  Run run(test::mesh_in(config), config, config.material, test::nowhere, true);
+  Sensitivity sensitivity(run, config, test::nowhere);
+  Steps steps;
+  RunListener each;
+  each.of_whole = [&](StepRecord& whole, const SolveReport&) {
+    steps.push_back(whole);
+    if (derivatives) derivatives->push_back(sensitivity.now());
+  };
+  const RunEnd end = run.follow(derivatives ? sensitivity.along(each) : each);
+  CAPTURE(end.path.why);
+  REQUIRE(end.path.complete);
+  return steps;
+}
+
+double norm(const std::vector<Vec3>& a) {
+  double sum = 0;
+  for (const Vec3& v : a) sum += v.squaredNorm();
+  return std::sqrt(sum);
+}
+std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double over = 1) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < a.size(); ++i) out.emplace_back((a[i] - b[i]) / over);
+  return out;
+}
+bool same_status(const StepRecord& a, const StepRecord& b) {
+  for (const auto& [name, contact] : a.contacts)
+    if (contact.status != b.contacts.at(name).status) return false;
+  return true;
+}
+
+// u', reactions' and forces' at every step that has no change of status, relative
+void check(const std::string& text, const std::vector<std::string>& keys, double tolerance) {
+  CAPTURE(text);
+  const SolveConfig config = test::config_of(text + listed(keys));
+  std::vector<Steps> found;
+  steps_of(config, &found);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    CAPTURE(keys[i]);
+    const double value = value_of(config, keys[i]), h = keys[i].ends_with("alpha") ? 1e-2 : 3e-4 * value;
+    SolveConfig more = config, less = config;
+    change(more, keys[i], h), change(less, keys[i], -h);
+    const Steps plus = steps_of(more), minus = steps_of(less);
+    REQUIRE(plus.size() == found.size());
+    std::size_t compared = 0;
+    for (std::size_t s = 0; s < plus.size(); ++s) {
+      if (!same_status(plus[s], minus[s])) break;
+      ++compared;
+      const StepRecord& d = found[s][i];
+      const auto du = difference(plus[s].u, minus[s].u, 2 * h), dr = difference(plus[s].reaction, minus[s].reaction, 2 * h);
+      CHECK(norm(difference(d.u, du)) <= tolerance * norm(du));
+      CHECK(norm(difference(d.reaction, dr)) <= tolerance * norm(dr));
+      const Vec3 dF = (plus[s].force_ind - minus[s].force_ind) / (2 * h);
+      CHECK((d.force_ind - dF).norm() <= tolerance * dF.norm());
+      const double dW = (plus[s].scalars.at("energy") - minus[s].scalars.at("energy")) / (2 * h);
+      CHECK(std::abs(d.scalars.at("energy") - dW) <= 10 * tolerance * std::abs(dW));
+    }
+    CHECK(compared > 0);
+  }
+}
+
+const std::vector<std::string> some{"matrix.yeoh.a1", "fibres[0].hgo.c1", "fibres[0].alpha"};
+
+}  // namespace
+
+TEST_CASE("derivatives of a run are those of runs: whole, half turn and quarter, with friction and without") {
+  for (const char* symmetry : {"none", "half_turn"})
+    check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) + four + "symmetry: " + symmetry + "\n", some, 1e-5);
+  check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0.3) + four + "symmetry: half_turn\n",
+        {"matrix.yeoh.a1", "fibres[0].alpha", "contacts.ball.friction"}, 1e-3);
+  check(block("hex8", "[6, 2, 6]") + "material: " + fat + ball(0.3) + four + "symmetry: quarter\n",
+        {"matrix.yeoh.a1", "contacts.ball.friction"}, 1e-3);
+}
+
+TEST_CASE("derivatives of a run are those of runs: hex27, layers, a section, a hexahedron for a mesh, KINSOL, a pushed indenter") {
+  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four, {"matrix.yeoh.a1", "volume.quadratic.d"}, 1e-5);
+  check(block("hex8", "[6, 4, 6]", "  bodies: [{name: fat, thickness: 1.5}, {name: skin, thickness: 1.5}]\n") +
+            "material: " + skin + "materials: {fat: {material: " + fat + "}}\n" + ball(0) + four,
+        {"matrix.yeoh.a1", "materials.fat.matrix.yeoh.a1"}, 1e-5);
+  check(
+      "mesh:\n  geometry: {section: {of: axisymmetric, size: [6, 3], divisions: [8, 3]}}\n  sets: {contact: {of: top, within: {box: "
+      "{from: [0, 2.9, -1], to: [2.4, 3.1, 1]}}}}\nsupports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " +
+          fat + ball(0.2) + four,
+      {"matrix.yeoh.a1", "matrix.yeoh.a2", "contacts.ball.friction"}, 1e-3);
+  const std::string pulled =
+      "mesh: {geometry: {block: {size: [3, 1, 2], divisions: [3, 2, 2]}}}\nsupports: [{on: left, hold: [x]}, {on: bottom, hold: [y]}, "
+      "{on: back, hold: [z]}]\nloads: [{on: right, displacement: {x: 0.9}}]\n";
+  check(pulled + "material: " + skin + four, {"matrix.yeoh.a1", "fibres[0].hgo.c2", "fibres[0].alpha"}, 1e-5);
+  check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) +
+            "path: {steps: 4}\nsolver: {kinsol: {relative: 1.0e-12}}\nstability: off\n",
+        some, 1e-5);
+}
+
+TEST_CASE("a number that breaks the symmetry of a scene takes the symmetry away, or is refused where that is named") {
+  const std::string straight =
+      "{matrix: {yeoh: {a1: 0.05, a2: 0.05}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 0}], volume: {quadratic: {d: 1.0e-3}}}\n";
+  const std::string scene = block("hex8", "[6, 2, 6]") + "material: " + straight + ball(0) + four;
+  const auto kept = [&](const std::string& symmetry, const std::vector<std::string>& keys) {
+    const SolveConfig config = test::config_of(scene + "symmetry: " + symmetry + "\n" + listed(keys));
+    return Run(test::mesh_in(config), config, config.material, test::nowhere).reduction.words();
+  };
+  CHECK(kept("auto", {"matrix.yeoh.a1"}).find("mirror x and mirror z") != std::string::npos);
+  CHECK(kept("auto", {"fibres[0].alpha"}).find("half turn") != std::string::npos);
+  CHECK_THROWS_WITH_AS(kept("quarter", {"fibres[0].alpha"}), doctest::Contains("sensitivity"), Failure);
+}
+
+TEST_CASE("numbers that a scene does not have are refused with those that it has") {
+  const auto said = [](const std::string& key) {
+    const SolveConfig config = test::config_of(block("hex8", "[4, 2, 4]") + "material: " + fat + ball(0) + four + listed({key}));
+    try {
+      const Run run(test::mesh_in(config), config, config.material, test::nowhere);
+    } catch (const Failure& failure) {
+      CHECK(failure.code() == Exit::config);
+      return std::string(failure.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(said("matrix.yeoh.a1") == "accepted");
+  CHECK(said("matrix.yeho.a1").find("did you mean \"matrix.yeoh.a1\"?") != std::string::npos);
+  CHECK(said("fibres[0].alpha").find("expected a number of the scene: matrix.yeoh.a1") != std::string::npos);
+  CHECK(said("contacts.ball.friction").find("friction above 0") != std::string::npos);
+}
+
+TEST_CASE("a run continued from any of its steps has the same derivatives to the last digit") {
+  const SolveConfig config = test::config_of(block("hex8", "[6, 2, 6]") + "material: " + skin +
+                                             ball(0.3, "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.3, -0.5, 0]}]") + four +
+                                             listed({"matrix.yeoh.a1", "contacts.ball.friction"}));
+  std::vector<Steps> derivatives;
+  const Steps whole = steps_of(config, &derivatives);
+  for (std::size_t at : {0u, 1u, 2u}) {
+    Run run(test::mesh_in(config), config, config.material, test::nowhere);
+    Sensitivity sensitivity(run, config, test::nowhere);
+    for (std::size_t s = 0; s <= at; ++s) sensitivity.kept(whole[s]);
+    run.resume(whole[at], at > 0 ? std::optional(whole[at - 1]) : std::nullopt);
+    std::size_t next = at + 1;
+    RunListener each;
+    each.of_whole = [&](StepRecord& step, const SolveReport&) {
+      CHECK(step.scalars == whole[next].scalars);
+      CHECK(step.point_fields == whole[next].point_fields);
+      ++next;
+    };
+    run.follow(sensitivity.along(each));
+    CHECK(next == whole.size());
+  }
+}

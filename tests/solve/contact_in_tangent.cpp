@@ -1,0 +1,76 @@
+// Contact in the tangent itself finds what contact condensed to its candidates finds.
+#include "solve/contact_in_tangent.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/indentation.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+test::Indentation small(double mu) {
+  test::Indentation scene;
+  scene.nx = scene.nz = 8, scene.ny = 2, scene.h = 0.7, scene.depth = 0.4, scene.step = 0.2, scene.mu = mu;
+  scene.newton.relative = 1e-11;
+  return scene;
+}
+
+void compare(test::Indentation scene, const Material& law) {
+  scene.contact_by = ContactBy::compliance;
+  const auto condensed = scene.run(law);
+  scene.contact_by = ContactBy::tangent;
+  bool in_tangent = true;
+  scene.after = [&](const Statics& statics, const Equilibrium&) { in_tangent = in_tangent && statics.contact_in_tangent(); };
+  const auto sparse = scene.run(law);
+  REQUIRE(condensed.path.complete);
+  CAPTURE(sparse.path.why);
+  REQUIRE(sparse.path.complete);
+  CHECK(in_tangent);
+  REQUIRE(condensed.steps.size() == sparse.steps.size());
+  for (std::size_t i = 0; i < sparse.steps.size(); ++i) {
+    const auto &a = condensed.steps[i], &b = sparse.steps[i];
+    CHECK(b.force == doctest::Approx(a.force).epsilon(1e-8));
+    CHECK((b.defect.force - a.defect.force).norm() <= 1e-8 * a.defect.force.norm());
+    CHECK(b.defect.penetration <= 1e-9);
+    CHECK(b.defect.cone <= 1e-9);
+    CHECK(b.defect.complementarity <= 1e-9);
+    CHECK(b.defect.stick + b.defect.slip == a.defect.stick + a.defect.slip);
+    CHECK(b.defect.stick == a.defect.stick);
+  }
+  CHECK((condensed.u - sparse.u).lpNorm<Eigen::Infinity>() < 1e-8);
+  CHECK(sparse.n_indefinite <= condensed.n_indefinite);  // what gives way without contact may be stable with it
+}
+
+}  // namespace
+
+TEST_CASE("contact in the tangent: a sphere with and without friction, whole and a quarter whose planes hold candidates") {
+  for (double mu : {0.0, 0.1, 0.34, 1.0})
+    for (bool quarter : {false, true}) {
+      const double friction = mu;
+      CAPTURE(friction);
+      CAPTURE(quarter);
+      auto scene = small(mu);
+      scene.quarter = quarter;
+      compare(scene, test::table1(30, 1e-4));
+    }
+}
+
+TEST_CASE("contact in the tangent: a plane on all candidates, a sphere that scratches, one that is taken back") {
+  for (double mu : {0.0, 0.3}) {
+    const double friction = mu;
+    CAPTURE(friction);
+    auto plane = small(mu);
+    plane.shape = Plane{{0, 4, 0}, {0, -1, 0}}, plane.reach = 30, plane.depth = 0.2, plane.step = 0.1;
+    compare(plane, test::neo_hooke(0.3, 1e-4));
+    auto scratch = small(mu);
+    scratch.motion = {{0.5, Vec3(0, -0.3, 0)}, {1, Vec3(0.4, -0.3, 0.1)}};
+    compare(scratch, test::table1(30, 1e-3));
+    auto back = small(mu);
+    back.motion = {{0.5, Vec3(0, -0.4, 0)}, {1, Vec3(0, -0.2, 0)}};
+    compare(back, test::neo_hooke(0.3, 1e-3));
+  }
+}

@@ -1,0 +1,270 @@
+// Sets and indenters that are turned: closed forms of torsion, sticking and slipping under an indenter, and where the work goes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "mesh/facets.hpp"
+#include "mesh/select.hpp"
+#include "post/energy.hpp"
+#include "solve/load_path.hpp"
+#include "solve/newton.hpp"
+#include "solve/statics.hpp"
+#include "support/block.hpp"
+#include "support/directions.hpp"
+#include "support/laws.hpp"
+
+using namespace langer;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Turning {
+  Mesh mesh;
+  Material law = test::neo_hooke(0.05, 1e-4);
+  std::vector<std::string> held{"y_min"};
+  std::vector<TurnedSet> turned = {};
+  std::vector<RigidContact> contacts = {};
+  std::vector<SurfaceLoad> loads = {};
+  std::vector<double> stops = {};
+  double largest = 0.1;
+};
+
+struct Found {
+  VecX u, reactions;
+  std::vector<double> torque;  // of the first contact, step by step
+  std::vector<BodyState> states;
+  PathSums sums;
+};
+
+void prescribe(const TurnedSet& set, const Mesh& mesh, std::vector<Prescribed>& held) {
+  for (int node : set.nodes) {
+    const AboutLine at = about(set.axis, mesh.X[node]);
+    const Vec3 across = at.rho * at.outward, along = cross(set.axis.along, across);
+    for (int k = 0; k < 3; ++k)
+      held.push_back({3 * node + k, set.to[k].value, set.to[k].factor, Turn{set.angle, along[k], across[k]}});
+  }
+}
+
+Found solved(const Turning& scene) {
+  const Mesh& mesh = scene.mesh;
+  std::vector<Prescribed> held;
+  for (const std::string& set : scene.held)
+    for (int node : mesh.node_sets.at(set))
+      for (int k = 0; k < 3; ++k) held.push_back({3 * node + k, 0});
+  for (const TurnedSet& set : scene.turned) prescribe(set, mesh, held);
+  Equilibrium body = test::equilibrium(mesh, {scene.law}, usual_formulation(mesh.type), number_dofs(mesh.n_nodes(), held).dofs);
+  if (!scene.loads.empty()) body.set_loads({mesh, scene.loads});
+  Statics statics(body, scene.contacts, {});
+  EnergyPath energy(mesh, scene.contacts, scene.stops, scene.turned);
+  const std::vector<Vec3> rest(mesh.X.size(), Vec3::Zero());
+  std::vector<std::vector<Vec3>> none;
+  for (const RigidContact& contact : scene.contacts) none.emplace_back(contact.nodes.size(), Vec3::Zero());
+  energy.add({0, rest, rest, none, 0});
+  LoadPathOptions path;
+  path.first = path.largest = scene.largest;
+  NewtonOptions tight;
+  tight.relative = 1e-11;
+  Found found;
+  const PathReport report = load_path(
+      path, 0, {}, scene.stops,
+      [&](double t) {
+        statics.begin(t);
+        return newton(statics.problem(), statics.trial(), tight);
+      },
+      [&](double t, double, double, const SolveReport&) {
+        statics.accept();
+        for (const ContactDefect& d : statics.defects()) {
+          CHECK(d.penetration <= 1e-9);
+          CHECK(d.cone <= 1e-8);
+          CHECK(d.complementarity <= 1e-8);
+        }
+        const BodyState& state = statics.accepted();
+        found.states.push_back(state);
+        found.reactions = statics.reactions();
+        std::vector<Vec3> u, f;
+        for (Eigen::Index i = 0; i < state.u.size(); i += 3)
+          u.push_back(state.u.segment<3>(i)), f.push_back(found.reactions.segment<3>(i));
+        if (!scene.contacts.empty() && scene.contacts[0].rotation)
+          found.torque.push_back(torque(
+              scene.contacts[0], [&](int node) { return Vec3(mesh.X[node] + u[node]); },
+              indenter_displacement(scene.contacts[0], t), state.r[0]));
+        energy.add({t, u, f, state.r, body.W()});
+        return true;
+      });
+  CAPTURE(report.why);
+  REQUIRE(report.complete);
+  found.u = statics.accepted().u, found.sums = energy.sums().back();
+  return found;
+}
+
+// a whole tube around y: n cells over the thickness
+Mesh tube(double A, double B, double height, int n, CellType cells) {
+  const Mesh straight = test::block(test::even(A, B, n), test::even(0, height, n), test::even(0, 1, 6 * n));
+  Mesh mesh = cells == CellType::hex8 ? straight : test::raised_block(straight, cells);
+  std::map<std::array<long, 3>, int> seen;
+  std::vector<Vec3> X;
+  std::vector<int> number;
+  for (const Vec3& at : mesh.X) {
+    const double turn = -2 * std::numbers::pi * at[2];
+    const Vec3 x(at[0] * std::cos(turn), at[1], -at[0] * std::sin(turn));
+    const std::array<long, 3> key{std::lround(1e7 * x[0]), std::lround(1e7 * x[1]), std::lround(1e7 * x[2])};
+    const auto [found, is_new] = seen.emplace(key, static_cast<int>(X.size()));
+    if (is_new) X.push_back(x);
+    number.push_back(found->second);
+  }
+  for (int& node : mesh.connectivity) node = number[static_cast<std::size_t>(node)];
+  mesh.X = X;
+  mesh.node_sets.clear(), mesh.facet_sets.clear();
+  name_sides(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a tube that is twisted meets its torque and its Poynting force, at order 2 with hex8 and above 3 with hex27") {
+  // neo-Hooke, incompressible, with the inside pressure that keeps each circle in place: M = pi mu psi (B^4 - A^4)/2,
+  // N = -pi mu psi^2 (B^2 - A^2)^2 / 4, p = mu psi^2 (B^2 - A^2)/2
+  const double A = 1, B = 2, height = 1, psi = 0.4, mu = 0.1, wall = B * B - A * A;
+  const double M = std::numbers::pi * mu * psi * (std::pow(B, 4) - std::pow(A, 4)) / 2;
+  const double N = -std::numbers::pi * mu * psi * psi * wall * wall / 4;
+  struct Case {
+    CellType cells;
+    std::array<int, 2> n;
+    double order;
+  };
+  for (const Case& c : {Case{CellType::hex8, {3, 6}, 1.8}, Case{CellType::hex27, {1, 2}, 3}}) {
+    std::array<double, 2> worst{}, of_force{}, of_torque{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      Turning scene{tube(A, B, height, c.n[k], c.cells), test::neo_hooke(0.5 * mu, 1e-5)};
+      TurnedSet top{"top", scene.mesh.node_sets.at("y_max"), Line{}, {psi * height, nullptr}, {}};
+      std::vector<Facet> inside;
+      for (const Facet& facet : boundary(scene.mesh)) {
+        const std::vector<int> nodes = facet_nodes(scene.mesh, facet);
+        if (std::all_of(nodes.begin(), nodes.end(), [&](int i) { return about({}, scene.mesh.X[i]).rho < A + 1e-6; }))
+          inside.push_back(facet);
+      }
+      scene.turned = {top};
+      scene.loads = {{inside, Vec3::Zero(), 0.5 * mu * psi * psi * wall, nullptr}};
+      scene.largest = 0.25;
+      const Found found = solved(scene);
+      double force = 0, torque = 0;
+      for (int i = 0; i < scene.mesh.n_nodes(); ++i) {
+        const Vec3& X = scene.mesh.X[i];
+        const Vec3 exact = turned_by(Vec3::UnitY(), psi * X[1], X);
+        worst[k] = std::max(worst[k], (found.u.segment<3>(3 * i) - exact).norm());
+      }
+      for (int i : top.nodes) {
+        const Vec3 f = found.reactions.segment<3>(3 * i), x = scene.mesh.X[i] + found.u.segment<3>(3 * i);
+        force += f[1], torque += cross(x, f)[1];
+      }
+      of_force[k] = std::abs(force / N - 1), of_torque[k] = std::abs(torque / M - 1);
+    }
+    CAPTURE(worst[0]);
+    CAPTURE(worst[1]);
+    CAPTURE(of_force[0]);
+    CAPTURE(of_force[1]);
+    CAPTURE(of_torque[0]);
+    CAPTURE(of_torque[1]);
+    CHECK(std::log2(worst[0] / worst[1]) > c.order);
+    CHECK(std::log2(of_torque[0] / of_torque[1]) > c.order);
+    CHECK(std::log2(of_force[0] / of_force[1]) > c.order);
+    CHECK(of_torque[1] < 0.03);
+    CHECK(of_force[1] < 0.06);
+  }
+}
+
+namespace {
+
+Mesh slab() { return test::block(test::graded(6, 10, 0.6), test::even(0, 3, 3), test::graded(6, 10, 0.6)); }
+
+RigidContact turning(const Indenter& shape, const Mesh& mesh, double mu, double reach, std::vector<Waypoint> motion,
+                     History angle) {
+  RigidContact contact{"disc", shape, mu, {}, std::move(motion)};
+  for (int i : mesh.node_sets.at("y_max"))
+    if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < reach) contact.nodes.push_back(i);
+  contact.rotation = Rotation{axis_of(shape).value(), std::move(angle)};
+  return contact;
+}
+
+History then(double t, double angle) {  // held at 0 until t, then turned
+  return {angle, std::make_shared<const std::vector<HistoryPoint<double>>>(std::vector<HistoryPoint<double>>{{t, 0}, {1, 1}})};
+}
+
+}  // namespace
+
+TEST_CASE("a plane that sticks and turns does what a set does that is turned, to 1e-8 mm, with the same torque and work") {
+  Turning glued{test::block(test::even(-1.5, 1.5, 4), test::even(0, 1, 2), test::even(-1.2, 1.2, 4))};
+  glued.largest = 0.2;
+  Turning pressed = glued;
+  const Vec3 through(0.2, 1, -0.1);
+  TurnedSet top{"top", glued.mesh.node_sets.at("y_max"), {through, -Vec3::UnitY()}, {20 * degree, nullptr}, {}};
+  top.to[1] = {-0.15, nullptr};
+  glued.turned = {top};
+  RigidContact plane{"plane", Plane{{0.2, 1, -0.1}, {0, -1, 0}}, 10, top.nodes, {{1, Vec3(0, -0.15, 0)}}};
+  plane.rotation = Rotation{axis_of(plane.shape).value(), {20 * degree, nullptr}};
+  pressed.contacts = {plane};
+  const Found a = solved(glued), b = solved(pressed);
+  CHECK((a.u - b.u).lpNorm<Eigen::Infinity>() < 1e-8);
+  double of_set = 0;
+  for (int i : top.nodes)
+    of_set += top.axis.along.dot(cross(glued.mesh.X[i] + a.u.segment<3>(3 * i) - top.axis_at(1), a.reactions.segment<3>(3 * i)));
+  CHECK(of_set > 0.01);
+  CHECK(b.torque.back() == doctest::Approx(of_set).epsilon(1e-7));
+  CHECK(a.sums.work == doctest::Approx(b.sums.work).epsilon(1e-7));
+  CHECK(std::abs(a.sums.balance) < 1e-3);
+  CHECK(b.sums.dissipated == doctest::Approx(0).scale(b.sums.work).epsilon(1e-9));
+}
+
+TEST_CASE("a sphere that is pressed and turned: its torque is that of friction, and its work is stored or dissipated") {
+  struct Case {
+    double degrees, largest, balance;
+  };
+  for (const Case& c : {Case{60, 0.05, 1e-3}, Case{180, 0.05, 4e-3}}) {  // 3.75 and 11.25 degrees an increment
+    CAPTURE(c.degrees);
+    Turning scene{slab()};
+    scene.largest = c.largest, scene.stops = {0.2, 1};
+    scene.contacts = {
+        turning(Sphere{2.5, {0, 5.5, 0}}, scene.mesh, 0.15, 3, {{0.2, Vec3(0, -0.5, 0)}}, then(0.2, c.degrees * degree))};
+    const Found found = solved(scene);
+    double most = 0;  // of the torque that friction bears
+    const BodyState& last = found.states.back();
+    for (std::size_t i = 0; i < last.r[0].size(); ++i) {
+      const int node = scene.contacts[0].nodes[i];
+      const Vec3 x = scene.mesh.X[node] + last.u.segment<3>(3 * node) - Vec3(0, -0.5, 0);
+      if (last.r[0][i].isZero(0)) continue;
+      most += 0.15 * last.r[0][i].dot(shape_at(scene.contacts[0].shape, x).normal) * std::hypot(x[0], x[2]);
+    }
+    // an increment's slip is a chord: friction points half the angle of the increment aside
+    CHECK(found.torque.back() == doctest::Approx(most * std::cos(0.5 * c.degrees * degree * c.largest / 0.8)).epsilon(2e-3));
+    CHECK(found.sums.dissipated > 0.1 * found.sums.work);
+    CHECK(std::abs(found.sums.balance) < c.balance);
+  }
+}
+
+TEST_CASE("a disc glued to a deep body turns it with 16/3 G a^3 per angle") {
+  // [Reissner and Sagoci 1944]; the body is five radii wide to each side and four deep
+  const double G = 0.1, angle = 0.5 * degree, cell = 0.25;
+  Turning scene{test::block(test::graded(5, 20, cell), {0, 1.2, 2.2, 2.9, 3.4, 3.75, 4}, test::graded(5, 20, cell)),
+                test::neo_hooke(0.5 * G, 1e-3)};
+  TurnedSet disc{"disc", {}, Line{}, {angle, nullptr}, {}};
+  for (int i : scene.mesh.node_sets.at("y_max"))
+    if (about({}, scene.mesh.X[i]).rho < 1 + 1e-9) disc.nodes.push_back(i);
+  scene.turned = {disc};
+  scene.largest = 1;
+  const Found found = solved(scene);
+  double torque = 0, covered = 0;
+  for (int i : disc.nodes) {
+    torque += cross(scene.mesh.X[i], found.reactions.segment<3>(3 * i))[1];
+    covered = std::max(covered, about({}, scene.mesh.X[i]).rho);
+  }
+  // what is glued ends between the last node that is and the next one
+  const double a = std::cbrt(torque / (16.0 / 3 * G * angle));
+  CAPTURE(a);
+  CHECK(a > covered);
+  CHECK(a < covered + cell);
+}

@@ -1,0 +1,12 @@
+# langer doctor: what is there and what is not, and that only what is needed decides.
+include(${ROOT}/tests/support/run.cmake)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/empty)
+set(folder ${WORK})
+run(0 ${BIN}/langer doctor)
+expect_said("yes  programs")
+expect_said("Langer runs here")
+run(3 ${CMAKE_COMMAND} -E env PATH=${WORK}/empty ${BIN}/langer doctor)
+expect_said("NO   make")
+expect_said("no   gnuplot")
+expect_said("Langer does not run here")
