@@ -29,6 +29,9 @@ void need_known_kind(const SolveConfig& config, const Run& run) {
   if (has_friction(config)) throw not_known("nodes that stick too early are no error of smooth fields, and there is friction");
   if (!run.body.loads().empty() && run.body.loads().follow()) throw not_known("the tangent has half of a following pressure alone");
   if (run.scene.formulation == Formulation::displacement) throw not_known("formulation: displacement has no pressures of its own");
+  if (!run.mesh.cell().hexahedron()) throw not_known("no scene of tetrahedra was measured");
+  for (const RigidContact& contact : run.scene.contacts)
+    if (std::holds_alternative<Facets>(contact.shape)) throw not_known("no indenter from a file was measured");
   if (run.reduction.scene().contacts.size() != run.scene.contacts.size()) throw not_known("symmetry exchanges the indenters");
 }
 

@@ -79,7 +79,7 @@ class SolutionWriter {
   int n_steps() const;
   const std::vector<EarlierRun>& earlier() const;  // which runs the steps are of that it was continued from
   void append(const StepRecord& record);
-  void say_image_of(const std::string& which);  // a solution that is the image of another: how, and of which
+  void say_image_of(const std::string& which);                   // a solution that is the image of another: how, and of which
   using Histories = std::map<std::string, std::vector<double>>;  // by name, a value for each step
   // cost: none where the work was done in several runs; summary: what is said of the result as a whole; found_later: histories that
   // only the whole path tells

@@ -24,8 +24,8 @@ using namespace langer;
 void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
-void measure_wide();  // wide.cpp
-void measure_inverse();   // inverse.cpp
+void measure_wide();     // wide.cpp
+void measure_inverse();  // inverse.cpp
 void measure_inverse_coverage();
 
 namespace {
