@@ -321,7 +321,8 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
       const double far = best[j] + spread * (x - best[j]);
       return problem[0].period_of(j) > 0 ? far : std::clamp(far, problem[0].lower[j], problem[0].upper[j]);
     };
-    result.low[j] = spread_out(at(0.025)), result.high[j] = spread_out(at(0.975));
+    // samples that end at a bound or an axis of symmetry leave out an estimate that stopped a rounding before it
+    result.low[j] = std::min(spread_out(at(0.025)), best[j]), result.high[j] = std::max(spread_out(at(0.975)), best[j]);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "mesh/bounding_box.hpp"
@@ -140,6 +141,8 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
       }
     }
   }
+  const Vec3 size = hull.size();
+  rounding_of_J_ = std::numeric_limits<double>::epsilon() * bulk_modulus(scene.materials.front()) * size.prod() / size.minCoeff();
   scene_.formulation = usual_formulation(CellType::hex8);
   scene_.materials = scene.materials, scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(std::array{0});
@@ -202,7 +205,7 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
     record.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
   }
   left = std::sqrt(left), reactions = std::sqrt(reactions);
-  const double small = 1e-9 * reactions;
+  const double small = 1e-9 * reactions + rounding_of_J_;
   if (!(left <= small + 10 * whole_->rounding_floor())) return std::nullopt;                    // it deforms otherwise
   if (!(left <= std::max(small, on_mesh(left, reactions, {}).tolerance))) return std::nullopt;  // a solution of the mesh is nearer
   record.residual = reactions > 0 ? left / reactions : left;

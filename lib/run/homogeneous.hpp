@@ -50,6 +50,7 @@ class HomogeneousScene {
   std::vector<std::array<double, 8>> N_;                       // by node of the mesh: weights of the corners
   std::unique_ptr<Equilibrium> whole_;                         // balance of the mesh
   double seconds_ = 0;                                         // of the path
+  double rounding_of_J_ = 0;                                   // kappa eps over the largest face: what that of det F leaves [N]
   mutable double t_ = 0;                                       // of the last step of a viscous body, and its displacements
   mutable VecX u_;
 };

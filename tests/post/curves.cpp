@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "config/reader.hpp"
 #include "config/writer.hpp"
+#include "mesh/select.hpp"
 #include "post/describe_columns.hpp"
 #include "post/steps.hpp"
 #include "run/post_config.hpp"
@@ -30,6 +32,7 @@ std::vector<ColumnChoice> choices(const std::string& list) {
 struct Sample {
   Mesh mesh = [] {
     Mesh m = test::block({0, 1, 2, 3}, {0, 1, 2}, {0, 2});
+    name_sides(m);
     m.node_sets["A"] = {5};
     m.node_sets["B"] = {m.n_nodes() - 1};
     return m;
@@ -45,18 +48,22 @@ struct Sample {
     }
     s.t = 0.25, s.increment = 0.05, s.iterations = 4, s.residual = 1e-10;
     s.stick = 3, s.slip = 2;
-    s.histories = {{"penetration", 1e-11},      {"cone", 2e-9},
-                   {"complementarity", 3e-9},   {"energy", 0.5},
-                   {"negative_eigenvalues", 1}, {"shear_stiffness_min", -0.2},
-                   {"unstable_volume", 0.1},    {"outside_fit", 0.3},
-                   {"driving_force", 7},        {"time", 12},
-                   {"viscous_work", 0.3}};
+    s.histories = {{"penetration", 1e-11},       {"cone", 2e-9},
+                   {"complementarity", 3e-9},    {"energy", 0.5},
+                   {"negative_eigenvalues", 1},  {"shear_stiffness_min", -0.2},
+                   {"unstable_volume", 0.1},     {"outside_fit", 0.3},
+                   {"driving_force", 7},         {"time", 12},
+                   {"viscous_work", 0.3},        {"adhesion_stored", 0.2},
+                   {"adhesion_dissipated", 0.1}, {"energy_released", 0.05},
+                   {"bonded_area", 1.5},         {"contact_area", 2.5},
+                   {"contact_radius", 0.9},      {"contact_pressure_max", 0.04}};
     return s;
   }();
   Available available{true,
                       true,
-                      {"complementarity", "cone", "driving_force", "energy", "negative_eigenvalues", "outside_fit", "penetration",
-                       "shear_stiffness_min", "time", "unstable_volume", "viscous_work"}};
+                      {"adhesion_dissipated", "adhesion_stored", "bonded_area", "complementarity", "cone", "driving_force",
+                       "energy", "energy_released", "negative_eigenvalues", "outside_fit", "penetration", "shear_stiffness_min",
+                       "time", "unstable_volume", "viscous_work"}};
 
   Measures look(const std::string& list) const { return look_up(choices(list), "columns", body, available); }
   std::vector<double> values(const std::string& list, StressAt at = StressAt::nodal_average) const {
@@ -112,7 +119,7 @@ TEST_CASE("every quantity can be measured, is finite, and is found by its own wo
 
 TEST_CASE("every quantity is listed once, its word finds it, its unit is that of the number") {
   std::set<std::string> words;
-  const std::set<std::string> units{"-", "mm", "N", "MPa", "N mm", "s"};
+  const std::set<std::string> units{"-", "mm", "mm^2", "mm^3", "N", "MPa", "N mm", "s"};
   const std::string text = columns_text();
   for (std::size_t i = 0; i < quantity_lines().size(); ++i) {
     const QuantityLine& line = quantity_lines()[i];
@@ -137,11 +144,16 @@ TEST_CASE("a column has the dimension that its unit says") {
   for (Vec3& r : scaled.state.reaction) r *= force;
   s.state.u_ind = Vec3(0.1, -0.4, 0.2), scaled.state.u_ind = length * s.state.u_ind;
   s.state.force_ind = Vec3(0.3, 2, -0.1), scaled.state.force_ind = force * s.state.force_ind;
-  s.state.sums = {0.6, 1.5, 0.2, 0.01, 0.4, 0.7};
-  scaled.state.sums = {length * 0.6, length * force * 1.5, length * force * 0.2, 0.01, length * force * 0.4, 0.7};
-  for (auto& [name, value] : scaled.state.histories)
-    value *= std::map<std::string, double>{{"-", 1}, {"mm", length}, {"N mm", length * force}, {"MPa", stress}, {"s", 1}}.at(
-        solution::unit_of(name));
+  s.state.sums = {0.6, 1.5, 0.2, 0.01, 0.4, 0.7, 0.8};
+  scaled.state.sums = {length * 0.6, length * force * 1.5, length * force * 0.2, 0.01, length * force * 0.4, 0.7, force * 0.8};
+  const std::map<std::string, double> factor{
+      {"-", 1},     {"mm", length},  {"mm^2", length * length}, {"mm^3", length * length * length},
+      {"N", force}, {"MPa", stress}, {"N mm", length * force},  {"s", 1}};
+  for (auto& [name, value] : scaled.state.histories) {
+    const auto column =
+        std::find_if(quantity_lines().begin(), quantity_lines().end(), [&](const auto& q) { return q.word == name; });
+    value *= factor.at(column == quantity_lines().end() ? solution::unit_of(name) : column->unit);
+  }
   Material law = test::table1(30, 1e-2), stiffer = law;
   std::get<QuadraticVolume>(stiffer.volume).d /= stress;
   for (Fibre& f : stiffer.fibres) std::get<HgoFibre>(f.law).c1 *= stress;
@@ -149,8 +161,6 @@ TEST_CASE("a column has the dimension that its unit says") {
     for (double* a : {&std::get<Yeoh>(term).a1, &std::get<Yeoh>(term).a2, &std::get<Yeoh>(term).a3}) *a *= stress;
   const Body body = test::body(s.mesh, {law}, Formulation::mean_dilatation),
              other = test::body(scaled.mesh, {stiffer}, Formulation::mean_dilatation);
-  const std::map<std::string, double> factor{{"-", 1},        {"mm", length},           {"N", force},
-                                             {"MPa", stress}, {"N mm", length * force}, {"s", 1}};
   for (const QuantityLine& line : quantity_lines()) {
     CAPTURE(line.word);
     const std::string choice = std::string("{quantity: ") + line.word + (needs_place(line) ? ", at: x_max}" : "}");
@@ -194,7 +204,7 @@ TEST_CASE("the unloaded state gives zeros, and ones for ratios of volume and len
     if (place) continue;
     const std::string word = line.word;
     const bool ratio = word.starts_with("J") || word.starts_with("fibre_stretch") || word == "relaxation";
-    const double value = s.value(std::string("{quantity: ") + line.word + (needs_place(line) ? ", at: A" : "") + "}");
+    const double value = s.value(std::string("{quantity: ") + line.word + (needs_place(line) ? ", at: x_max" : "") + "}");
     CHECK(value == doctest::Approx(ratio ? 1 : 0).epsilon(1e-14));
   }
 }
@@ -269,7 +279,7 @@ TEST_CASE("names that the mesh or the solution lacks are complaints with their k
   REQUIRE(found.size() == 1);
   CHECK(found[0].key == "columns[1].at");
   CHECK(found[0].found == "the mesh has no nodes called \"Q\"");
-  CHECK(found[0].expected.starts_with("one of A, B, x_max"));
+  CHECK(found[0].expected.starts_with("one of A, B, bottom, top, x_max"));
   found = bad("{quantity: u_y, at: x_mas}");
   CHECK(found.at(0).hint == "did you mean \"x_max\"?");
   found = bad("{history: enrgy}");
