@@ -134,8 +134,7 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, c
 
 }  // namespace
 
-std::vector<ErrorEstimate> dual_errors(const SolveConfig& config, Run& run, const StepRecord& last,
-                                       const std::vector<Valued>& found) {
+PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found) {
   need_known_kind(config, run);
   const Questions questions(run, last);
   std::vector<Asked> asked;
@@ -153,7 +152,7 @@ std::vector<ErrorEstimate> dual_errors(const SolveConfig& config, Run& run, cons
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) throw not_known("a layer of one cell tells nothing of smooth fields across it");
   const bool quadratic = run.mesh.cell().second_order();
-  std::vector<ErrorEstimate> out;
+  PathErrors out;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const Valued& q = found[asked[k].quantity];
     const auto& d = errors.along[k];
@@ -166,10 +165,13 @@ std::vector<ErrorEstimate> dual_errors(const SolveConfig& config, Run& run, cons
     if (q.of_force()) e.order = order_of_force(config);
     e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * d.size / std::abs(times);
     if (d.size / std::abs(times) > too_rough * std::abs(q.value))
-      throw not_known(
-          fmt::format("the cells are too long: their parts of the error of {} add up to {:.0f} %", q.name, e.in_percent(d.size)));
-    out.push_back(e);
+      out.not_known.push_back(
+          fmt::format("the error of {} is not known: the cells are too long, their parts of it add up to {:.0f} %", q.name,
+                      e.in_percent(d.size / std::abs(times))));
+    else
+      out.at_end.push_back(e);
   }
+  if (out.at_end.empty()) throw not_known(out.not_known.front());
   return out;
 }
 

@@ -12,8 +12,8 @@
 
 namespace langer {
 
-// of the state that `run` was left at, `last` that of the whole body. Throws Failure(not_converged) where this is not known, saying why.
-std::vector<ErrorEstimate> dual_errors(const SolveConfig& config, Run& run, const StepRecord& last,
-                                       const std::vector<Valued>& found);
+// of the state that `run` was left at, `last` that of the whole body. Throws Failure(not_converged) where no error is known, saying why;
+// a quantity for which the cells are too long is left out, with a sentence in not_known.
+PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found);
 
 }  // namespace langer

@@ -275,8 +275,8 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, Run& run,
                      const StepRecord& last, const std::vector<StepForces>& path, const EstimateListener& listener) {
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
-  if (config.estimate == EstimateBy::dual) return {dual_errors(config, run, last, found), {}, 0};
-  if (config.estimate == EstimateBy::recovery) return {recovered_errors(run.scene, run.mesh, last, found), {}, 0};
+  if (config.estimate == EstimateBy::dual) return dual_errors(config, run, last, found);
+  if (config.estimate == EstimateBy::recovery) return {recovered_errors(run.scene, run.mesh, last, found), {}, 0, {}};
   return estimate_along(config, material, where, {found, path, 0}, last.residual, listener);
 }
 

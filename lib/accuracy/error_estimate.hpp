@@ -101,6 +101,7 @@ struct PathErrors {
   std::vector<ErrorEstimate> at_end;
   std::map<std::string, std::vector<double>> along;  // by force: total() at each step of the run [N]; empty by recovery
   double growth = 0;                                 // power of 1 / length of the cells with which the CPU time grew; 0: not known
+  std::vector<std::string> not_known;                // why a quantity is not in at_end, a sentence each
 };
 // The same, at each step of itself.path too: the forces of the other meshes there, linear between their own steps.
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,

@@ -61,6 +61,7 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::
     voice.warn(fmt::format("errors are not estimated: {}", failure.what()));
   }
   for (const ErrorEstimate& e : found.at_end) voice.say("{}", in_words(e));
+  for (const std::string& why : found.not_known) voice.warn(why);
   say_costs(voice, found);
   return found;
 }

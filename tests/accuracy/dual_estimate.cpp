@@ -32,7 +32,7 @@ Estimated by_dual_solutions(const std::string& text) {
   const RunEnd end = run.follow();
   REQUIRE(end.path.complete);
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, end.last);
-  return {found, dual_errors(config, run, end.last, found)};
+  return {found, dual_errors(config, run, end.last, found).at_end};
 }
 
 double value_of(const std::string& text, const std::string& name) {
