@@ -132,7 +132,9 @@ void put(const ChosenLevel& chosen, SolveConfig& config) {
     *edge = level.edge;
   else
     geometry = level.edge == 1 ? chosen.written : with_cells(chosen.written, level.edge);
+  const double first = config.path.first_increment();
   if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
+  if (config.path.seconds) config.path.first = std::min(first, level.step);  // its error decides: longer ones are begun again
   config.mesh->cells = level.cells;
 }
 
@@ -176,13 +178,17 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
       std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
-  chosen.shown = of_the_studys_kind(config, print) && !config.path.seconds;                          // it is of elastic bodies
+  const bool elastic = !config.path.seconds;  // as the study's bodies
+  chosen.shown = of_the_studys_kind(config, print) && elastic;
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
   chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *level : levels.back();
+  // what relaxes wants the cells of what does not
+  if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))
+    chosen.level.edge = std::min(chosen.level.edge, level->edge);
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
   if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;

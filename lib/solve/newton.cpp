@@ -37,13 +37,16 @@ namespace {
 class OldTangent {
  public:
   explicit OldTangent(double price) : price_(price) {}
+  // an increment in which nothing moves, as of a viscous body that is held: its contacts are found, its residual is small, and stays
+  // about the same when the first correction has moved the branch stresses into the volume
+  void begins(const Assessment& first) { rests_ = first.others && first.residual < 0.1 * first.reference; }
   void renewed() { used_ = 0; }
   bool used() const { return used_ > 0; }
   // residual before the next correction, and the one wanted
   bool serves(double residual, double wanted) {
     const double share = before_ > 0 ? residual / before_ : 1;  // what the last correction left
     before_ = residual;
-    if (used_ == 0) return any_ && share < 0.1;  // not while a long step still finds its contacts
+    if (used_ == 0) return any_ && (share < 0.1 || rests_);  // not while a long step still finds its contacts
     // where switches of fibres turn on and off, an old tangent may undo what a new one did, for ever
     if (share > 0.3) return any_ = false;
     if (used_ > price_ + 2) return false;
@@ -57,6 +60,7 @@ class OldTangent {
   double price_, before_ = 0;  // residual
   int used_ = 0;               // since it was made
   bool any_ = true;            // serves in this step at all
+  bool rests_ = false;
 };
 
 }  // namespace
@@ -76,6 +80,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
+    if (report.evaluations == 1) old.begins(now);
     const double wanted =
         old.used() ? std::max({options.absolute, strict * options.relative * now.reference, now.floor}) : report.tolerance;
     const bool balanced = now.residual <= wanted;
