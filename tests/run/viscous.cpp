@@ -231,7 +231,8 @@ TEST_CASE("viscous: a continued run is the run, to the last digit") {
   }
 }
 
-TEST_CASE("viscous: storage and loss of small cycles are those of the branches, in a pulled and in a sheared block") {
+TEST_CASE(
+    "viscous: storage and loss of small cycles are those of the branches, in a pulled and in a sheared block, and at a point") {
   const double size = 1e-4, period = 1;
   std::string triangle;
   for (int i = 0; i < 8; ++i) triangle += "{s: " + std::to_string(0.25 + 0.5 * i) + ", to: " + (i % 2 ? "-" : "") + "1.0e-4}, ";
@@ -243,7 +244,7 @@ TEST_CASE("viscous: storage and loss of small cycles are those of the branches, 
   const std::string pulled =
       "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [3, 2, 2]}}}\n"
       "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\nloads: [{on: x_max, displacement: {x: ";
-  for (const auto& [scene, face, point] : {std::tuple(sheared, "top", false), {pulled, "x_max", false}}) {
+  for (const auto& [scene, face, point] : {std::tuple(sheared, "top", false), {pulled, "x_max", false}, {pulled, "x_max", true}}) {
     CAPTURE(face);
     const auto found = [&](const std::string& text) {
       const Mesh mesh = test::mesh_in(test::config_of(text));
@@ -277,7 +278,8 @@ TEST_CASE("viscous: storage and loss of small cycles are those of the branches, 
 TEST_CASE(
     "viscous: what the branches remember is told before the run: 6 numbers for each, and 13 beside them, at each Gauss point") {
   const auto bytes = [](const std::string& more) {
-    const SolveConfig config = test::config_of(block("hex8") + material(more) + ball(hold) + "path: {seconds: 10}\nsymmetry: none\n");
+    const SolveConfig config =
+        test::config_of(block("hex8") + material(more) + ball(hold) + "path: {seconds: 10}\nsymmetry: none\n");
     Run run(mesh_of(config), config, config.material, test::nowhere, false);
     return run.body.viscous() ? run.body.memory()->bytes() : 0;
   };
