@@ -1,6 +1,6 @@
 // A YAML file as a tree that knows where each part stands. The parser itself stays behind tree.cpp.
 // `include: file` (or a list of files; paths relative to the including file) is merged first, keys beside it win; deep for
-// maps. Of keys that choose or sum alternatives (a law's matrix, an indenter's shape), what stands beside the include replaces
+// maps, and `key: null` takes an included key away. Of keys that choose or sum alternatives (a law's matrix, an indenter's shape), what stands beside the include replaces
 // the included alternatives as a whole; `layers` tells the reader which are which. Refused with the right line: duplicate keys, `<<`, tags, anchors that contain themselves, include cycles, more than one
 // document, nesting deeper than 64 and more than 100 000 parts (aliases counted as often as they are used), non-YAML.
 #pragma once

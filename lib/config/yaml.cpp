@@ -193,12 +193,15 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
 void merge(Tree& base, const Tree& over) {
   std::unordered_map<std::string_view, std::size_t> index;  // a map may have 100 000 keys
   base.map.reserve(base.map.size() + over.map.size());      // so that keys stay where they are
+  std::vector<std::size_t> taken;                           // away by `key: null`
   for (std::size_t i = 0; i < base.map.size(); ++i) index.emplace(base.map[i].key, i);
   for (const auto& [key, value] : over.map) {
     const auto known = index.find(key);
     Tree::Entry* const same = known == index.end() ? nullptr : &base.map[known->second];
     if (!same)
       base.map.push_back({key, value});
+    else if (value.kind == Tree::Kind::null)
+      taken.push_back(known->second);
     else if (same->value.kind == Tree::Kind::map && value.kind == Tree::Kind::map) {
       merge(same->value, value);
       same->value.place = value.place;
@@ -209,6 +212,8 @@ void merge(Tree& base, const Tree& over) {
       same->value.layers |= layers;
     }
   }
+  std::sort(taken.rbegin(), taken.rend());
+  for (const std::size_t i : taken) base.map.erase(base.map.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 std::uint64_t layers_in(const Tree& tree) {

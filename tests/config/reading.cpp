@@ -186,6 +186,19 @@ TEST_CASE("included files are merged below the keys beside them") {
   fs::remove_all(folder);
 }
 
+TEST_CASE("null beside an include takes the included key away, at any depth") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("langer_null_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "base.yaml") << "a: {x: 1, y: 2}\nb: [1, 2]\nc: 3\nd: {z: 4}\n";
+  std::ofstream(folder / "top.yaml") << "include: base.yaml\nc: null\na: {x: ~}\nb:\nnew: null\n";
+  const Tree tree = load_yaml((folder / "top.yaml").string());
+  CHECK(to_text(tree) == "a:\n  y: 2\nd:\n  z: 4\nnew: null\n");
+  std::ofstream(folder / "over.yaml") << "include: [base.yaml, top.yaml]\nd: null\nc: 5\n";
+  CHECK(to_text(load_yaml((folder / "over.yaml").string())) == "a:\n  x: 1\n  y: 2\nb: [1, 2]\nc: 5\nnew: null\n");
+  fs::remove_all(folder);
+}
+
 TEST_CASE("anchors may be used, and counted") {
   const Tree tree = parse_yaml("a: &a {x: 1}\nb: [*a, *a]\n", "text");
   CHECK(to_text(tree) == "a:\n  x: 1\nb:\n  - x: 1\n  - x: 1\n");
