@@ -161,8 +161,12 @@ TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth")
   facets.rounding = 0.05;
   facets.tree = std::make_shared<TriangleTree>(
       Triangles{{{0, 1.2, 0}, {1, 1.2, 0}, {0, 1.2, 1}, {0.3, 2, 0.3}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}});
-  const std::vector<Indenter> shapes{Sphere{0.4, {0.5, 1.4, 0.5}}, Plane{{0, 1, 0}, {0, -1, 0}}, Cylinder{0.3, 0.1, {0.2, 1, 0.2}},
-                                     Ellipsoid{{0.3, 0.2, 0.4}, {0.8, 1.2, 0.8}}, facets};
+  const std::vector<Indenter> shapes{Sphere{0.4, {0.5, 1.4, 0.5}},
+                                     Plane{{0, 1, 0}, {0, -1, 0}},
+                                     Cylinder{0.3, 0.1, {0.2, 1, 0.2}},
+                                     Ellipsoid{{0.3, 0.2, 0.4}, {0.8, 1.2, 0.8}},
+                                     facets,
+                                     Aperture{0.3, 0.1, {0.5, 1, 0.5}}};
   REQUIRE(shapes.size() == std::variant_size_v<Indenter>);
   const auto marks = [&](const RenderScene& s) { return render(s, {}).marks.size(); };
   const std::size_t bare = marks(scene);
