@@ -100,14 +100,14 @@ std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, con
     const std::string file = "fit_" + curve.name + ".csv",
                       over = curve.places.empty() ? csv_name(curve.x_name, curve.x_unit) : "x_mm";
     Plot plot;
-    plot.title = curve.name + ": measured and found";
+    plot.title = literal(curve.name) + ": measured and found";
     plot.x_label = curve.places.empty() ? fmt::format("{} ({})", literal(curve.x_name), curve.x_unit) : "x (mm)";
     plot.y_label = fmt::format("{} ({})", literal(curve.quantity), curve.unit);
     plot.lines = {{file, over, csv_name(curve.quantity, curve.unit), "measured"},
                   {file, over, csv_name("model", curve.unit), "found"}};
     plot.lines[0].points = true, plot.lines[1].points = !curve.places.empty();
     pictures.draw("fit_" + curve.name, gnuplot_script(plot, "fit_" + curve.name));
-    plot.title = curve.name + ": found less measured", plot.y_label = "error (% of the largest)";
+    plot.title = literal(curve.name) + ": found less measured", plot.y_label = "error (% of the largest)";
     plot.lines = {{file, over, "error_percent", "error"}};
     plot.lines[0].points = !curve.places.empty();
     pictures.draw("error_" + curve.name, gnuplot_script(plot, "error_" + curve.name));
