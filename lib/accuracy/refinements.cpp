@@ -121,8 +121,7 @@ Refinements refinements(const SolveConfig& config, const Find& where) {
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
   refined.other_increments = coarsest;
   refined.other_increments.path.use_increment(another);
-  if (config.path.seconds)  // it grows with the third power of an increment
-    refined.other_increments.path.time_error = config.path.largest_time_error() / (ratio * ratio * ratio);
+  refined.other_increments.path.time_error /= ratio * ratio * ratio;  // it grows with the third power of an increment
   return refined;
 }
 

@@ -56,8 +56,8 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       continue;
     }
     // errors grow with the third power of an increment
-    const double fits = solved.time_error > 0 ? 0.9 * std::cbrt(options.largest_time_error() / solved.time_error) : 2;
-    if (!options.steps && solved.time_error > options.largest_time_error() && fits * (next - t) > shortest * options.smallest) {
+    const double fits = solved.time_error > 0 ? 0.9 * std::cbrt(options.time_error / solved.time_error) : 2;
+    if (!options.steps && solved.time_error > options.time_error && fits * (next - t) > shortest * options.smallest) {
       ++report.too_long, shortened = true;
       dt = std::max(fits, 0.1) * (next - t);
       continue;

@@ -16,8 +16,7 @@ struct LoadPathOptions {
   double first = 0.1, largest = 0.1, smallest = 1e-4;
   int easy = 6;
   std::optional<double> seconds;
-  std::optional<double> time_error;
-  double largest_time_error() const { return time_error.value_or(1e-3); }
+  double time_error = 1e-3;
 
   double first_increment() const { return steps ? 1.0 / *steps : first; }
   double largest_increment() const { return steps ? 1.0 / *steps : largest; }
@@ -37,19 +36,13 @@ struct LoadPathOptions {
     v(&LoadPathOptions::seconds, "seconds", unit::s, "duration of the path; what viscous materials need", positive);
     v(&LoadPathOptions::time_error, "time_error", unit::none,
       "of viscous materials: error of the branch stresses that an increment may make, over the greatest stresses, both as means over "
-      "the body; none: 1e-3; not beside steps",
+      "the body; not with steps",
       positive, between(0, 1));
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (!steps && first > largest) found.push_back({"first", "larger than largest", "first <= largest", ""});
     if (smallest > first_increment()) found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
-    if (time_error && steps)
-      found.push_back({"time_error", "found beside steps", "one of the two",
-                       "steps takes equal increments whatever their error; leave it out for increments by their error"});
-    if (time_error && !seconds)
-      found.push_back({"time_error", "found, and the path has no seconds", "path: {seconds: ...}",
-                       "without a duration nothing depends on time, and increments have no such error"});
     return found;
   }
 };

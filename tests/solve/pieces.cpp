@@ -300,8 +300,8 @@ TEST_CASE("an increment of too large an error in time is begun again, and none i
     return true;
   });
   REQUIRE(report.complete);
-  CHECK(largest <= options.largest_time_error());
-  CHECK(largest > 0.2 * options.largest_time_error());
+  CHECK(largest <= options.time_error);
+  CHECK(largest > 0.2 * options.time_error);
   CHECK(report.too_long >= 1);
   CHECK(report.too_long < 10);
   CHECK(attempts == report.steps + report.too_long);
