@@ -127,7 +127,7 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, 
     out.push_back(c);
     const bool of_torque = c.history && c.history->starts_with("torque_");
     if (!c.quantity && !of_torque) continue;
-    const std::string_view word = of_torque ? *c.history : line_of(*c.quantity).word;
+    const std::string_view word = of_torque ? std::string_view(*c.history) : line_of(*c.quantity).word;
     const std::string history = error_of(of_torque                               ? *c.history
                                          : word == "force"                       ? "force"
                                          : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at

@@ -142,7 +142,9 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
     }
   }
   const Vec3 size = hull.size();
-  rounding_of_J_ = std::numeric_limits<double>::epsilon() * bulk_modulus(scene.materials.front()) * size.prod() / size.minCoeff();
+  const Material& law = scene.materials.front();  // an error of strain of 1e-9 at most: else the mesh may be nearer
+  rounding_of_J_ = std::min(std::numeric_limits<double>::epsilon() * bulk_modulus(law), 1e-9 * shear_modulus(law)) * size.prod() /
+                   size.minCoeff();
   scene_.formulation = usual_formulation(CellType::hex8);
   scene_.materials = scene.materials, scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(std::array{0});
