@@ -122,15 +122,14 @@ VecX StateTangent::local_of(const VecX& last) const {
 std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, const StateDerivative& earlier) const {
   std::vector<Vec3> out(near_.size(), Vec3::Zero());
   const BodyState& was = statics_.before_;
-  const auto& [s, travel, at_touch] = statics_.begun_;
+  const double s = statics_.begun_.extrapolated, travel = statics_.begun_.travel;
   const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
-  const auto expected = [s = s](const auto& now, const auto& then) { return now + s * (now - then); };
+  const auto expected = [s](const auto& now, const auto& then) { return now + s * (now - then); };
   double d_travel = expected(before.travel, earlier.travel);
-  if (at_touch) {
+  if (statics_.begun_.at_touch) {
     const auto at = [&](const VecX& now, const VecX& then) {
-      return [&, s = s](int node) {
-        return Vec3(now.segment<3>(3 * node) + s * (now.segment<3>(3 * node) - then.segment<3>(3 * node)));
-      };
+      return
+          [&, s](int node) { return Vec3(now.segment<3>(3 * node) + s * (now.segment<3>(3 * node) - then.segment<3>(3 * node))); };
     };
     const auto moved = at(before.u, earlier.u), u = at(was.u, earlier_.u);
     d_travel = change_of_touch(
