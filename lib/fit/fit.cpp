@@ -242,13 +242,19 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
   const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
   std::optional<ViscousPoint> point;
   if (is_viscous(material) && !test.time.empty()) point.emplace(material, a);
-  for (std::size_t i = 0; i < test.points(); ++i) {
-    // at rest until the first point
-    const PointMemory memory = point ? point->begin(i > 0 ? test.time[i] - test.time[i - 1] : 0) : PointMemory{};
-    const PlaneState state = plane_state(material, a, test.kind, test.first[i], test.second.empty() ? 1 : test.second[i],
+  std::optional<double> then;  // at rest until the first point
+  const auto state_at = [&](const auto& points, std::size_t i) {
+    const PointMemory memory = point ? point->begin(then ? points.time[i] - *then : 0) : PointMemory{};
+    const PlaneState state = plane_state(material, a, test.kind, points.first[i], points.second.empty() ? 1 : points.second[i],
                                          test.shear, point ? &memory : nullptr);
+    if (state.converged && point) point->accept(state.F), then = points.time[i];
+    return state;
+  };
+  for (std::size_t i = 0; point && i < test.before.first.size(); ++i)
+    if (!state_at(test.before, i).converged) return false;
+  for (std::size_t i = 0; i < test.points(); ++i) {
+    const PlaneState state = state_at(test, i);
     if (!state.converged) return false;
-    if (point) point->accept(state.F);
     const auto both = measured_stress(state, test.kind, test.measure);
     stress[i] = both[0];
     if (!test.stress_z.empty()) stress[test.points() + i] = both[1];

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "fit/test_range.hpp"
 
 namespace langer {
 
@@ -109,7 +110,8 @@ struct Reading {
   void add_stress(AxisColumns& axis, std::size_t column, const std::optional<double>& width, const char* width_key) {
     axis.has_stress = true, axis.stress = column;
     const ColumnMeaning m = meaning(column);
-    const std::optional<StressUnit> unit = agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
+    std::optional<StressUnit> unit = agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
+    if (!unit && format.normalised) unit = StressUnit::MPa;  // any serves
     if (!unit)
       return say_of_column(
           column, "stress_unit",
@@ -118,7 +120,9 @@ struct Reading {
           "stress_unit, or a name that ends in _MPa, _kPa or _Pa", "of a force: N, mN or kN, with width and thickness");
     axis.stress_factor = per_unit_of_stress[static_cast<std::size_t>(*unit)];
     std::optional<StressMeasure> told = m.stress;
-    if (is_force(*unit)) {
+    if (is_force(*unit) && format.normalised) {
+      told = StressMeasure::nominal;
+    } else if (is_force(*unit)) {
       axis.stress_factor /= size(width, column, width_key, "the width of the specimen in mm, across this force");
       axis.stress_factor /= size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
       told = StressMeasure::nominal;
@@ -243,48 +247,6 @@ Test& test_named(std::vector<Test>& tests, const Test& like, const std::string& 
   return tests.back();
 }
 
-// The body at the toe is the new one at rest: P l is the force over its area, S l^2 too.
-void shift_to_toe(Test& test, double toe, const std::string& file) {
-  const auto error = [&](std::string found, std::string expected) {
-    return Failure(Exit::input, {{file, 0, 0}, "toe", std::move(found), std::move(expected), ""});
-  };
-  std::size_t k = 0;
-  while (k < test.points() && test.stress_x[k] < toe) ++k;
-  if (k == test.points())
-    throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe, test.name.empty() ? "the test" : test.name),
-                "less");
-  const auto at_toe = [&](const std::vector<double>& l) {
-    if (k == 0) return l[0];
-    const double s = (toe - test.stress_x[k - 1]) / (test.stress_x[k] - test.stress_x[k - 1]);
-    return l[k - 1] + s * (l[k] - l[k - 1]);
-  };
-  const auto shift = [&](std::vector<double>& l, std::vector<double>& stress, double l0) {
-    const double area = test.measure == StressMeasure::nominal ? l0 : test.measure == StressMeasure::second_piola ? l0 * l0 : 1;
-    for (double& x : l) x /= l0;
-    for (double& s : stress) s *= area;
-  };
-  const double x0 = at_toe(test.first), z0 = test.second.empty() ? x0 : at_toe(test.second);
-  std::vector<double> none;
-  shift(test.first, test.stress_x, x0);
-  // pure shear holds z, an equibiaxial test pulls it alike
-  shift(test.second, test.stress_z, test.kind == TestKind::pure_shear ? 1 : z0);
-  for (auto* list : {&test.first, &test.second, &test.stress_x, &test.stress_z})
-    if (!list->empty()) list->erase(list->begin(), list->begin() + static_cast<std::ptrdiff_t>(k));
-}
-
-void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < test.points(); ++i) {
-    const double strain = test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
-    if (strain < from || strain > to) continue;
-    for (auto* list : {&test.first, &test.second, &test.stress_x, &test.stress_z})
-      if (!list->empty()) (*list)[n] = (*list)[i];
-    ++n;
-  }
-  for (auto* list : {&test.first, &test.second, &test.stress_x, &test.stress_z})
-    if (!list->empty()) list->resize(n);
-}
-
 // The other axis of a test whose axes have grids of their own: the same specimen turned by 90 degrees.
 Test turned(const TestFormat& format, const std::string& name) {
   Test t = format.like;
@@ -347,16 +309,21 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   read_rows(in, x, z, split, own_grids, tests, others);
   in.check();
   if (tests.empty()) tests.push_back(f.like);
-  const bool is_part = f.toe || !f.where.empty() || f.strain_from > -1e300 || f.strain_to < 1e300;
+  const bool is_part = f.toe || !f.where.empty() || f.part.leaves_out();
   const auto finish = [&](Test& test, const char* end) {
+    keep_times(test, f.part.time_from, f.part.time_to);
     if (f.toe && test.points() > 0) shift_to_toe(test, *f.toe, table.name);
-    keep_range(test, std::vector<double>(own_grids && !test.second.empty() ? test.second : test.first), f.strain_from, f.strain_to);
+    if (f.rest_at_start && test.points() > 0) shift_to_start(test);
+    keep_range(test, std::vector<double>(own_grids && !test.second.empty() ? test.second : test.first), f.part.strain_from,
+               f.part.strain_to);
+    compare_from(test, f.part.compare_from);
     if (test.points() < 2)
       throw Failure(Exit::input, {{table.name, 0, 0},
                                   split ? f.split + " = " + test.name : std::string(),
                                   fmt::format("found {} points{}", test.points(), is_part ? " in the range" : ""),
                                   "two at least",
                                   ""});
+    if (f.normalised) normalise(test, table.name);
     test.name = (!split ? f.like.name : f.like.name.empty() ? test.name : f.like.name + "_" + test.name) + end;
   };
   for (Test& test : tests) finish(test, "");

@@ -21,6 +21,11 @@
 
 namespace langer {
 
+// What a viscous specimen went through before the points that are compared; times as those, empty: it was at rest.
+struct Past {
+  std::vector<double> first, second, time;
+};
+
 struct Test {
   std::string name;
   TestKind kind = TestKind::uniaxial;
@@ -29,11 +34,22 @@ struct Test {
   double fibre_angle_deg = 0;  // of the specimen, added to the law's
   double weight = 1;           // of its residuals: 1/standard deviation, or relative
   std::vector<double> first, second, stress_x, stress_z;
-  std::vector<double> time;        // [s] of each point, what viscous laws need; empty where it was not measured
+  std::vector<double> time;  // [s] of each point, what viscous laws need; empty where it was not measured
+  Past before;
   std::vector<std::string> notes;  // what was taken for granted when it was read
 
   std::size_t points() const { return first.size(); }
   std::size_t values() const { return stress_x.size() + stress_z.size(); }
+};
+
+// what of a test is kept; strains are lambda_x - 1 (simple shear: g), after the shift by `toe`
+struct KeptPart {
+  double strain_from = -1e300, strain_to = 1e300;
+  double time_from = -1e300, time_to = 1e300;  // [s]
+  double compare_from = -1e300;                // [s]; points before it become Test::before
+  bool leaves_out() const {
+    return strain_from > -1e300 || strain_to < 1e300 || time_from > -1e300 || time_to < 1e300 || compare_from > -1e300;
+  }
 };
 
 struct TestFormat {
@@ -46,12 +62,14 @@ struct TestFormat {
   // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or pure shear test with strain_z
   // has a grid of its own for each axis and becomes two tests
   std::string strain_x, strain_z, stress_x, stress_z, time;
-  std::map<std::string, std::string> where;        // only rows with these texts in these columns
-  std::string split;                               // a column: one test per text in it
-  double strain_from = -1e300, strain_to = 1e300;  // of lambda_x - 1 (simple shear: g), after the shift by `toe`
+  std::map<std::string, std::string> where;  // only rows with these texts in these columns
+  std::string split;                         // a column: one test per text in it
+  KeptPart part;                             // of its points
   std::optional<double> width, thickness, gauge_length, width_z,
-      gauge_length_z;         // at rest [mm]; z: for force and elongation along z
-  std::optional<double> toe;  // the stretch at which the stress along x first reaches this is the new rest [MPa]
+      gauge_length_z;          // at rest [mm]; z: for force and elongation along z
+  std::optional<double> toe;   // the stretch at which the stress along x first reaches this is the new rest [MPa]
+  bool rest_at_start = false;  // what is read until the specimen first moves is no deformation and no stress
+  bool normalised = false;     // stresses over the largest that is kept; forces then need no sizes
 };
 
 std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);      // throws Failure(input)

@@ -17,6 +17,8 @@ std::vector<Complaint> FitData::complaints() const {
   std::vector<Complaint> all;
   if (strain_from && strain_to && *strain_from >= *strain_to)
     all.push_back({"strain_to", "found " + number_text(*strain_to), "more than strain_from, " + number_text(*strain_from), ""});
+  if (time_from && time_to && *time_from >= *time_to)
+    all.push_back({"time_to", "found " + number_text(*time_to), "more than time_from, " + number_text(*time_from), ""});
   if (weight && standard_deviation)
     all.push_back({"weight", "beside standard_deviation", "one of the two", "the weight is 1/standard_deviation"});
   if (is_scene()) {
@@ -51,11 +53,16 @@ std::vector<Complaint> FitData::complaints() const {
   if (columns && !columns->time.empty()) {
     const std::string whole = "a history, of which no part can be left out";
     if (toe) all.push_back({"toe", "found beside columns.time", "none: " + whole, ""});
-    if (strain_from) all.push_back({"strain_from", "found beside columns.time", "none: " + whole, ""});
-    if (strain_to) all.push_back({"strain_to", "found beside columns.time", "none: " + whole, ""});
+    if (strain_from) all.push_back({"strain_from", "found beside columns.time", "none: " + whole, "time_from begins it later"});
+    if (strain_to) all.push_back({"strain_to", "found beside columns.time", "none: " + whole, "time_to ends it earlier"});
     if (own_grids)
       all.push_back({"columns.time", "found with a grid of its own for each axis", "both axes at the same instants", ""});
+  } else {
+    for (const auto& [key, given] : {std::pair("time_from", time_from), {"time_to", time_to}, {"compare_from", compare_from}})
+      if (given) all.push_back({key, "found without a column of times", "columns: {time: ...}", ""});
   }
+  if (toe && zero_at == ZeroAt::start)
+    all.push_back({"toe", "found beside zero_at: start", "one of the two", "both say what is at rest"});
   if (toe && kind == DataKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
   if (toe && own_grids) all.push_back({"toe", "found with a grid of its own for each axis", "no toe: data that start at rest", ""});
   if (columns && !columns->stress_z.empty() && (kind == DataKind::uniaxial || kind == DataKind::simple_shear))
@@ -317,44 +324,6 @@ std::vector<Complaint> FitConfig::complaints() const {
   complain_about_ties(*this, known, all);
   if (has_scenes()) complain_about_scenes(*this, all);
   return all;
-}
-
-std::vector<Test> measured_tests(const FitConfig& config) {
-  std::vector<Test> tests;
-  for (const FitData& data : config.data) {
-    if (data.is_scene()) continue;
-    TestFormat format;
-    Test& like = format.like;
-    like.name = data.name.empty() ? std::filesystem::path(data.file.path).stem().string() : data.name;
-    like.kind = static_cast<TestKind>(data.kind);
-    like.shear = data.shear, like.fibre_angle_deg = data.fibre_angle;
-    like.weight = data.standard_deviation ? 1 / *data.standard_deviation : data.weight.value_or(1);
-    format.strain = data.strain, format.stress = data.stress, format.strain_unit = data.strain_unit;
-    format.stress_unit = data.stress_unit, format.decimal = data.decimal;
-    format.width = data.width, format.thickness = data.thickness, format.gauge_length = data.gauge_length;
-    format.width_z = data.width_z, format.gauge_length_z = data.gauge_length_z, format.toe = data.toe;
-    if (data.columns) {
-      format.strain_x = data.columns->strain_x, format.strain_z = data.columns->strain_z;
-      format.stress_x = data.columns->stress_x, format.stress_z = data.columns->stress_z;
-      format.time = data.columns->time;
-      format.where = data.where, format.split = data.split;
-      if (!data.split.empty() && data.name.empty()) like.name.clear();
-    }
-    if (data.strain_from) format.strain_from = *data.strain_from;
-    if (data.strain_to) format.strain_to = *data.strain_to;
-    std::vector<Test> found = read_tests(data.file.path, format);
-    for (Test& test : found) {
-      if (config.has_scenes() && !data.standard_deviation)
-        test.weight = 1 / (config.noise() * std::max(largest_stress(test), 1e-300));
-      const std::string name = test.name;
-      const auto taken = [&] {
-        return std::any_of(tests.begin(), tests.end(), [&](const Test& t) { return t.name == test.name; });
-      };
-      for (int n = 2; taken(); ++n) test.name = name + "_" + std::to_string(n);
-      tests.push_back(std::move(test));
-    }
-  }
-  return tests;
 }
 
 namespace {

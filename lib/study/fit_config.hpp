@@ -58,6 +58,10 @@ struct FitColumns {
 enum class DataKind { uniaxial, equibiaxial, biaxial, pure_shear, simple_shear, scene };
 constexpr auto names(DataKind) { return std::array{"uniaxial", "equibiaxial", "biaxial", "pure_shear", "simple_shear", "scene"}; }
 
+// Where the deformation and the stress of a test count from.
+enum class ZeroAt { reading, start };
+constexpr auto names(ZeroAt) { return std::array{"reading", "start"}; }
+
 struct FitData {
   InputPath file;
   std::string name;
@@ -74,7 +78,9 @@ struct FitData {
   double fibre_angle = 0;
   std::optional<DecimalSign> decimal;
   std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z, toe;
-  std::optional<double> weight, standard_deviation, strain_from, strain_to;
+  ZeroAt zero_at = ZeroAt::reading;
+  bool normalised = false;
+  std::optional<double> weight, standard_deviation, strain_from, strain_to, time_from, time_to, compare_from;
   std::map<std::string, std::string> where;
   std::string split;
   static void fields(auto& v) {
@@ -127,6 +133,18 @@ struct FitData {
       positive);
     v(&FitData::strain_from, "strain_from", unit::none, "points below this engineering strain along x are left out");
     v(&FitData::strain_to, "strain_to", unit::none, "points above this engineering strain along x are left out");
+    v(&FitData::time_from, "time_from", unit::s,
+      "points before this time are left out; the specimen is at rest at the first one kept");
+    v(&FitData::time_to, "time_to", unit::s, "points after this time are left out");
+    v(&FitData::compare_from, "compare_from", unit::s,
+      "points before this time are history: viscous branches remember them, residuals do not count them; such as a cycle of "
+      "preconditioning");
+    v(&FitData::zero_at, "zero_at", unit::none,
+      "start: the specimen is at rest until it is first deformed, whatever was read: stretches are divided by the mean stretch read "
+      "until then, the mean stress, an offset of the device, is taken from all");
+    v(&FitData::normalised, "normalised", unit::none,
+      "stresses or forces over the largest of the test, where sizes are not known: moduli then are shares of it, strengths and times "
+      "of viscous branches stay what they are");
     v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
     v(&FitData::split, "split", unit::none, "a column: one test for each text in it, such as a protocol");
   }

@@ -11,6 +11,26 @@ namespace langer {
 void FitData::complain_of_scene(std::vector<Complaint>& all) const {
   if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
   if (weight) all.push_back({"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
+  for (const auto& [key, found] : {std::pair("strain", strain.has_value()),
+                                   {"stress", stress.has_value()},
+                                   {"stress_unit", stress_unit.has_value()},
+                                   {"strain_unit", strain_unit.has_value()},
+                                   {"width", width.has_value()},
+                                   {"thickness", thickness.has_value()},
+                                   {"gauge_length", gauge_length.has_value()},
+                                   {"width_z", width_z.has_value()},
+                                   {"gauge_length_z", gauge_length_z.has_value()},
+                                   {"toe", toe.has_value()},
+                                   {"strain_from", strain_from.has_value()},
+                                   {"strain_to", strain_to.has_value()},
+                                   {"time_from", time_from.has_value()},
+                                   {"time_to", time_to.has_value()},
+                                   {"compare_from", compare_from.has_value()},
+                                   {"zero_at", zero_at != ZeroAt::reading},
+                                   {"normalised", normalised},
+                                   {"shear", shear != OffAxisShear::held},
+                                   {"split", !split.empty()}})
+    if (found) all.push_back({key, "found in a scene", "a homogeneous test, or without it", "a scene does not read it"});
   if (!columns) {
     all.push_back({"columns", "missing", "columns of the file", "columns: {u_ind: travel_mm, force: force_N}"});
     return;

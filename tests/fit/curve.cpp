@@ -92,7 +92,7 @@ TEST_CASE("a missing file is refused by name") {
 TEST_CASE("a range of strain keeps both ends") {
   const auto points = [](double from, double to) {
     TestFormat f;
-    f.strain_from = from, f.strain_to = to;
+    f.part.strain_from = from, f.part.strain_to = to;
     return parse_tests("strain,cauchy_stress_MPa\n0,0\n0.25,1\n0.5,2\n0.75,3\n", "c", f)[0].stress_x;
   };
   CHECK(points(0.25, 0.5) == std::vector{1., 2.});

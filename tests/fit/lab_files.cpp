@@ -181,7 +181,7 @@ TEST_CASE("the toe: the state at a given stress becomes the one at rest, for any
   TestFormat f;
   f.toe = 3;
   holds(refusal("stretch,nominal_stress_MPa\n1,0\n1.5,2\n", f), "toe: found 3 MPa, and no stress");
-  f.toe = 0.5, f.strain_to = 0.3;  // the range is counted from the toe
+  f.toe = 0.5, f.part.strain_to = 0.3;  // the range is counted from the toe
   const Test t = parse_tests("stretch,nominal_stress_MPa\n1,0\n1.25,0.5\n1.5,1\n2,2\n", "l.csv", f)[0];
   REQUIRE(t.points() == 2);
   CHECK(t.first[1] == doctest::Approx(1.2));
@@ -201,14 +201,14 @@ TEST_CASE("axes with grids of their own: the second one is the same specimen tur
   CHECK(tests[1].stress_x == std::vector{0., 3.});
   CHECK(tests[1].fibre_angle_deg == 110);
   CHECK(tests[1].name == "e_z");
-  f.like.kind = TestKind::pure_shear, f.strain_from = 0.05;
+  f.like.kind = TestKind::pure_shear, f.part.strain_from = 0.05;
   const std::vector<Test> shear = parse_tests("lx,px_MPa,lz,pz_MPa\n1,0,1,0\n1.1,1,1.15,3\n1.2,2,1.3,4\n", "l.csv", f);
   REQUIRE(shear.size() == 2);
   CHECK(shear[1].kind == TestKind::biaxial);
   CHECK(shear[1].first == std::vector{1., 1.});
   CHECK(shear[1].second == std::vector{1.15, 1.3});
   CHECK(shear[1].stress_x == std::vector{3., 4.});
-  f.like.kind = TestKind::biaxial, f.strain_from = -1;
+  f.like.kind = TestKind::biaxial, f.part.strain_from = -1;
   holds(refusal(text, f), "l.csv:4:7: found nothing");
 }
 

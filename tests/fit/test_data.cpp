@@ -55,7 +55,7 @@ TEST_CASE("one file of several protocols: split into tests, or one of them chose
   const auto one = tests_of(parse_table(two_protocols, "t"), f);
   REQUIRE(one.size() == 1);
   CHECK(one[0].first == std::vector{1.2, 1.4});
-  f.where = {}, f.strain_from = 0.15, f.strain_to = 0.35;
+  f.where = {}, f.part.strain_from = 0.15, f.part.strain_to = 0.35;
   CHECK(tests_of(parse_table(two_protocols, "t"), f)[0].first == std::vector{1.2, 1.3});
 }
 
@@ -94,4 +94,31 @@ TEST_CASE("what does not fit is refused with its place") {
   holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0\n", f), "t.csv:2:1: found 3 cells; expected 4");
   f.stress_x = "lx", f.stress_z = "";
   holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n", f), "stress_unit: no unit for the column \"lx\"");
+}
+
+TEST_CASE("a record: cut in time, at rest at its start, over its largest, its first cycle as history") {
+  const std::string text = "t_s,u_mm,force_N\n0,0,9\n0.5,1,0.5\n1,1,1.5\n2,2,3\n3,3,5\n4,2,3\n5,3,4\n6,3,7\n";
+  TestFormat f;
+  f.strain_x = "u_mm", f.stress_x = "force_N", f.time = "t_s";
+  f.strain_unit = StrainUnit::mm, f.gauge_length = 9, f.stress_unit = StressUnit::N, f.strain = StrainMeasure::engineering;
+  f.part.time_from = 0.5, f.part.time_to = 5, f.part.compare_from = 3.5;
+  f.rest_at_start = f.normalised = true;
+  const Test t = parse_tests(text, "record.csv", f).at(0);
+  CHECK(t.measure == StressMeasure::nominal);
+  CHECK(t.time == std::vector<double>{4, 5});
+  CHECK(t.before.time == std::vector<double>{0.5, 1, 2, 3});
+  // 9 mm + 1 mm are the length at rest
+  CHECK(t.before.first[3] == doctest::Approx(1.2).epsilon(1e-14));
+  CHECK(t.first[0] == doctest::Approx(1.1).epsilon(1e-14));
+  CHECK(t.stress_x[0] == doctest::Approx(2.0 / 3).epsilon(1e-14));  // of what is compared
+  CHECK(t.stress_x[1] == doctest::Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("forces that are normalised need no sizes, others do") {
+  TestFormat f;
+  f.strain_x = "strain", f.stress_x = "force_N";
+  CHECK_THROWS_AS(parse_tests("strain,force_N\n0,0\n0.1,2\n", "l.csv", f), Failure);
+  f.normalised = true;
+  CHECK(parse_tests("strain,force_N\n0,0\n0.1,2\n", "l.csv", f).at(0).stress_x == std::vector<double>{0, 1});
+  CHECK_THROWS_AS(parse_tests("strain,force_N\n0,0\n0.1,0\n", "l.csv", f), Failure);
 }

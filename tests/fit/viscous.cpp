@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "fit/fit.hpp"
+#include "fit/test_range.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -121,4 +122,23 @@ TEST_CASE("viscous fit: times are read, and refused where they go back") {
     CHECK(std::string(failure.what()).find("relax.csv:4:1") != std::string::npos);
     CHECK(std::string(failure.what()).find("times that do not go back") != std::string::npos);
   }
+}
+
+TEST_CASE("viscous fit: what comes before the points that are compared is remembered") {
+  Material law = test::stable(35, 1e-6);
+  law.viscous = {{0.5, 0.4, BranchOf::all}, {20, 0.6, BranchOf::fibres}};
+  Test whole = history(TestKind::biaxial, 1.25, 0.3, 10, true);
+  measure(law, whole);
+  const std::size_t n = whole.points() / 2;
+  Test later = whole;
+  compare_from(later, whole.time[n]);
+  REQUIRE(later.points() == whole.points() - n);
+  measure(law, later);
+  for (std::size_t i = 0; i < later.points(); ++i) {
+    CHECK(later.stress_x[i] == whole.stress_x[n + i]);
+    CHECK(later.stress_z[i] == whole.stress_z[n + i]);
+  }
+  later.before = {};
+  measure(law, later);
+  CHECK(std::abs(later.stress_x[1] / whole.stress_x[n + 1] - 1) > 0.02);  // it did matter
 }
