@@ -191,6 +191,9 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
     chosen.level.edge = std::min(chosen.level.edge, level->edge);
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
+  // what increments change of the force in the paper's scene, held, is a twentieth of this (docs/time.md); the estimate judges
+  if (config.path.seconds && config.path.time_error == LoadPathOptions{}.time_error)
+    config.path.time_error = std::min(2e-2 * chosen.wanted, 0.1);
   if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
   chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)

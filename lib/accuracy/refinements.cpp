@@ -22,6 +22,7 @@ constexpr Lengths of_block{0.18, 0.125}, with_friction{0.14, 0.125};
 constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 constexpr std::array cheap{1.4, 1.75};       // for estimate: auto, together about a fifth of the solve
+constexpr double close_enough = 1e-5;        // residual, relative to the reactions: errors are asked to two digits
 constexpr double few = 0.125;                // increments that are longer do not follow their law
 constexpr double apart = 1.08, longest = 3;  // lengths of two meshes' cells, at least; the coarsest, at most
 using Find = std::function<Place(const std::string&)>;
@@ -83,7 +84,9 @@ void add_longer_hex27(Refinements& refined, const SolveConfig& config) {
 
 }  // namespace
 
-Refinements refinements(const SolveConfig& config, const Find& where) {
+Refinements refinements(const SolveConfig& given, const Find& where) {
+  SolveConfig config = given;
+  if (auto* newton = std::get_if<NewtonOptions>(&config.solver)) newton->relative = std::max(newton->relative, close_enough);
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry))
     throw Failure(Exit::config, Error{where("estimate"), "estimate", "a mesh whose cells follow from no numbers of this config",
                                       "geometry: {block: ...}, section, indented_block or indented_disc", ""});

@@ -65,7 +65,9 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
     report.t = next, ++report.steps, report.iterations += solved.iterations, report.again += solved.again;
     const double taken = next - t;
     t = next, shortened = false;
-    if (solved.iterations <= options.easy) dt = std::min(largest, std::max(dt, taken) * 1.5);
+    // where the error of an increment is known it decides
+    const double growth = !options.steps && solved.time_error > 0 ? 2 : 1.5;
+    if (solved.iterations <= options.easy) dt = std::min(largest, std::max(dt, taken) * growth);
     if (!options.steps && solved.time_error > 0) dt = std::min(dt, fits * taken);
     if (!accepted(t, taken, dt, solved)) return report;
   }
