@@ -1,13 +1,13 @@
 # Include only downwards, and third parties only behind their folder. Prints the offending line and the rule.
 #   cmake -DROOT=<project> -P tests/floors.cmake
 # A folder may include those that stand before it in this list and no others, so there are no cycles. `make map` draws it.
-set(floors base tensor config mesh contact sensitivity geometry material element fit hdf5 store assembly plot post solve study scene sweep
-  export run mirror accuracy inverse report pipeline tool stages)
+set(floors base tensor config mesh contact sensitivity geometry material element fit hdf5 store assembly linear nonlinear plot post solve study scene sweep
+  export run watch mirror accuracy inverse report pipeline tool stages)
 
 # include pattern -> where it may stand
 set(third_parties
-  "yaml-cpp/=lib/config/" "hdf5=lib/hdf5/" "gmsh=lib/geometry/gmsh/" "cholmod=lib/solve/linear" "umfpack=lib/solve/linear"
-  "kinsol=lib/solve/kinsol.cpp" "sundials=lib/solve/kinsol.cpp" "nvector=lib/solve/kinsol.cpp" "CLI/=stages/" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp"
+  "yaml-cpp/=lib/config/" "hdf5=lib/hdf5/" "gmsh=lib/geometry/gmsh/" "cholmod=lib/linear/" "umfpack=lib/linear/"
+  "kinsol=lib/nonlinear/kinsol.cpp" "sundials=lib/nonlinear/kinsol.cpp" "nvector=lib/nonlinear/kinsol.cpp" "CLI/=stages/" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp"
   "boost/=lib/sensitivity/sobol_sequence.cpp")
 set(failed FALSE)
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/lib/*.hpp ${ROOT}/lib/*.cpp ${ROOT}/stages/*.hpp ${ROOT}/stages/*.cpp)

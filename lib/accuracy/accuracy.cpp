@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "accuracy/footprint.hpp"
-#include "run/progress.hpp"
+#include "watch/progress.hpp"
 
 namespace langer {
 

@@ -6,7 +6,7 @@
 
 #include "base/interrupt.hpp"
 #include "run/dry_run.hpp"
-#include "run/progress.hpp"
+#include "watch/progress.hpp"
 
 namespace langer {
 

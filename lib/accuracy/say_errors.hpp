@@ -6,7 +6,7 @@
 
 #include "accuracy/error_estimate.hpp"
 #include "base/voice.hpp"
-#include "run/recording.hpp"
+#include "watch/recording.hpp"
 
 namespace langer {
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
-#include "run/recording.hpp"
 #include "scene/scene_parameters.hpp"
 #include "solve/state_tangent.hpp"
+#include "watch/recording.hpp"
 
 namespace langer {
 

@@ -1,9 +1,9 @@
 // The nonlinear solver that a config names.
 #pragma once
 
+#include "nonlinear/kinsol.hpp"
+#include "nonlinear/newton.hpp"
 #include "scene/solve_config.hpp"
-#include "solve/kinsol.hpp"
-#include "solve/newton.hpp"
 #include "solve/statics.hpp"
 
 namespace langer {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "nonlinear/load_path.hpp"
 #include "run/reduction.hpp"
-#include "solve/load_path.hpp"
 
 namespace langer {
 

@@ -169,7 +169,7 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
   return nodes;
 }
 
-// The path stops at every point of a history, but not twice within what it tells apart (solve/load_path.cpp).
+// The path stops at every point of a history, but not twice within what it tells apart (nonlinear/load_path.cpp).
 template <class Point>
 void take_stops(const std::vector<Point>& points, std::optional<double> seconds, const std::string& key, std::vector<double>& stops,
                 Nodes& nodes) {

@@ -16,12 +16,12 @@
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
 #include "material/at_rest.hpp"
+#include "nonlinear/kinsol.hpp"
+#include "nonlinear/load_path.hpp"
+#include "nonlinear/newton.hpp"
 #include "scene/fibre_field.hpp"
 #include "scene/load_config.hpp"
 #include "scene/mesh_config.hpp"
-#include "solve/kinsol.hpp"
-#include "solve/load_path.hpp"
-#include "solve/newton.hpp"
 
 namespace langer {
 

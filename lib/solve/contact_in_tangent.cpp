@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "solve/krylov.hpp"
+#include "linear/krylov.hpp"
 
 namespace langer {
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "assembly/equilibrium.hpp"
+#include "linear/linear.hpp"
 #include "solve/contact_state.hpp"
-#include "solve/linear.hpp"
 
 namespace langer {
 

@@ -4,8 +4,8 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
-#include "solve/linear.hpp"
-#include "solve/load_path.hpp"
+#include "linear/linear.hpp"
+#include "nonlinear/load_path.hpp"
 
 namespace langer {
 

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "solve/newton.hpp"
+#include "nonlinear/newton.hpp"
 #include "solve/statics.hpp"
 
 namespace langer {

@@ -6,8 +6,8 @@
 
 #include "base/stopwatch.hpp"
 #include "contact/touch.hpp"
+#include "linear/krylov.hpp"
 #include "mesh/reference.hpp"
-#include "solve/krylov.hpp"
 
 namespace langer {
 

@@ -13,10 +13,10 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "nonlinear/free_balance.hpp"
+#include "nonlinear/newton.hpp"
 #include "solve/bonds.hpp"
 #include "solve/contact_linearisation.hpp"
-#include "solve/free_balance.hpp"
-#include "solve/newton.hpp"
 #include "solve/tangent_factor.hpp"
 
 namespace langer {

@@ -12,8 +12,8 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "linear/linear.hpp"
 #include "solve/contact_in_tangent.hpp"
-#include "solve/linear.hpp"
 
 namespace langer {
 

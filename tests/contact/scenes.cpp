@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solve/load_path.hpp"
+#include "nonlinear/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"

@@ -7,12 +7,12 @@
 #include <regex>
 
 #include "run/equilibrium_by.hpp"
-#include "run/run_watch.hpp"
 #include "run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"
+#include "watch/run_watch.hpp"
 
 using namespace langer;
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "solve/kinsol.hpp"
-#include "solve/load_path.hpp"
-#include "solve/newton.hpp"
+#include "nonlinear/kinsol.hpp"
+#include "nonlinear/load_path.hpp"
+#include "nonlinear/newton.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"

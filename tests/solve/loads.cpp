@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "mesh/select.hpp"
-#include "solve/load_path.hpp"
-#include "solve/newton.hpp"
+#include "nonlinear/load_path.hpp"
+#include "nonlinear/newton.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"

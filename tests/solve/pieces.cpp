@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "solve/linear.hpp"
-#include "solve/load_path.hpp"
-#include "solve/newton.hpp"
+#include "linear/linear.hpp"
+#include "nonlinear/load_path.hpp"
+#include "nonlinear/newton.hpp"
 
 using namespace langer;
 

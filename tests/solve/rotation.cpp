@@ -9,9 +9,9 @@
 
 #include "mesh/facets.hpp"
 #include "mesh/select.hpp"
+#include "nonlinear/load_path.hpp"
+#include "nonlinear/newton.hpp"
 #include "post/energy.hpp"
-#include "solve/load_path.hpp"
-#include "solve/newton.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"

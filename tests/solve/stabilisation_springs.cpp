@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 
 #include "assembly/equilibrium.hpp"
-#include "solve/linear.hpp"
+#include "linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

@@ -1,12 +1,12 @@
 // What an accepted state says about its stability: signs of the constrained tangent, strong ellipticity, falling force.
-#include "run/stability_watch.hpp"
+#include "watch/stability_watch.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "solve/load_path.hpp"
+#include "nonlinear/load_path.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

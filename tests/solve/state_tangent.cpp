@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "solve/kinsol.hpp"
-#include "solve/load_path.hpp"
+#include "nonlinear/kinsol.hpp"
+#include "nonlinear/load_path.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

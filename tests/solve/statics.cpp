@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "nonlinear/newton.hpp"
 #include "scene/scene.hpp"
-#include "solve/newton.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

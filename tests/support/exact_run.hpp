@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "solve/load_path.hpp"
+#include "nonlinear/load_path.hpp"
 #include "solve/statics.hpp"
 
 namespace langer::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "solve/kinsol.hpp"
-#include "solve/load_path.hpp"
+#include "nonlinear/kinsol.hpp"
+#include "nonlinear/load_path.hpp"
 #include "solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"

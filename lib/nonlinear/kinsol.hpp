@@ -9,8 +9,8 @@
 // number of evaluations is limited.
 #pragma once
 
-#include "solve/free_balance.hpp"
-#include "solve/newton.hpp"
+#include "nonlinear/free_balance.hpp"
+#include "nonlinear/newton.hpp"
 
 namespace langer {
 

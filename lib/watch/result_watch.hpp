@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "run/locking.hpp"
-#include "solve/newton.hpp"
+#include "nonlinear/newton.hpp"
+#include "watch/locking.hpp"
 
 namespace langer {
 

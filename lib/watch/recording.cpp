@@ -1,4 +1,4 @@
-#include "run/recording.hpp"
+#include "watch/recording.hpp"
 
 #include <fmt/format.h>
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "run/contact_watch.hpp"
-#include "run/result_watch.hpp"
 #include "run/run.hpp"
-#include "run/stability_watch.hpp"
+#include "watch/contact_watch.hpp"
+#include "watch/result_watch.hpp"
+#include "watch/stability_watch.hpp"
 
 namespace langer {
 

@@ -1,4 +1,4 @@
-#include "run/locking.hpp"
+#include "watch/locking.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "run/run_watch.hpp"
+#include "watch/run_watch.hpp"
 
 #include <fmt/format.h>
 

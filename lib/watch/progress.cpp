@@ -1,4 +1,4 @@
-#include "run/progress.hpp"
+#include "watch/progress.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <new>
 
-#include "solve/blas/blas.hpp"
+#include "linear/blas/blas.hpp"
 
 extern "C" {
 void openblas_set_num_threads(int);

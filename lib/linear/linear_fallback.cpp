@@ -3,7 +3,7 @@
 #include <new>
 
 #include "base/traps.hpp"
-#include "solve/linear_state.hpp"
+#include "linear/linear_state.hpp"
 
 namespace langer {
 

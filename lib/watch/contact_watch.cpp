@@ -1,4 +1,4 @@
-#include "run/contact_watch.hpp"
+#include "watch/contact_watch.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "solve/kinsol.hpp"
+#include "nonlinear/kinsol.hpp"
 
 #include <fmt/format.h>
 #include <kinsol/kinsol.h>

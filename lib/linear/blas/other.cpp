@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "solve/blas/blas.hpp"
+#include "linear/blas/blas.hpp"
 
 namespace langer::blas {
 

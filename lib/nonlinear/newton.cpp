@@ -1,4 +1,4 @@
-#include "solve/newton.hpp"
+#include "nonlinear/newton.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "solve/krylov.hpp"
+#include "linear/krylov.hpp"
 
 #include <Eigen/Sparse>
 #include <unsupported/Eigen/IterativeSolvers>

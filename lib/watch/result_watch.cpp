@@ -1,4 +1,4 @@
-#include "run/result_watch.hpp"
+#include "watch/result_watch.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "run/progress.hpp"
-#include "run/run_watch.hpp"
 #include "run/step_forces.hpp"
+#include "watch/progress.hpp"
+#include "watch/run_watch.hpp"
 
 namespace langer {
 

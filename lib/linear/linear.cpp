@@ -2,7 +2,7 @@
 #include <cstring>
 #include <new>
 
-#include "solve/linear_state.hpp"
+#include "linear/linear_state.hpp"
 
 namespace langer {
 

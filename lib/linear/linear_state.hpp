@@ -8,8 +8,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "solve/blas/blas.hpp"
-#include "solve/linear.hpp"
+#include "linear/blas/blas.hpp"
+#include "linear/linear.hpp"
 
 namespace langer {
 

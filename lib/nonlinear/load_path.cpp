@@ -1,4 +1,4 @@
-#include "solve/load_path.hpp"
+#include "nonlinear/load_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
-#include "solve/newton.hpp"
+#include "nonlinear/newton.hpp"
 
 namespace langer {
 

@@ -1,4 +1,4 @@
-#include "run/stability_watch.hpp"
+#include "watch/stability_watch.hpp"
 
 #include <fmt/format.h>
 
