@@ -64,7 +64,7 @@ void Statics::begin(double t) {
   equilibrium_.pressures_from(now_.u);
   const bool pushed = controlled_ >= 0 && controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
   // then the last movement does not go on
-  const bool rests = motion(now_.t) == 0 && F_ext_.size() == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
+  const bool rests = motion(now_.t) == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
   if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
@@ -172,7 +172,6 @@ VecX Statics::on_free_rows(const VecX& all) const {
 
 VecX Statics::free_residual() const {
   VecX f = -equilibrium_.f_int();
-  if (F_ext_.size() > 0) f += t_ * F_ext_;
   if (!equilibrium_.loads().empty()) f += equilibrium_.f_ext();
   if (!bonds_.none()) bonds_.add_forces(f);
   for (std::size_t k = 0; k < contacts_.size(); ++k)
@@ -185,7 +184,6 @@ double Statics::force_scale() const {
   for (const Prescribed& p : equilibrium_.dofs().prescribed) sum += std::pow(equilibrium_.f_int()[p.dof], 2);
   for (const auto& r : r_)
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
-  if (F_ext_.size() > 0) sum += (t_ * F_ext_).squaredNorm();
   if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
   if (!bonds_.none()) sum += bonds_.squared_norm();
   return std::sqrt(sum);
@@ -258,131 +256,6 @@ bool Statics::slips_away() const {
 
 bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
 
-bool Statics::factorize() {
-  const Stopwatch watch(cost_.factor);
-  factored_at_ = u_;
-  return factor_.factorize(equilibrium_);
-}
-
-void Statics::need_tangent() {
-  if (K_current_) return;
-  const Stopwatch watch(cost_.assembly);
-  const VecX du = remaining_prescribed(u_);
-  equilibrium_.assemble(u_, true, &du);
-  K_current_ = true;
-}
-
-// From counts, not from a clock: the same scene takes the same way on every machine. The rates are those of one thread of a
-// machine of 2020 (`langer-bench indentation`); what counts is their ratio.
-double Statics::price() const {
-  const LinearSolver::Size size = factor_.linear().size();
-  const ReferenceCell& cell = equilibrium_.mesh().cell();
-  const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss, n = cell.n_nodes;
-  const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
-  const double tangents = 4e-9 * points * n * n, forces = 15e-9 * points * n;
-  return (factor + tangents + through_factor + forces) / (through_factor + forces);
-}
-
-std::optional<VecX> Statics::correction() {
-  need_tangent();
-  again_ = false;
-  const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
-  std::optional<VecX> du;
-  if (contact_in_tangent())
-    du = corrected_with_contact(rhs);
-  else if (!factorize())
-    return std::nullopt;
-  // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
-  factor_serves_ = factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
-  if (factor_serves_) equilibrium_.keep_dilatations();
-  return contact_in_tangent() ? du : corrected(rhs);
-}
-
-// K at another state of this increment stands for the one here, in the mixed equations of u and p.
-std::optional<VecX> Statics::correction_again() {
-  if (!factor_serves_ || !remaining_prescribed(u_).isZero(0)) return std::nullopt;
-  again_ = true;
-  const VecX rhs = free_residual() + on_free_rows(equilibrium_.turned_dilatations());
-  return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
-}
-
-VecX Statics::with_prescribed(const VecX& free) const {
-  VecX du = remaining_prescribed(u_);
-  for (Eigen::Index row = 0; row < free.size(); ++row) du[equilibrium_.dofs().free[row]] = free[row];
-  return du;
-}
-
-// Contact in the tangent itself; again_: by the last one.
-std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
-  const double factor_before = cost_.factor;
-  std::optional<ContactInTangent::Answer> answer;
-  {
-    const Stopwatch watch(cost_.contact);
-    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
-    const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
-    const auto factorize = [this](const std::vector<double>& values) {
-      const Stopwatch factoring(cost_.factor);
-      factored_at_ = u_;
-      return factor_.factorize_with_contact(values);
-    };
-    ContactInTangent& contact = *factor_.in_tangent();
-    answer = again_ ? contact.solve_again(state, rhs, factor_.linear())
-                    : contact.solve(state, equilibrium_.K(), rhs, factor_.linear(), factorize);
-  }
-  cost_.contact -= cost_.factor - factor_before;
-  if (!answer) return std::nullopt;
-  r_next_ = std::move(answer->r), cost_.sweeps += answer->solutions;
-  return with_prescribed(answer->move);
-}
-
-// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to the whole for a few iterations.
-VecX Statics::with_free_rims(const VecX& rhs) {
-  constexpr double accurate = 1e-6;  // of the correction
-  LinearSolver& linear = factor_.linear();
-  if (!equilibrium_.loads().follow()) return linear.solve(rhs);
-  const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
-  const auto product = [&](const VecX& x) {
-    VecX du = VecX::Zero(u_.size());
-    for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
-    return VecX(x - linear.solve(on_free_rows(equilibrium_.skew_pressures(u_, du))));
-  };
-  return solve_near_identity(product, linear.solve(known), accurate, 40);
-}
-
-std::optional<VecX> Statics::corrected(const VecX& rhs) {
-  LinearSolver& linear = factor_.linear();
-  VecX move;
-  if (contacts_.empty()) {
-    const Stopwatch watch(cost_.solve);
-    move = with_free_rims(rhs);
-  } else {
-    LinearSolver::Half half;
-    {
-      const Stopwatch watch(cost_.solve);
-      half = linear.start(rhs);
-    }
-    std::optional<ContactChange> change;
-    {
-      const Stopwatch watch(cost_.contact);
-      const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
-      const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, &bonds_},
-                                  factor_, half.last);
-    }
-    if (!change) return std::nullopt;
-    r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
-    const Stopwatch watch(cost_.solve);
-    if (factor_.kind() == TangentFactor::Kind::whole) {
-      move = linear.finish(half, change->force);
-    } else {  // where springs cancel against forces, they had better do so before the elimination
-      VecX all = rhs;
-      for (std::size_t i = 0; i < factor_.last().size(); ++i) all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
-      move = linear.solve(all);
-    }
-  }
-  return with_prescribed(move);
-}
-
 void Statics::moved(const VecX& du, double step) {
   const Stopwatch watch(cost_.assembly);
   equilibrium_.predict_pressures(du, step, again_);
@@ -412,34 +285,6 @@ Problem Statics::problem() {
   p.admissible = [this](const VecX& u) { return admissible(u); };
   p.moved = [this](const VecX& du, double step) { moved(du, step); };
   return p;
-}
-
-FreeBalance Statics::free_balance() {
-  FreeBalance b;
-  b.free = equilibrium_.dofs().free;
-  b.residual = [this](const VecX& u, VecX& f) {
-    const Stopwatch watch(cost_.assembly);
-    if (!equilibrium_.assemble(u, false)) return false;
-    f = -free_residual();
-    return true;
-  };
-  b.tangent = [this](const VecX& u) {
-    if (!equilibrium_.assemble(u, true)) return false;
-    const Stopwatch watch(cost_.factor);
-    factor_serves_ = false, factored_at_ = u;
-    return factor_.factorize_fixed_reactions(equilibrium_);
-  };
-  b.solve = [this](const VecX& rhs, bool fresh) {
-    const Stopwatch watch(cost_.solve);
-    const VecX step = factor_.linear().solve(rhs);
-    unsettled_ = equilibrium_.formulation() == Formulation::linear_dilatation;
-    if (!fresh) return step;
-    VecX du = VecX::Zero(u_.size());
-    for (Eigen::Index i = 0; i < step.size(); ++i) du[equilibrium_.dofs().free[i]] = step[i];
-    equilibrium_.predict_pressures(du, 1);
-    return step;
-  };
-  return b;
 }
 
 std::vector<ContactDefect> Statics::defects() const {

@@ -65,8 +65,6 @@ class Statics {
  public:
   Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options);
 
-  // dead loads: nodal forces (3 n) at t = 1 [N], growing in proportion to t
-  void set_dead_load(VecX F_ext) { F_ext_ = std::move(F_ext); }
   void begin(double t);        // put the trial state at the start of an increment to t
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
@@ -147,7 +145,6 @@ class Statics {
   StaticsOptions options_;
   Cost cost_;
   TangentFactor factor_;
-  VecX F_ext_;  // empty without dead loads
   Bonds bonds_;
   BondEnergy jump_;         // of the increment
   BodyState now_, before_;  // accepted states

@@ -29,9 +29,7 @@ void Statics::back_to(const Trial& trial) {
 double Statics::stored() const { return equilibrium_.W() + bonds_.stored(); }
 
 double Statics::work_of_loads(const VecX& from) const {
-  double work = F_ext_.size() > 0 ? t_ * F_ext_.dot(u_ - from) : 0;
-  if (!equilibrium_.loads().empty()) work += equilibrium_.f_ext().dot(u_ - from);
-  return work;
+  return equilibrium_.loads().empty() ? 0 : equilibrium_.f_ext().dot(u_ - from);
 }
 
 }  // namespace langer

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "element/surface.hpp"
+#include "mesh/select.hpp"
 #include "nonlinear/newton.hpp"
 #include "scene/scene.hpp"
 #include "support/block.hpp"
@@ -32,11 +34,11 @@ struct Held {
 
 TEST_CASE("a dead load grows in proportion to t: supports bear t times it") {
   Held held;
-  VecX F = VecX::Zero(3 * held.mesh.n_nodes());
-  const auto& top = held.mesh.node_sets.at("y_max");
   const Vec3 load(0.004, 0.01, -0.002);  // [N]
-  for (int n : top) F.segment<3>(3 * n) = load / static_cast<double>(top.size());
-  held.statics.set_dead_load(F);
+  Mesh sided = held.mesh;
+  name_sides(sided);
+  const auto& top = sided.facet_sets.at("y_max");
+  held.body.set_loads({held.mesh, {{top, load / nodal_areas(held.mesh, top).sum()}}});
   for (double t : {0.25, 0.5, 1.0}) {
     held.statics.begin(t);
     REQUIRE(newton(held.statics.problem(), held.statics.trial(), {}).converged());

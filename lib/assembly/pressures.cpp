@@ -1,0 +1,83 @@
+// Pressures and dilatations of the cells, unknowns of the mixed formulations that no factor sees.
+#include <cmath>
+
+#include "assembly/equilibrium.hpp"
+#include "element/dilatation.hpp"
+
+namespace langer {
+
+double Equilibrium::modal_pressure(int e, int k) const {
+  const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
+  if (linear_pressure(material(e).volume)) return (1 - local_[e] / bulk_modulus(e)) * p_[at];
+  return p_[at] - local_[e] * J_minus_1_[at];
+}
+
+void Equilibrium::pressures_of(int e, const double* J_minus_1, double* p) const {
+  pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, J_minus_1, p);
+}
+
+VecX Equilibrium::turned_dilatations() const {
+  VecX out = VecX::Zero(dofs_.n);
+  std::vector<double> now(n_p_);
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    // what a linear pressure leaves to `local` follows the predicted dilatation, else it is the same in both
+    const double share = linear_pressure(material(e).volume) ? 1 - local_[e] / bulk_modulus(e) : 1;
+    pressures_of(e, &J_minus_1_[static_cast<std::size_t>(e) * n_p_], now.data());
+    const auto nodes = mesh_.cell(e);
+    const bool tied = !tied_.empty() && tied_[e];
+    for (int k = 0; k < n_p_; ++k) {
+      const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
+      const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
+      const double w = geometry_[e].V * share * (now[k] - p_[at]);
+      for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
+    }
+  }
+  return out;
+}
+
+void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
+  const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
+  std::vector<double> change(n_p_), p(n_p_);
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    const ElementNodes q = element_displacements(du, e);
+    const std::size_t first = static_cast<std::size_t>(e) * n_p_;
+    for (int k = 0; k < n_p_; ++k) {
+      change[k] = 0;
+      for (int a = 0; a < n_nodes_; ++a)
+        change[k] += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[(first + k) * n_dofs_ + 3 * a]));
+    }
+    predicted_pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, &J_minus_1_[first],
+                        change.data(), p.data());
+    for (int k = 0; k < n_p_; ++k) p_[first + k] += step * (p[k] - p_[first + k]);
+  }
+  follow_pressures();
+}
+
+void Equilibrium::pressures_from(const VecX& u) {
+  if (!assemble(u, false)) return;
+  for (int e = 0; e < mesh_.n_cells(); ++e) {
+    const std::size_t first = static_cast<std::size_t>(e) * n_p_;
+    pressures_of(e, &J_minus_1_[first], &p_[first]);
+  }
+  follow_pressures();
+}
+
+void Equilibrium::extrapolate_pressures(const VecX& u_before, double s) {
+  const std::vector<double> p = p_;
+  pressures_from(u_before);
+  for (std::size_t i = 0; i < p_.size(); ++i) p_[i] = p[i] + s * (p[i] - p_[i]);
+  follow_pressures();
+}
+
+// What four dilatation modes leave of J - 1 within a cell is opposed by a modulus of its own, kappa_l: the largest compressive pressure
+// of the modes in the cell, kappa at most (docs/theory.md, Volume). Less, and a compressed cell folds within itself; more, and it locks.
+// It follows the pressures p that the tangent uses, not kappa t at the u assembled: near incompressibility those are meaningless
+// until the increment is nearly solved. Residual and tangent thus have the same kappa_l, which lags one correction behind; where p =
+// kappa t, at every converged state, it is a function of u alone, and the body has no memory.
+void Equilibrium::follow_pressures() {
+  if (formulation_ != Formulation::linear_dilatation) return;
+  for (int e = 0; e < mesh_.n_cells(); ++e)
+    local_[e] = std::min(local_modulus(geometry_[e], &p_[static_cast<std::size_t>(e) * n_p_]), bulk_modulus(e));
+}
+
+}  // namespace langer
