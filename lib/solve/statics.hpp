@@ -58,7 +58,7 @@ struct StaticsOptions {
   double law_tolerance = 1e-9;   // complementarity, relative
   bool extrapolate = true;       // start an increment from the movement of the last one
   double seconds = 0;            // of the path, for viscous bodies
-  ContactBy contact_by = ContactBy::by_count;
+  ContactBy contact_by = ContactBy::by_cost;
 };
 
 class Statics {

@@ -11,6 +11,9 @@ namespace langer {
 namespace {
 
 constexpr std::size_t many_candidates = 400;
+// flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it, factorizations that follow every change of
+// stick and slip cost more than they save (langer-bench wide, with friction)
+constexpr double deep = 8;
 
 // of the order of what the body opposes to a movement of one node
 double node_stiffness(const Equilibrium& body) {
@@ -18,6 +21,10 @@ double node_stiffness(const Equilibrium& body) {
   const int n_cells = body.mesh().n_cells();
   for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
   return mu * std::cbrt(quality(body.mesh()).volume / n_cells);
+}
+
+bool with_friction(const std::vector<RigidContact>& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& contact) { return contact.mu > 0; });
 }
 
 }  // namespace
@@ -28,10 +35,10 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
   const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
-  const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_count && candidates >= many_candidates);
-  if (wide && candidates > 0 && !loose && ContactInTangent::serves(contacts)) {
-    in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
-    linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads);
+  const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);
+  const bool tangent_serves = wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
+  if (tangent_serves && (contact_by == ContactBy::tangent || !with_friction(contacts))) {
+    take_into_tangent(body, contacts, threads);
     return;
   }
   if (!contacts.empty()) last_of_.assign(dofs.n, -1);
@@ -43,8 +50,18 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
           last_.push_back(dofs.equation[dof]);
         }
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
+  if (tangent_serves && linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
+    last_.clear(), last_of_.clear();
+    take_into_tangent(body, contacts, threads);
+    return;
+  }
   if (last_.empty() || !loose) return;
   loose_ = node_stiffness(body);  // the weak resistance of contact to a free motion stays visible beside it
+}
+
+void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads) {
+  in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads);
 }
 
 bool TangentFactor::factorize(const Equilibrium& body) {

@@ -17,8 +17,9 @@
 
 namespace langer {
 
-// by_count: in the tangent where candidates are many (many_candidates in tangent_factor.cpp) and it serves
-enum class ContactBy { by_count, compliance, tangent };
+// by_cost: in the tangent where candidates are many, it serves, and factorizations are cheap beside a condensed law (many_candidates
+// and deep in tangent_factor.cpp)
+enum class ContactBy { by_cost, compliance, tangent };
 
 class TangentFactor {
  public:
@@ -26,7 +27,7 @@ class TangentFactor {
 
   // threads: of the BLAS; refers to the pattern of the body
   TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
-                ContactBy contact_by = ContactBy::by_count);
+                ContactBy contact_by = ContactBy::by_cost);
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment() { supported_ = false; }
@@ -57,6 +58,7 @@ class TangentFactor {
   void uncount(const Counts& before) { counts_.indefinite = before.indefinite, counts_.unstable = before.unstable; }
 
  private:
+  void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads);
   bool factorize_supported(const Equilibrium& body);
 
   std::vector<int> last_, last_of_;

@@ -74,3 +74,19 @@ TEST_CASE("contact in the tangent: a plane on all candidates, a sphere that scra
     compare(back, test::neo_hooke(0.3, 1e-3));
   }
 }
+
+TEST_CASE("contact in the tangent: many candidates with friction stay condensed on a deep body, where a factorization costs more") {
+  for (int layers : {2, 24})
+    for (double mu : {0.0, 0.3}) {
+      CAPTURE(layers);
+      const double friction = mu;
+      CAPTURE(friction);
+      test::Indentation scene;
+      scene.nx = scene.nz = 20, scene.ny = layers, scene.h = 0, scene.depth = 1e-3, scene.step = 1e-3, scene.mu = mu;
+      bool in_tangent = false;
+      scene.after = [&](const Statics& statics, const Equilibrium&) { in_tangent = statics.contact_in_tangent(); };
+      scene.shape = Plane{{0, 4, 0}, {0, -1, 0}}, scene.reach = 30;
+      REQUIRE(scene.run(test::neo_hooke(0.3, 1e-4)).path.complete);
+      CHECK(in_tangent == (mu == 0 || layers == 2));
+    }
+}

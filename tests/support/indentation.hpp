@@ -28,7 +28,7 @@ struct Indentation {
   bool extrapolate = true;
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   bool loose_base = false;  // the bottom may glide in x
-  ContactBy contact_by = ContactBy::by_count;
+  ContactBy contact_by = ContactBy::by_cost;
   NewtonOptions newton;
   std::optional<KinsolOptions> kinsol;                                                    // in place of newton
   std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
