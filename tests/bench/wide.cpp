@@ -34,9 +34,10 @@ void print_both(int n, int layers, double mu) {
   for (ContactBy by : {ContactBy::compliance, ContactBy::tangent}) {
     if (by == ContactBy::compliance && n > 32) continue;  // minutes
     const Row row = pressed(n, layers, mu, by);
-    fmt::print("  {:>10}  {:>6}  {:>8}  {:<10}  {:>13.3f}  {:>20.3f}  {:>14}  {:>11}  {:>31.2f}  {:.9g}{}\n", row.candidates, layers, mu,
-               by == ContactBy::compliance ? "condensed" : "in tangent", row.factor, row.contact, row.factorizations, row.corrections,
-               row.factor * row.factorizations + row.contact * row.corrections, row.force, row.complete ? "" : " (stopped)");
+    fmt::print("  {:>10}  {:>6}  {:>8}  {:<10}  {:>13.3f}  {:>20.3f}  {:>14}  {:>11}  {:>31.2f}  {:.9g}{}\n", row.candidates,
+               layers, mu, by == ContactBy::compliance ? "condensed" : "in tangent", row.factor, row.contact, row.factorizations,
+               row.corrections, row.factor * row.factorizations + row.contact * row.corrections, row.force,
+               row.complete ? "" : " (stopped)");
     std::fflush(stdout);
   }
 }
