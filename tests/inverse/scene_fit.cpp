@@ -2,6 +2,7 @@
 #include "inverse/inverse_fit.hpp"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string folder = BINARY_DIR "/inverse";
+// of this process: ctest runs the cases side by side
+struct Folder {
+  ~Folder() { fs::remove_all(path); }
+  const std::string path = (fs::temp_directory_path() / ("langer_inverse_" + std::to_string(getpid()))).string();
+} const own;
+const std::string& folder = own.path;
 
 void write(const std::string& name, const std::string& text) {
   fs::create_directories(folder);
