@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "accuracy/energy_error.hpp"
+#include "solve/state_tangent.hpp"
 
 namespace langer {
 
@@ -44,7 +45,7 @@ std::map<std::array<double, 3>, int> nodes_by_place(const Mesh& mesh) {
 
 struct Asked {
   std::size_t quantity;
-  Disturbance by;               // of the part
+  ParameterChange by;           // of the part
   std::vector<Vec3> indenters;  // of the whole
   double sign = 1;              // energy's derivative to the quantity
   bool of_set = false;
@@ -58,7 +59,7 @@ class Questions {
     const auto after = [&](const std::string& begins) {
       return q.name.starts_with(begins) ? std::optional(q.name.substr(begins.size())) : std::nullopt;
     };
-    Asked asked{i, {}, std::vector<Vec3>(run_.scene.contacts.size(), Vec3::Zero()), 1, false};
+    Asked asked{i, {}, std::vector<Vec3>(run_.scene.contacts.size(), Vec3::Zero())};
     if (q.name == "force") return of_force(asked, "");
     if (const auto contact = after("force_")) return of_force(asked, *contact);
     if (const auto set = after("reaction_")) return of_set(asked, *set);
@@ -101,8 +102,8 @@ class Questions {
     const Vec3 u = last_.u[static_cast<std::size_t>(n)];
     const auto found = place_.find(key(n));
     if (!(u.norm() > 0) || found == place_.end()) return std::nullopt;
-    asked.by.force = VecX::Zero(run_.body.dofs().n);
-    asked.by.force.segment<3>(3 * run_.body.dofs().node(found->second)) = u.normalized();
+    asked.by.f = VecX::Zero(run_.body.dofs().n);
+    asked.by.f.segment<3>(3 * run_.body.dofs().node(found->second)) = -u.normalized();
     asked.sign = -1;
     return asked;
   }
@@ -115,7 +116,7 @@ class Questions {
 };
 
 // of the whole body
-DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, const Movement& part) {
+DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, const StateDerivative& part) {
   StepRecord record;
   record.t = last.t;
   for (int i = 0; i < run.reduction.mesh().n_nodes(); ++i) record.u.push_back(part.u.segment<3>(3 * i));
@@ -136,19 +137,23 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, c
 
 PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found) {
   need_known_kind(config, run);
+  if (!run.statics.bonds().none()) throw not_known("the tangent has no bonds of adhesion");
   const Questions questions(run, last);
+  std::optional<TangentFactor> condensed;
+  if (run.statics.contact_in_tangent())
+    condensed.emplace(run.body, run.statics.contacts(), config.blas_threads, ContactBy::compliance);
+  const StateTangent tangent(run.statics, run.statics.accepted(), condensed ? &*condensed : nullptr);
   std::vector<Asked> asked;
   std::vector<DualSolution> duals;
   for (std::size_t i = 0; i < found.size(); ++i) {
     auto question = questions.of(i, found[i]);
     if (!question) continue;
-    const auto answer = run.statics.movement(question->by);
+    const auto answer = tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest());
     if (!answer) continue;
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
-  if (duals.empty())
-    throw not_known("a contact between two indenters, one that adheres, or a singular tangent has no dual solution");
+  if (duals.empty()) throw not_known("a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) throw not_known("a layer of one cell tells nothing of smooth fields across it");
   const bool quadratic = run.mesh.cell().second_order();
@@ -161,13 +166,14 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
       times = 0;
       for (std::size_t n = 0; n < last.u.size(); ++n) times += last.reaction[n].dot(duals[k].u[n]) / q.value;
     }
+    const double size = d.size / std::abs(times);
     ErrorEstimate e{q, asked[k].sign * d.sum() / times, 0, 0, last.residual * std::abs(q.value)};
     if (q.of_force()) e.order = order_of_force(config);
-    e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * d.size / std::abs(times);
-    if (d.size / std::abs(times) > too_rough * std::abs(q.value))
+    e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * size;
+    if (size > too_rough * std::abs(q.value))
       out.not_known.push_back(
           fmt::format("the error of {} is not known: the cells are too long, their parts of it add up to {:.0f} %", q.name,
-                      e.in_percent(d.size / std::abs(times))));
+                      e.in_percent(size)));
     else
       out.at_end.push_back(e);
   }

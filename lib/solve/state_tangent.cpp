@@ -156,12 +156,20 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, c
   return out;
 }
 
+Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near) const {
+  Vec3 moved = Vec3::Zero();
+  if (change.prescribed.size() > 0)
+    moved += change.prescribed.segment<3>(3 * statics_.contacts_[near.contact].nodes[near.candidate]);
+  if (!change.indenters.empty()) moved -= change.indenters[near.contact];
+  return near.law.frame.transpose() * moved;
+}
+
 VecX StateTangent::right_hand_side(const ParameterChange& change, const std::vector<Vec3>& history) const {
   VecX h = VecX::Zero(3 * static_cast<Eigen::Index>(near_.size()) + (pushed_ ? 1 : 0));
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const auto row = 3 * static_cast<Eigen::Index>(p);
-    h.segment<3>(row) -= rows_[p].x * history[p];
+    h.segment<3>(row) -= rows_[p].x * history[p] + (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
     const double d_mu = change.mu.empty() ? 0 : change.mu[n.contact];
     if (d_mu == 0 || status_[p] != ContactStatus::slip) continue;
     const Eigen::Vector2d s = -n.r.tail<2>().normalized();
@@ -242,12 +250,23 @@ VecX StateTangent::on_free_rows(const StateDerivative& d) const {
   return statics_.on_free_rows(all) - body.K_times(statics_.on_free_rows(d.u));
 }
 
+VecX StateTangent::on_free_rows(const ParameterChange& change) const {
+  Equilibrium& body = statics_.equilibrium_;
+  VecX all = change.f.size() > 0 ? change.f : VecX(VecX::Zero(body.dofs().n));
+  if (change.prescribed.size() > 0) {
+    body.assemble(statics_.now_.u, true, &change.prescribed);
+    all += body.K_du();
+  }
+  return statics_.on_free_rows(all);
+}
+
 std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& change, const StateDerivative& before,
                                                         const StateDerivative& earlier) const {
   constexpr double exact = 1e-12, enough = 1e-7;
   if (!solvable_) return std::nullopt;
   StateDerivative out = of_rest();
-  const VecX f = -statics_.on_free_rows(change.f);
+  if (change.prescribed.size() > 0) out.u = change.prescribed;
+  const VecX f = -on_free_rows(change);
   VecX rhs = f, h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
   double size = rhs.norm(), last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {

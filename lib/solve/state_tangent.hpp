@@ -1,5 +1,6 @@
-// Direct differentiation of an accepted state with respect to numbers of the scene, through contact and friction.
-//   balance        K u' - r' = -f_p               f_p: what the number changes of f_int where u stands still
+// Direct differentiation of an accepted state with respect to numbers of the scene, through contact and friction: parameters of laws,
+// friction, forces, and what is moved.
+//   balance        K u' - r' = -f_p               f_p: what the number changes of f_int where u of the free dofs stands still
 //   a candidate    open: r' = 0;  closed: gap' = 0, and without friction r' along the turning normal;  sticking: slip' = 0;
 //                  slipping: r_t = -mu r_n s, s the direction of the slip, with all of it differentiated
 //   slip           between what it is measured from, u_start (Statics, contact/touch.hpp), and u:  slip' needs u' of the increments before
@@ -26,10 +27,12 @@ struct StateDerivative {
   double travel = 0;  // of the indenter under force control
 };
 
-// What a number changes where the state stands still.
+// What a number changes where the state stands still; empty: nothing.
 struct ParameterChange {
-  VecX f;                  // (3 n) of f_int
-  std::vector<double> mu;  // by contact: of its friction; empty: none
+  VecX f = {};                       // (3 n) of f_int less the forces
+  std::vector<double> mu = {};       // by contact: of its friction
+  VecX prescribed = {};              // (3 n) of prescribed dofs [mm], 0 elsewhere
+  std::vector<Vec3> indenters = {};  // by contact: of its place [mm], whose orientation stands still
 };
 
 class StateTangent {
@@ -61,7 +64,9 @@ class StateTangent {
   VecX local_of(const VecX& last) const;  // movement of the candidates from that of the rows of factor.last()
   // x' where the body stands still, and what friction itself changes
   std::vector<Vec3> slip_of_history(const StateDerivative& before, const StateDerivative& earlier) const;
+  Vec3 moved_against(const ParameterChange& change, const Near& near) const;  // of prescribed dofs against the indenter, local
   VecX right_hand_side(const ParameterChange& change, const std::vector<Vec3>& history) const;
+  VecX on_free_rows(const ParameterChange& change) const;
   std::optional<Change> solve(const VecX& rhs, const VecX& h) const;
   void add(const Change& change, StateDerivative& to) const;
   VecX on_free_rows(const StateDerivative& d) const;  // of the reactions less the change of f_int

@@ -40,18 +40,6 @@ struct Signature {
   int negative = 0, zero_energy = 0;
 };
 
-// A small change of what holds and drives a state, and what follows from it while every contact keeps its status: closed ones stay
-// closed, sticking ones stick, slipping ones glide with friction in proportion to their pressure.
-struct Disturbance {
-  VecX force = {};                   // (3 n) [N]; empty: none
-  VecX prescribed = {};              // (3 n) movement of prescribed dofs [mm], 0 elsewhere; empty: none
-  std::vector<Vec3> indenters = {};  // movement of each [mm]; empty: none
-};
-struct Movement {
-  VecX u;  // (3 n) [mm]
-  Reactions r;
-};
-
 struct StaticsOptions {
   int threads = 1;               // of the BLAS
   double gap_tolerance = 1e-10;  // [mm]
@@ -93,8 +81,6 @@ class Statics {
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
   // movement from there; otherwise K is factorized once more.
   Signature signature();
-  // Nothing where a node lies between two indenters or one adheres, the tangent is singular or has contact in it. Wants an indenter that moves as told.
-  std::optional<Movement> movement(const Disturbance& by);
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
   int n_indefinite() const { return factor_.counts().indefinite; }

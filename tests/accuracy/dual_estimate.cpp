@@ -7,6 +7,7 @@
 
 #include "mesh/section.hpp"
 #include "post/patches.hpp"
+#include "solve/state_tangent.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -102,9 +103,10 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   const SolveConfig config = test::config_of(test::indentation(test::disc(0.25, "hex8"), test::ball(0, depth) + test::tight));
   Run run(test::mesh_in(config), config, config.material, test::nowhere);
   REQUIRE(run.follow().path.complete);
-  Disturbance by;
+  ParameterChange by;
   by.indenters = {-Vec3::UnitY()};
-  const auto movement = run.statics.movement(by);
+  const StateTangent tangent(run.statics, run.statics.accepted());
+  const auto movement = tangent.derivative(by, tangent.of_rest(), tangent.of_rest());
   REQUIRE(movement);
   double most = 0, off = 0, dr = 0;
   for (int i = 0; i < n_front(run.mesh); ++i) {
