@@ -185,6 +185,15 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
   return complaints;
 }
 
+std::vector<Complaint> complaints_on_section(const Mesh& mesh, const std::string& key, const Measures& list) {
+  std::vector<Complaint> complaints;
+  for (std::size_t i = 0; mesh.section && i < list.measures.size(); ++i)
+    if (const auto& quantity = list.measures[i].quantity; quantity && is_of_contact_surface(line_of(*quantity).word))
+      complaints.push_back({fmt::format("{}[{}].quantity", key, i), fmt::format("{} of a section", line_of(*quantity).word),
+                            "another quantity", "a section's reactions are those of the whole body"});
+  return complaints;
+}
+
 Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const Table& table, std::size_t n_shown) {
   Curves curves;
   curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(n_shown));
@@ -219,6 +228,12 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
   return render(scene, choice);
 }
 
+void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution, int row, double t) {
+  const SolutionHeader& header = solution.reader.header();
+  const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), job.config.stress);
+  write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity, t);
+}
+
 void write_series(const Job<PostConfig>& job, const Solution& solution) {
   const SolutionHeader& header = solution.reader.header();
   const std::string folder = job.beside("series");
@@ -239,6 +254,13 @@ void write_series(const Job<PostConfig>& job, const Solution& solution) {
   write_pvd(job.beside("series.pvd"), files);
 }
 
+// of the solution; those that are columns stand there already
+void add_errors_of(const SolutionReader& reader, std::vector<Summary>& summary) {
+  for (const Summary& s : reader.summary())
+    if (std::none_of(summary.begin(), summary.end(), [&](const Summary& other) { return other.name == s.name; }))
+      summary.push_back(s);
+}
+
 std::vector<Summary> post(const Job<PostConfig>& job) {
   PostConfig config = job.config;
   const Solution solution(job.input("solution"));
@@ -255,13 +277,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);
   std::vector<Complaint> complaints = shown.complaints;
-  for (const auto& [key, list] : {std::pair{"columns", &shown.measures}, {"further", &further.measures}})
-    for (std::size_t i = 0; header.mesh.section && i < list->size(); ++i)
-      if ((*list)[i].quantity && is_of_contact_surface(line_of(*(*list)[i].quantity).word))
-        complaints.push_back({fmt::format("{}[{}].quantity", key, i),
-                              fmt::format("{} of a section", line_of(*(*list)[i].quantity).word), "another quantity",
-                              "a section's reactions are those of the whole body"});
-  for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body)})
+  for (const auto& more : {further.complaints, complaints_on_section(header.mesh, "columns", shown),
+                           complaints_on_section(header.mesh, "further", further), complaints_of(config, renders, solution.body)})
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
 
@@ -278,11 +295,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   // the main output comes last: once it is there, everything is
   const std::filesystem::path csv_file = std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
-  for (int row : snapshots) {
-    const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), config.stress);
-    write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity,
-                   table.t[static_cast<std::size_t>(row)]);
-  }
+  for (int row : snapshots) write_snapshot_of(job, solution, row, table.t[static_cast<std::size_t>(row)]);
   if (config.series) write_series(job, solution);
   Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.draw == Draw::always);
   for (const auto& [name, figure] : config.figures) {
@@ -301,9 +314,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
-  for (const Summary& s : solution.reader.summary())  // its errors; those that are columns stand there already
-    if (std::none_of(curves.summary.begin(), curves.summary.end(), [&](const Summary& other) { return other.name == s.name; }))
-      curves.summary.push_back(s);
+  add_errors_of(solution.reader, curves.summary);
   write_curves(job.output, curves, identity);
   job.say("{} rows, {} columns in {}; {} snapshots, {} figures{}", table.t.size(), curves.columns.size(),
           csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size(),

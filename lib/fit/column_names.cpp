@@ -16,14 +16,13 @@ struct Word {
   std::optional<StressMeasure> stress = {};
 };
 
-const std::map<std::string, Word>& words() {
+using Words = std::map<std::string, Word>;
+
+Words words_of_deformation() {
   using enum StrainMeasure;
-  using enum StressMeasure;
-  const Word deformation{Of::deformation}, elongation{Of::deformation, true}, any_stress{Of::stress},
-      force{Of::stress, false, {}, nominal};
+  const Word deformation{Of::deformation}, elongation{Of::deformation, true};
   const auto by = [](StrainMeasure measure) { return Word{Of::deformation, false, measure}; };
-  const auto in = [](StressMeasure measure) { return Word{Of::stress, false, {}, measure}; };
-  static const std::map<std::string, Word> known{
+  return {
       {"strain", deformation},
       {"tensile_strain", deformation},
       {"dehnung", deformation},
@@ -58,6 +57,14 @@ const std::map<std::string, Word>& words() {
       {"allongement", elongation},
       {"d\xC3\xA9placement", elongation},
       {"deplacement", elongation},
+  };
+}
+
+Words words_of_stress() {
+  using enum StressMeasure;
+  const Word any_stress{Of::stress}, force{Of::stress, false, {}, nominal};
+  const auto in = [](StressMeasure measure) { return Word{Of::stress, false, {}, measure}; };
+  return {
       {"stress", any_stress},
       {"tensile_stress", any_stress},
       {"spannung", any_stress},
@@ -81,6 +88,14 @@ const std::map<std::string, Word>& words() {
        "fkraft",
        force},
   };
+}
+
+const Words& words() {
+  static const Words known = [] {
+    Words all = words_of_deformation();
+    all.merge(words_of_stress());
+    return all;
+  }();
   return known;
 }
 

@@ -264,6 +264,16 @@ VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out,
   return interval_factors(columns, left_out, noise).cwiseQuotient(interval_factors(columns, left_out, known));
 }
 
+namespace {
+
+double quantile(const std::vector<double>& sorted, double part) {
+  const double place = part * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<std::size_t>(place);
+  return sorted[i] + (place - static_cast<double>(i)) * (sorted[std::min(i + 1, sorted.size() - 1)] - sorted[i]);
+}
+
+}  // namespace
+
 Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options) {
   Bootstrap result;
   const int threads = std::clamp(options.threads, 1, std::max(1, options.samples));
@@ -311,18 +321,14 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
     std::vector<double> x(good.size());
     for (std::size_t i = 0; i < good.size(); ++i) x[i] = good[i][j];
     std::sort(x.begin(), x.end());
-    const auto at = [&](double part) {
-      const double place = part * static_cast<double>(x.size() - 1);
-      const auto i = static_cast<std::size_t>(place);
-      return x[i] + (place - static_cast<double>(i)) * (x[std::min(i + 1, x.size() - 1)] - x[i]);
-    };
     const double spread = options.spread.size() ? options.spread[j] : 1;
     const auto spread_out = [&](double x) {
       const double far = best[j] + spread * (x - best[j]);
       return problem[0].period_of(j) > 0 ? far : std::clamp(far, problem[0].lower[j], problem[0].upper[j]);
     };
     // samples that end at a bound or an axis of symmetry leave out an estimate that stopped a rounding before it
-    result.low[j] = std::min(spread_out(at(0.025)), best[j]), result.high[j] = std::max(spread_out(at(0.975)), best[j]);
+    result.low[j] = std::min(spread_out(quantile(x, 0.025)), best[j]),
+    result.high[j] = std::max(spread_out(quantile(x, 0.975)), best[j]);
   }
   return result;
 }

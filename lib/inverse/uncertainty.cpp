@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "material/parameters.hpp"
 
@@ -44,6 +45,19 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   }
   known.follow.resize(static_cast<Eigen::Index>(rows.size()), n);
   for (std::size_t i = 0; i < rows.size(); ++i) known.follow.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
+  return known;
+}
+
+ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file, const Run::Where& where) {
+  if (config.uncertainty.value_or(UncertaintyBy::none) == UncertaintyBy::none) return {};
+  const bool holds_a_fit = std::filesystem::path(material_file).extension() == ".h5";
+  const ParameterKnowledge known = holds_a_fit ? knowledge_of(read_material(material_file)) : ParameterKnowledge{};
+  if (known.names.empty())
+    throw Failure(Exit::config,
+                  Error{where("uncertainty"), "uncertainty", "linear, without a fit that tells how well its parameters are known",
+                        "--material with a material.h5 of langer-fit that holds a covariance", ""});
+  for (const std::string& key : known.keys)
+    if (auto& list = config.sensitivity; std::find(list.begin(), list.end(), key) == list.end()) list.push_back(key);
   return known;
 }
 

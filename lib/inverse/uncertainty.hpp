@@ -24,6 +24,9 @@ struct ParameterKnowledge {
   std::vector<std::string> left_out;  // names
 };
 ParameterKnowledge knowledge_of(const MaterialFile& file);
+// Where config asks for `uncertainty`: of the material's file (empty: there is none). The parameters are those of config.sensitivity then,
+// beside those named there. Throws Failure(config) where the file tells nothing of them.
+ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file, const Run::Where& where);
 
 // One force at the end of the path.
 struct ForceUncertainty {

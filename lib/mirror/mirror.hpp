@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/voice.hpp"
 #include "mesh/image.hpp"
 #include "scene/scene.hpp"
 #include "store/solution_file.hpp"
@@ -34,6 +35,8 @@ struct MirrorTask {
   std::string output;
 };
 Mirrored mirrored(const MirrorTask& task);
+// The results of the image, written; nothing where it is not one. Says which, or why not.
+std::optional<std::vector<Summary>> take_image(const Voice& voice, const MirrorTask& task);
 
 struct MirrorOperation {
   std::string name;

@@ -2,74 +2,83 @@
 
 namespace langer {
 
+namespace {
+
+const StageSpec mesh_stage{"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
+const StageSpec fit_stage{"fit",
+                          "Finds material parameters from a measured curve.",
+                          {{.name = "curves",
+                            .says = "what was measured in a scene, of the items of data without a file, in their order",
+                            .made_by = {"post"},
+                            .required = false,
+                            .several = true}},
+                          "material.h5"};
+const StageSpec sensitivity_stage{
+    "sensitivity",
+    "Ranks material parameters: one at a time, by Morris, by Sobol.",
+    {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},
+    "sensitivity.h5"};
+const StageSpec solve_stage{
+    "solve",
+    "Finds equilibrium along a load path.",
+    {{.name = "mesh",
+      .says = "mesh with named sets and frames, unless the config has one",
+      .made_by = {"mesh"},
+      .required = false,
+      .or_key = true},
+     {.name = "material",
+      .says = "energy terms and their parameters, unless the config has them",
+      .made_by = {"fit"},
+      .required = false,
+      .or_key = true,
+      .takes_yaml = true},
+     {.name = "mirror",
+      .says = "a solution of the same scene with other fibre angles: where this one is its mirror image, or turned, it is copied",
+      .made_by = {"solve"},
+      .required = false}},
+    "solution.h5",
+    true};
+const StageSpec post_stage{
+    "post",
+    "Turns a solution into fields and curves.",
+    {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
+    "curves.h5",
+    false,
+    "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
+    "and wants --solution only"};
+const StageSpec gather_stage{"gather",
+                             "Collects one quantity or several over a sweep.",
+                             {{.name = "curves",
+                               .says = "a member of the sweep: any file with a /summary",
+                               .made_by = {"post", "fit", "sensitivity", "mesh"},
+                               .several = true,
+                               .members = true}},
+                             "sweep.h5"};
+const StageSpec report_stage{
+    "report",
+    "Writes a report on a run: one page that opens offline.",
+    {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
+     {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
+     {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
+     {.name = "solution", .says = "a body to look at", .made_by = {"solve"}, .required = false, .several = true},
+     {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
+     {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
+    "report.html"};
+const StageSpec tune_stage{
+    "tune",
+    "Draws the work-precision diagram of a refinement study: which settings give the least error for their cost.",
+    {{.name = "curves",
+      .says = "one level of the study: curves of its solution",
+      .made_by = {"post"},
+      .several = true,
+      .members = true}},
+    "trade.h5"};
+
+}  // namespace
+
 const std::vector<StageSpec>& stages() {
-  static const std::vector<StageSpec> table{
-      {"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"},
-      {"fit",
-       "Finds material parameters from a measured curve.",
-       {{.name = "curves",
-         .says = "what was measured in a scene, of the items of data without a file, in their order",
-         .made_by = {"post"},
-         .required = false,
-         .several = true}},
-       "material.h5"},
-      {"sensitivity",
-       "Ranks material parameters: one at a time, by Morris, by Sobol.",
-       {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},
-       "sensitivity.h5"},
-      {"solve",
-       "Finds equilibrium along a load path.",
-       {{.name = "mesh",
-         .says = "mesh with named sets and frames, unless the config has one",
-         .made_by = {"mesh"},
-         .required = false,
-         .or_key = true},
-        {.name = "material",
-         .says = "energy terms and their parameters, unless the config has them",
-         .made_by = {"fit"},
-         .required = false,
-         .or_key = true,
-         .takes_yaml = true},
-        {.name = "mirror",
-         .says =
-             "a solution of the same scene with other fibre angles: where this one is its mirror image, or turned, it is copied",
-         .made_by = {"solve"},
-         .required = false}},
-       "solution.h5",
-       true},
-      {"post",
-       "Turns a solution into fields and curves.",
-       {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
-       "curves.h5",
-       false,
-       "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
-       "and wants --solution only"},
-      {"gather",
-       "Collects one quantity or several over a sweep.",
-       {{.name = "curves",
-         .says = "a member of the sweep: any file with a /summary",
-         .made_by = {"post", "fit", "sensitivity", "mesh"},
-         .several = true,
-         .members = true}},
-       "sweep.h5"},
-      {"report",
-       "Writes a report on a run: one page that opens offline.",
-       {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
-        {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
-        {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
-        {.name = "solution", .says = "a body to look at", .made_by = {"solve"}, .required = false, .several = true},
-        {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
-        {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
-       "report.html"},
-      {"tune",
-       "Draws the work-precision diagram of a refinement study: which settings give the least error for their cost.",
-       {{.name = "curves",
-         .says = "one level of the study: curves of its solution",
-         .made_by = {"post"},
-         .several = true,
-         .members = true}},
-       "trade.h5"},
-  };
+  static const std::vector<StageSpec> table{mesh_stage, fit_stage,    sensitivity_stage, solve_stage,
+                                            post_stage, gather_stage, report_stage,      tune_stage};
   return table;
 }
 

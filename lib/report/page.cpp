@@ -37,34 +37,36 @@ Json plane_map(const PlaneMap& m) {
                  {"middle", number(m.middle)}});
 }
 
+Json chart(const Chart& c) {
+  return object({{"group", words(c.group)},
+                 {"title", words(c.title)},
+                 {"xLabel", words(c.x_label)},
+                 {"xUnit", words(c.x_unit)},
+                 {"yLabel", words(c.y_label)},
+                 {"yUnit", words(c.y_unit)},
+                 {"series", list(c.series, series)},
+                 {"marks", list(c.marks,
+                                [](const Chart::Mark& m) {
+                                  return object({{"name", words(m.name)}, {"y", number(m.y)}});
+                                })},
+                 {"ordered", {c.ordered ? "true" : "false"}}});
+}
+
+Json polar(const Polar& p) {
+  const auto residual = [](const SymmetryResidual& r) {
+    return object({{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
+  };
+  return object({{"title", words(p.title)},
+                 {"axis", words(p.axis)},
+                 {"unit", words(p.unit)},
+                 {"angle", numbers(p.angle)},
+                 {"series", list(p.series, series)},
+                 {"residuals", list(p.residuals, residual)}});
+}
+
 Json data_of(const ReportPage& page) {
   const auto verdict = [](const Verdict& v) {
     return object({{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
-  };
-  const auto chart = [](const Chart& c) {
-    return object({{"group", words(c.group)},
-                   {"title", words(c.title)},
-                   {"xLabel", words(c.x_label)},
-                   {"xUnit", words(c.x_unit)},
-                   {"yLabel", words(c.y_label)},
-                   {"yUnit", words(c.y_unit)},
-                   {"series", list(c.series, series)},
-                   {"marks", list(c.marks,
-                                  [](const Chart::Mark& m) {
-                                    return object({{"name", words(m.name)}, {"y", number(m.y)}});
-                                  })},
-                   {"ordered", {c.ordered ? "true" : "false"}}});
-  };
-  const auto polar = [](const Polar& p) {
-    const auto residual = [](const SymmetryResidual& r) {
-      return object({{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
-    };
-    return object({{"title", words(p.title)},
-                   {"axis", words(p.axis)},
-                   {"unit", words(p.unit)},
-                   {"angle", numbers(p.angle)},
-                   {"series", list(p.series, series)},
-                   {"residuals", list(p.residuals, residual)}});
   };
   const auto table = [](const ReportTable& t) {
     const auto column = [](const TableColumn& c) { return object({{"name", words(c.name)}, {"unit", words(c.unit)}}); };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 namespace langer {
 
@@ -20,6 +21,30 @@ bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
   if (!has_direction(fibre)) return true;
   if (of == SectionOf::axisymmetric) return std::abs(a[1]) >= 1 - same;
   return std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same;
+}
+
+using Refuse =
+    std::function<void(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint)>;
+
+// fibres that lead out of the plane of a section, once for each body
+void refuse_fibres(const SolveConfig& config, const Mesh& mesh, const Scene& scene, bool is_round, const Refuse& refuse) {
+  if (scene.materials.size() != mesh.bodies.size()) return;  // said elsewhere
+  std::vector<char> said(mesh.bodies.size(), 0);
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto body = static_cast<std::size_t>(mesh.body.empty() ? 0 : mesh.body[e]);
+    const std::vector<Fibre>& families = scene.materials[body].fibres;
+    if (families.empty() || said[body]) continue;
+    const auto a = scene.directions.of(e);
+    for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
+      if (kept(families[k], a[k], mesh.section->of)) continue;
+      said[body] = 1;
+      const bool own = config.materials.count(mesh.bodies[body]) > 0;
+      refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
+             is_round ? "no fibres (c1: 0), or fibres along y or without direction (kappa: 1/3)"
+                      : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
+             "fibres in one direction make a body that needs all three dimensions: a block");
+    }
+  }
 }
 
 }  // namespace
@@ -66,23 +91,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
              is_round ? "a movement along y" : "a movement in the plane of x and y", "a block is needed for others");
     }
   }
-  if (scene.materials.size() != mesh.bodies.size()) return errors;  // said elsewhere
-  std::vector<char> said(mesh.bodies.size(), 0);
-  for (int e = 0; e < mesh.n_cells(); ++e) {
-    const auto body = static_cast<std::size_t>(mesh.body.empty() ? 0 : mesh.body[e]);
-    const std::vector<Fibre>& families = scene.materials[body].fibres;
-    if (families.empty() || said[body]) continue;
-    const auto a = scene.directions.of(e);
-    for (std::size_t k = 0; k < families.size() && !said[body]; ++k) {
-      if (kept(families[k], a[k], mesh.section->of)) continue;
-      said[body] = 1;
-      const bool own = config.materials.count(mesh.bodies[body]) > 0;
-      refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
-             is_round ? "no fibres (c1: 0), or fibres along y or without direction (kappa: 1/3)"
-                      : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
-             "fibres in one direction make a body that needs all three dimensions: a block");
-    }
-  }
+  refuse_fibres(config, mesh, scene, is_round, refuse);
   return errors;
 }
 

@@ -126,6 +126,12 @@ struct FitData {
       positive);
     v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
     v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
+    counted_fields(v);
+    v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
+    v(&FitData::split, "split", unit::none, "a column: one test for each text in it, such as a protocol");
+  }
+  // which points count, how much and from where
+  static void counted_fields(auto& v) {
     v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);
     v(&FitData::standard_deviation, "standard_deviation", unit::none,
       "of the measured stress in MPa: the weight is its inverse; beside scenes of every test, of a scene in N or mm: none: study.noise "
@@ -145,14 +151,13 @@ struct FitData {
     v(&FitData::normalised, "normalised", unit::none,
       "stresses or forces over the largest of the test, where sizes are not known: moduli then are shares of it, strengths and times "
       "of viscous branches stay what they are");
-    v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
-    v(&FitData::split, "split", unit::none, "a column: one test for each text in it, such as a protocol");
   }
   bool is_scene() const { return kind == DataKind::scene; }
   std::vector<Complaint> complaints() const;
 
  private:
   void complain_of_scene(std::vector<Complaint>& all) const;
+  void complain_of_homogeneous_keys(std::vector<Complaint>& all) const;  // that a scene does not read
 };
 
 enum class Bounds { custom, paper, admissible };

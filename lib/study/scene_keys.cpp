@@ -8,9 +8,7 @@
 namespace langer {
 
 // what a scene needs to be set against its file
-void FitData::complain_of_scene(std::vector<Complaint>& all) const {
-  if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
-  if (weight) all.push_back({"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
+void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
   for (const auto& [key, found] : {std::pair("strain", strain.has_value()),
                                    {"stress", stress.has_value()},
                                    {"stress_unit", stress_unit.has_value()},
@@ -31,6 +29,12 @@ void FitData::complain_of_scene(std::vector<Complaint>& all) const {
                                    {"shear", shear != OffAxisShear::held},
                                    {"split", !split.empty()}})
     if (found) all.push_back({key, "found in a scene", "a homogeneous test, or without it", "a scene does not read it"});
+}
+
+void FitData::complain_of_scene(std::vector<Complaint>& all) const {
+  if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
+  if (weight) all.push_back({"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
+  complain_of_homogeneous_keys(all);
   if (!columns) {
     all.push_back({"columns", "missing", "columns of the file", "columns: {u_ind: travel_mm, force: force_N}"});
     return;

@@ -37,88 +37,57 @@ Usage usage_of(const StageSpec& stage) {
   return usage_of(stage, kind->top_keys(), kind->reference());
 }
 
+namespace {
+
+Usage command(const char* program, const char* sentence, std::vector<UsageOption> options, const char* example) {
+  for (UsageOption& o : common_options())
+    if (o.flags == "-h,--help") options.push_back(std::move(o));
+  return {program, sentence, std::move(options), {}, "", example, ""};
+}
+
+std::vector<Usage> table_of_commands() {
+  std::vector<std::string> kinds = config_kind_names(), described = kinds;
+  kinds.push_back("pipeline"), described.push_back("columns");
+  return {
+      command(
+          "langer show", "Prints what is in a file that Langer made.",
+          {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
+           {"--config", "", "print the config that it was made with instead", "", {}},
+           {"--json", "", "print the summary as one JSON object a file", "", {}}},
+          "langer show runs/indentation/solve/solution.h5"),
+      command("langer new", "Writes a starter project that runs, with comments.",
+              {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "", starter_names(), true},
+               {"FOLDER", "", "a new folder; the scene's name by default", "/", {}}},
+              "langer new indentation skin && make -C skin"),
+      command("langer check", "Checks configs and pipelines without running anything.",
+              {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
+               {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
+              "langer check pipelines/indentation.yaml configs/*/*.yaml"),
+      command("langer describe",
+              "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
+              {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
+              "langer describe solve"),
+      command("langer schema", "Prints the JSON Schema of a config, for editors.",
+              {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
+               {"--list", "", "print the kinds instead", "", {}}},
+              "langer schema solve > solve.schema.json"),
+      command("langer explain", "Says why make would run a step of a run again.", {{"RUN", "", "folder of a run", "/", {}, true}},
+              "langer explain runs/indentation"),
+      command("langer times", "Says what each step of a run took, and which failed.",
+              {{"RUN", "", "folder of a run", "/", {}, true}, {"--failed", "", "only those that failed, with their logs", "", {}}},
+              "langer times runs/indentation"),
+      command("langer doctor", "Says what is installed here of what Langer can use, and what is missing without it.", {},
+              "langer doctor"),
+      command("langer man", "Prints the man page of a program.", {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
+              "langer man langer-solve | man -l -"),
+      command("langer completion", "Prints the completion of all programs for bash.", {}, "source <(langer completion)"),
+  };
+}
+
+}  // namespace
+
 const std::vector<Usage>& langer_commands() {
-  static const std::vector<Usage> commands = [] {
-    std::vector<std::string> kinds = config_kind_names();
-    kinds.push_back("pipeline");
-    std::vector<std::string> described = config_kind_names();
-    described.push_back("columns");
-    std::vector<Usage> all{
-        {"langer show",
-         "Prints what is in a file that Langer made.",
-         {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
-          {"--config", "", "print the config that it was made with instead", "", {}},
-          {"--json", "", "print the summary as one JSON object a file", "", {}}},
-         {},
-         "",
-         "langer show runs/indentation/solve/solution.h5",
-         ""},
-        {"langer new",
-         "Writes a starter project that runs, with comments.",
-         {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "", starter_names(), true},
-          {"FOLDER", "", "a new folder; the scene's name by default", "/", {}}},
-         {},
-         "",
-         "langer new indentation skin && make -C skin",
-         ""},
-        {"langer check",
-         "Checks configs and pipelines without running anything.",
-         {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
-          {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
-         {},
-         "",
-         "langer check pipelines/indentation.yaml configs/*/*.yaml",
-         ""},
-        {"langer describe",
-         "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
-         {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
-         {},
-         "",
-         "langer describe solve",
-         ""},
-        {"langer schema",
-         "Prints the JSON Schema of a config, for editors.",
-         {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
-          {"--list", "", "print the kinds instead", "", {}}},
-         {},
-         "",
-         "langer schema solve > solve.schema.json",
-         ""},
-        {"langer explain",
-         "Says why make would run a step of a run again.",
-         {{"RUN", "", "folder of a run", "/", {}, true}},
-         {},
-         "",
-         "langer explain runs/indentation",
-         ""},
-        {"langer times",
-         "Says what each step of a run took, and which failed.",
-         {{"RUN", "", "folder of a run", "/", {}, true}, {"--failed", "", "only those that failed, with their logs", "", {}}},
-         {},
-         "",
-         "langer times runs/indentation",
-         ""},
-        {"langer doctor",
-         "Says what is installed here of what Langer can use, and what is missing without it.",
-         {},
-         {},
-         "",
-         "langer doctor",
-         ""},
-        {"langer man",
-         "Prints the man page of a program.",
-         {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
-         {},
-         "",
-         "langer man langer-solve | man -l -",
-         ""},
-        {"langer completion", "Prints the completion of all programs for bash.", {}, {}, "", "source <(langer completion)", ""},
-    };
-    for (Usage& u : all)
-      for (UsageOption& o : common_options())
-        if (o.flags == "-h,--help") u.options.push_back(std::move(o));
-    return all;
-  }();
+  static const std::vector<Usage> commands = table_of_commands();
   return commands;
 }
 

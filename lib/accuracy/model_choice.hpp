@@ -1,0 +1,42 @@
+// Which model of a scene is solved: the block or a section in its place, with which cells and increments, a point of a body that deforms
+// alike everywhere or its mesh. What a solve shows decides on the next one, until one stands.
+#pragma once
+
+#include "accuracy/accuracy.hpp"
+#include "accuracy/section_in_place.hpp"
+
+namespace langer {
+
+class ModelChoice {
+ public:
+  using Where = Accuracy::Where;
+  // config as it was written; has_file: the mesh is that of a file, not the config's. material: of the bodies that the config names none for
+  ModelChoice(const Voice& voice, const SolveConfig& config, bool has_file, const std::optional<Material>& material, Where where,
+              bool dry);
+
+  const SolveConfig& config() const { return accuracy_.config(); }  // to be solved
+  bool at_a_point() const { return at_a_point_; }
+  // Whether config() is another one now: the errors of its solution are too large, or it found no equilibrium. Says so.
+  bool another(const std::vector<ErrorEstimate>& errors);
+  bool another(const Failure& failure) { return accuracy_.begin_anew(failure); }
+  // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept. Says so.
+  void leave_point();
+
+  std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
+  // Throws Failure(not_accurate) where the errors exceed what was asked for.
+  void need(const std::vector<ErrorEstimate>& errors, const std::string& output) const { accuracy_.need(errors, output); }
+
+ private:
+  Accuracy of_model() const;
+
+  Voice voice_;
+  SolveConfig asked_;
+  std::optional<Material> material_;
+  Where where_;
+  bool dry_;
+  SectionInPlace section_;
+  Accuracy accuracy_;
+  bool at_a_point_;
+};
+
+}  // namespace langer
