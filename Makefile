@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build plan run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper install deb map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -41,13 +41,19 @@ configure: deps
 build: configure
 	@cmake --build $(build) --parallel $(JOBS) --target $(programs)
 
-plan: build
-	+@$(build)/bin/langer-plan $(PIPELINE) -o $(run)
+# what went wrong is said last, and by us: a recipe that fails would leave the last word to make
+stopped = $(if $(shell cat $(build)/stopped 2>/dev/null),$(error $(1))):
+planned: build
+	@rm -f $(build)/stopped
+	+@$(build)/bin/langer-plan $(PIPELINE) -o $(run) || echo planned > $(build)/stopped
+plan: planned
+	@$(call stopped,$(PIPELINE) is not right: see above; nothing was written)
 
-run: plan
-	@$(MAKE) --no-print-directory -C $(run) $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS)) || \
-	  { $(build)/bin/langer times --failed $(run) >&2; exit 1; }
-	@echo "results: $(run)"
+work: planned
+	@[ -e $(build)/stopped ] || $(MAKE) --no-print-directory -C $(run) $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS)) || \
+	  { $(build)/bin/langer times --failed $(run) >&2; echo run > $(build)/stopped; }
+run: work
+	@$(call stopped,$(PIPELINE) stopped as said above; what is made stays and make goes on from there)
 
 # why a step would run again; what each took
 explain: plan
@@ -119,16 +125,29 @@ bench: configure
 # programs, man pages, completion, configs; PREFIX and DESTDIR as usual. LANGER_NATIVE is off: the programs may go to another machine
 PREFIX ?= /usr/local
 package := build-package
-$(package)/CMakeCache.txt: | deps
-	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF
-install: $(package)/CMakeCache.txt
+version := $(shell awk '/^project/ { print $$3 }' CMakeLists.txt)
+packaged: deps
+	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DLANGER_SHARED=ON > $(package).log || { cat $(package).log; exit 1; }
+	@mv $(package).log $(package)/configured.log
 	@cmake --build $(package) --parallel $(JOBS)
+install: packaged
 	@DESTDIR=$(DESTDIR) cmake --install $(package) --prefix $(PREFIX) > /dev/null
 	@echo "installed in $(DESTDIR)$(PREFIX)"
-deb: $(package)/CMakeCache.txt
-	@cmake --build $(package) --parallel $(JOBS)
-	@cd $(package) && cpack -G DEB > cpack.log || { cat cpack.log; exit 1; }
-	@ls $(package)/*.deb
+# a Debian package; a tar with all its libraries for any Linux of its time (GMSH=1: with gmsh, too); both tried out
+deb: packaged
+	@$(MAKE) --no-print-directory deps packages=dpkg-dev
+	@rm -rf $(package)/deb $(package)/*.deb && DESTDIR=$(CURDIR)/$(package)/deb cmake --install $(package) --prefix /usr > /dev/null
+	@share/package/deb $(package)/deb $(version) $(package)
+bundle: packaged
+	@rm -rf $(package)/bundle && cmake --install $(package) --prefix $(CURDIR)/$(package)/bundle > /dev/null
+	@GMSH=$(GMSH) share/package/bundle $(package)/bundle $(version) $(package)
+test-package: deb bundle
+	@cmake -DROOT=$(CURDIR) -DPACKAGE=$(CURDIR)/$(package) -DWORK=$(CURDIR)/$(package)/test -P tests/stages/package.cmake
+# the tar in a bare system of another release, which debootstrap makes: as root
+SUITE ?= trixie
+test-bundle: bundle
+	@$(MAKE) --no-print-directory deps packages=debootstrap
+	@tests/support/bare_system.sh $(SUITE) $(package)/langer-$(version)-linux-*.tar.gz
 
 # docs/ and what the programs tell of themselves as a site with a search: build-site/site
 site: build
@@ -186,7 +205,8 @@ help:
 	@echo "make accuracy-elsewhere       and on scenes unlike those of the refinement study"
 	@echo "make accuracy-random          and on scenes of twelve kinds drawn at random; SEED=1 SCENES=24 ASKED=1 (percent)"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
-	@echo "make deb                      the same as a Debian package"
+	@echo "make deb                      the same as a Debian package; make bundle: as a tar with its libraries, for any Linux; GMSH=1"
+	@echo "make test-package             both, and whether they hold what they should and run; make test-bundle SUITE=trixie: in a bare system"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
 	@echo "make site                     docs, gallery, columns and keys as pages with a search (installs mkdocs-material)"
 	@echo "make schemas                  write configs/schema again after a change of a listing"

@@ -1,8 +1,9 @@
-// langer show | new | check | describe | schema | explain | times | doctor | man | completion: what one wants to know beside the stages.
+// langer show | new | check | describe | schema | explain | times | crate | doctor | man | completion: what one wants to know beside the stages.
 #include "pipeline/effective.hpp"
 #include "post/describe_columns.hpp"
 #include "stage.hpp"
 #include "tool/check.hpp"
+#include "tool/crate.hpp"
 #include "tool/doctor.hpp"
 #include "tool/run_state.hpp"
 #include "tool/schemas.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 struct Given {
   std::vector<std::string> places;  // what stands without an option
-  std::string as;
+  std::string as, same_as;
+  CrateWords crate;
   bool config = false, json = false, list = false, failed = false;
 };
 
@@ -63,6 +65,15 @@ int manual(const Given& given) {
                 Error{{}, "", fmt::format("there is no program \"{}\"", given.places[0]), "one of " + list_words(known), ""});
 }
 
+int crate(const Given& given) {
+  const std::string& folder = given.places[0];
+  if (!given.same_as.empty()) return put_out(same_results(folder, given.same_as) + "\n"), 0;
+  const CrateReport report = write_crate(folder, given.crate);
+  say_line("langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: sh {}/reproduce", folder,
+           report.files, report.actions, report.inputs, folder);
+  return 0;
+}
+
 int doctor() {
   const std::vector<Finding> findings = examine();
   put_out(doctor_text(findings));
@@ -78,6 +89,11 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
       std::count_if(usage.options.begin(), usage.options.end(), [](const UsageOption& o) { return is_place(o) && o.required; }));
   if (places) app.add_option("places", given.places);
   if (usage.find("--as")) app.add_option("--as", given.as);
+  for (const auto& [flag, text] : {std::pair{"--same-as", &given.same_as},
+                                   {"--title", &given.crate.title},
+                                   {"--author", &given.crate.author},
+                                   {"--license", &given.crate.license}})
+    if (usage.find(flag)) app.add_option(flag, *text);
   if (usage.find("--config")) app.add_flag("--config", given.config);
   if (usage.find("--failed")) app.add_flag("--failed", given.failed);
   if (usage.find("--list")) app.add_flag("--list", given.list);
@@ -106,6 +122,7 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
   if (name == "schema") return put_out(schema_text(given.places[0])), 0;
   if (name == "explain") return put_out(explain_text(explain(given.places[0]))), 0;
   if (name == "times") return put_out(times_text(times_of(given.places[0]), given.failed)), 0;
+  if (name == "crate") return crate(given);
   if (name == "doctor") return doctor();
   if (name == "man") return manual(given);
   return put_out(completion_text()), 0;

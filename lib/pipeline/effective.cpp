@@ -25,7 +25,10 @@ Effective check(Tree tree, const std::string& folder) {
   Effective e{to_yaml(loaded.config, relative_to(folder)), {}, loaded.notices};
   for (const NamedFile& file : files_named_by(loaded.config)) e.files.push_back({file.path, file.key, loaded.where(file.key)});
   if constexpr (std::is_same_v<Config, FitConfig>)
-    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); };
+    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); }, e.names = names_in(loaded.config.law);
+  if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>) e.names = names_in(loaded.config);
+  if constexpr (std::is_same_v<Config, SolveConfig> || std::is_same_v<Config, PostConfig>)
+    e.names = names_in(loaded.config, loaded.where);
   return e;
 }
 

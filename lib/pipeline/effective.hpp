@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/writer.hpp"
+#include "pipeline/names.hpp"
 #include "pipeline/ports.hpp"
 
 namespace langer {
@@ -22,6 +23,7 @@ struct Effective {
   std::vector<std::string> notices = {};  // keys and words by their former names
   // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty: nothing is measured.
   std::function<std::vector<std::string>()> look_at_data = {};
+  SceneNames names = {};
 };
 
 struct ConfigKind {

@@ -18,6 +18,8 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
       "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would burn 0.07 s of CPU each, waiting\n"
       "export OPENBLAS_NUM_THREADS ?= 1\n";
   text += fmt::format("BIN ?= {}\n\n.PHONY: all\nall: {}\n", bin, fmt::join(finals, " "));
+  // in place of "Nothing to be done"; but `make -q` asks whether there is, and any recipe of `all` would be
+  text += "ifeq (,$(findstring q,$(filter-out --%,$(firstword -$(MAKEFLAGS)))))\n\t@echo \"results: $(CURDIR)\"\nendif\n";
   for (const Rule& rule : rules) {
     const std::string program = "$(BIN)/" + rule.program;
     text += fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target, fmt::join(rule.prerequisites, " "), program, program);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -19,7 +20,10 @@
 #include "pipeline/run_files.hpp"
 #include "pipeline/siblings.hpp"
 #include "pipeline/slurm.hpp"
+#include "pipeline/snakefile.hpp"
 #include "store/lock.hpp"
+#include "store/material_file.hpp"
+#include "store/mesh_file.hpp"
 
 namespace langer {
 
@@ -66,9 +70,13 @@ class Planning {
         rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
       }
       if (effective.look_at_data) looks_.push_back(effective.look_at_data);
+      SceneNames& names = names_[rule.target] = effective.names;
+      for (const StepInput& input : step.inputs) add_names(step, input, names);
+      if (const std::vector<Error> lost = lost_names(names); !lost.empty()) throw Failure(Exit::config, lost);
       // the command stands in the config, so that a changed input is a changed config
       files.push_back({config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
     });
+    rule.threads = threads_of(step.config);
     if (step.final) finals.push_back(rule.target);
     rules.push_back(std::move(rule));
   }
@@ -81,12 +89,51 @@ class Planning {
  private:
   fs::path folder_;
   std::vector<std::function<std::vector<std::string>()>> looks_;
+  std::map<std::string, SceneNames> names_;  // of steps by output and of files by path
   std::vector<Error> errors_;
   Exit code_ = Exit::input;
+
+  // what is wrong with them is said elsewhere
+  static int threads_of(const Tree& config) {
+    int most = 1;
+    for (const char* key : {"threads", "blas_threads", "jobs"})
+      if (const Tree* value = config.find(key); value && value->kind == Tree::Kind::scalar) {
+        int n = 0;
+        std::from_chars(value->scalar.data(), value->scalar.data() + value->scalar.size(), n);
+        most = std::max(most, n);
+      }
+    return most;
+  }
 
   void add_doubts(const std::vector<std::string>& more) {
     for (const std::string& doubt : more)
       if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(doubt);
+  }
+
+  // What an input has of names, made by a step before or given as a file.
+  void add_names(const Step& step, const StepInput& input, SceneNames& names) {
+    const std::string port = input.port, made_by = step.stage->name;
+    if ((made_by != "solve" || (port != "mesh" && port != "material")) && (made_by != "post" || port != "solution")) return;
+    const SceneNames& there = input.made ? names_[input.path] : names_in_file(port, input.path);
+    if (port != "material" && !names.mesh) names.mesh = there.mesh;
+    if (port != "mesh" && !names.families) names.families = there.families;
+    if (port == "solution") names.more_families = there.more_families, names.contacts = there.contacts;
+  }
+
+  const SceneNames& names_in_file(const std::string& port, const std::string& path) {
+    const auto [known, is_new] = names_.emplace("file " + path, SceneNames{});
+    std::error_code ec;
+    if (!is_new || !fs::is_regular_file(path, ec)) return known->second;
+    try {
+      if (fs::path(path).extension() != ".h5" && port == "material")
+        known->second = effective_port_file({.name = "material", .says = "", .made_by = {}}, load_yaml(path), "").names;
+      else if (port == "mesh")
+        known->second.mesh = names_of(read_mesh(path).mesh);
+      else if (port == "material")
+        known->second = names_in(read_material(path).material);
+    } catch (const Failure&) {  // said where the file itself is looked at
+    }
+    return known->second;
   }
 
   // Members of a sweep share most of their config: each error is kept once.
@@ -190,17 +237,21 @@ PlanReport check_pipeline(const std::string& pipeline_file, std::string folder, 
 }
 
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
-                bool slurm, const Overrides& overrides) {
-  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides, !slurm);
+                PlanFor others, const Overrides& overrides) {
+  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides, !others.slurm);
   make_folder(report.folder);
-  const std::string makefile = (fs::path(report.folder) / "Makefile").string();
+  const std::string makefile = (fs::path(report.folder) / "Makefile").string(),
+                    snakefile = (fs::path(report.folder) / "Snakefile").string();
   need_own_text(makefile, planned_by);
+  if (others.snakemake) need_own_text(snakefile, planned_by);
   begin_beside(makefile);
   const OutputLock lock(makefile, command);
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
   const std::string seen_bin = relative_path(bin, report.folder);
-  write_if_changed(makefile, makefile_text(fs::path(pipeline_file).filename().string(), seen_bin, planning.rules, planning.finals));
-  if (slurm)
+  const std::string file_name = fs::path(pipeline_file).filename().string();
+  write_if_changed(makefile, makefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.snakemake) write_if_changed(snakefile, snakefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.slurm)
     for (const SlurmFile& file : slurm_files(name, steps)) {
       const fs::path path = fs::path(report.folder) / file.name;
       write_if_changed(path, file.text);

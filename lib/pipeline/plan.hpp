@@ -17,9 +17,15 @@ struct PlanReport {
   std::vector<std::string> doubts;
 };
 
-// `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs. `slurm`: scripts for Slurm, too.
+// What is written beside the Makefile.
+struct PlanFor {
+  bool slurm = false;      // scripts for Slurm (pipeline/slurm.hpp)
+  bool snakemake = false;  // a Snakefile (pipeline/snakefile.hpp)
+};
+
+// `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs.
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command = "",
-                bool slurm = false, const pipeline::Overrides& overrides = {});
+                PlanFor others = {}, const pipeline::Overrides& overrides = {});
 
 // The same checks; nothing is written.
 PlanReport check_pipeline(const std::string& pipeline_file, std::string folder = "", const pipeline::Overrides& overrides = {});

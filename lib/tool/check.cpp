@@ -87,6 +87,7 @@ std::string check_file(const std::string& path, std::string kind) {
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
+  if (const std::vector<Error> lost = lost_names(effective.names); !lost.empty()) throw Failure(Exit::config, lost);
   std::vector<std::string> doubts = effective.notices;
   if (effective.look_at_data)
     for (const std::string& doubt : effective.look_at_data()) doubts.push_back(doubt);

@@ -7,6 +7,14 @@
 
 namespace langer {
 
+// A rule of a run's Makefile.
+struct MadeBy {
+  std::string target;
+  std::vector<std::string> prerequisites;  // the config first; as the folder sees them
+  std::string stage;
+};
+std::vector<MadeBy> rules_of(const std::string& folder);  // throws Failure(input) without a Makefile of ours
+
 struct StepTimes {
   std::string step;  // folder and output without ending: alpha_030/solve/solution
   std::string log;

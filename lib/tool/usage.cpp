@@ -137,6 +137,7 @@ Usage plan_usage() {
                 "",
                 {}},
                {"--slurm", "", "also write slurm/submit, which sends the run to Slurm as arrays of jobs", "", {}},
+               {"--snakemake", "", "also write a Snakefile, by which Snakemake makes the same files", "", {}},
                {"--dry-run", "", "check everything that the pipeline names; write nothing", "", {}}};
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
   u.examples = "langer-plan pipelines/indentation.yaml -o runs/indentation && make -C runs/indentation -j2";

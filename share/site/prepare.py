@@ -4,6 +4,7 @@
 prepare.py <project> <folder for the pages> [<langer, for columns and keys>]
 Links that lead to files that are no pages become plain words; what leads nowhere is an error (mkdocs --strict).
 """
+import csv
 import re
 import shutil
 import subprocess
@@ -54,10 +55,12 @@ def keys():
 
 
 def gallery():
-    text = "# Gallery\n\nEvery pipeline of the project with what it makes. `make run PIPELINE=pipelines/NAME.yaml` runs it.\n\n"
-    pictures = {"indentation": "indentation.png", "indentation_angles": "paper/figure_16.png", "indentation_yeoh": "paper/figure_11.png",
-                "identification": "paper/figure_4.png", "tensile_angles": "paper/figure_9.png", "sensitivity": "paper/figure_7.png",
-                "mesh_influence": "paper/figure_17.png"}
+    text = ("# Gallery\n\nEvery pipeline of the project: what it makes, what it took on one core, how large the errors of its results are as far as it "
+            "estimates them, and its config. `make run PIPELINE=pipelines/NAME.yaml` runs it; `make gallery` measures this page again.\n\n")
+    measured = {}
+    if (docs / "gallery.csv").exists():
+        with (docs / "gallery.csv").open() as table:
+            measured = {row["pipeline"]: row for row in csv.DictReader(table)}
     for file in sorted((project / "pipelines").glob("*.yaml")):
         lines = file.read_text().splitlines()
         said, rest = [], 0
@@ -72,19 +75,40 @@ def gallery():
         text += " ".join(s.strip() for s in prose) + "\n\n"
         if makes:
             text += "```text\n" + "\n".join(makes) + "\n```\n\n"
-        if file.stem in pictures and (docs / pictures[file.stem]).exists():
-            text += f"![what {file.stem} makes]({pictures[file.stem]})\n\n"
-        cost = took(project / "runs" / file.stem)
-        text += f"It takes {cost} here.\n\n" if cost else ""
+        if (docs / "gallery" / f"{file.stem}.png").exists():
+            text += f"![what {file.stem} makes](gallery/{file.stem}.png)\n\n"
+        if row := measured.get(file.stem):
+            text += "| cost | error |\n| --- | --- |\n"
+            text += f"| {row['cpu_s']} s of CPU, {row['steps']} steps | {row['errors'] or 'not asked for: `estimate` in the solve tells it'} |\n\n"
         text += "??? example \"" + f"pipelines/{file.name}\"\n\n    ```yaml\n" + "".join(f"    {line}\n" for line in lines[rest:]) + "    ```\n\n"
+        text += configs_of(lines)
     return text
 
 
-def took(run):
-    """CPU seconds of all steps of a run that is there, from their logs."""
-    ends = [re.findall(r"# end: exit 0, [\d.]+ s, ([\d.]+) s of CPU", log.read_text(errors="replace")) for log in run.rglob("*.log")]
-    cpu = [float(end[-1]) for end in ends if end]
-    return f"{sum(cpu):.3g} s of CPU in {len(cpu)} steps" if cpu else ""
+def configs_of(lines):
+    """The configs that a pipeline names, folded."""
+    text = ""
+    for path in dict.fromkeys(re.findall(r"(configs/\w+/[\w.]+\.yaml)", "\n".join(lines))):
+        if (project / path).exists() and "/schema/" not in path:
+            body = [line for line in (project / path).read_text().splitlines() if not line.startswith("# yaml-language-server")]
+            text += f"??? example \"{path}\"\n\n    ```yaml\n" + "".join(f"    {line}\n" for line in body) + "    ```\n\n"
+    return text
+
+
+def equations():
+    """KaTeX as Debian has it, into the site: nothing is fetched."""
+    katex = Path("/usr/share/javascript/katex")
+    (pages / "katex").mkdir()
+    if not katex.exists():
+        print("equations stay as they are written: no libjs-katex")
+        for name in ("katex.min.css", "katex.min.js", "auto-render.js", "begin.js"):
+            (pages / "katex" / name).write_text("")
+        return
+    for name in ("katex.min.css", "katex.min.js", "contrib/auto-render.js"):
+        shutil.copy(katex / name, pages / "katex")
+    shutil.copytree(katex / "fonts", pages / "katex/fonts", ignore=lambda folder, names: [n for n in names if not n.endswith((".woff2", ".ttf"))])
+    (pages / "katex/begin.js").write_text(
+        'renderMathInElement(document.body, {delimiters: [{left: "\\\\[", right: "\\\\]", display: true}], throwOnError: false});\n')
 
 
 shutil.rmtree(pages, ignore_errors=True)
@@ -93,6 +117,7 @@ for page in docs.rglob("*.md"):
     (pages / page.relative_to(docs)).write_text(linked(page.read_text(), page.parent))
 for source, page in renamed.items():
     (pages / page).write_text(linked((project / source).read_text(), (project / source).parent))
+equations()
 for page, text in (("gallery.md", gallery()), ("columns.md", columns()), ("keys.md", keys())):
     (pages / page).write_text(text)
 print(f"{len(list(pages.rglob('*.md')))} pages in {pages}")

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Measures the gallery of the site: what each pipeline took, how large the errors of its results are, and a picture.
+
+gallery.py PROJECT RUNS LANGER     RUNS holds finished runs by the names of their pipelines
+Writes docs/gallery.csv and docs/gallery/NAME.png (700 pixels wide). A pipeline without a finished run keeps what it has.
+Wants python3-pil.
+"""
+import csv
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+project, runs, langer = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+folder, table = project / "docs/gallery", project / "docs/gallery.csv"
+columns = ["pipeline", "steps", "cpu_s", "errors"]
+
+
+def summary(file):
+    return json.loads(subprocess.run([langer, "show", "--json", file], check=True, capture_output=True, text=True).stdout.splitlines()[0])
+
+
+def cost(run):
+    """CPU seconds and number of steps; None where a step has not ended well."""
+    last = subprocess.run([langer, "times", run], check=True, capture_output=True, text=True).stdout
+    found = re.search(r"(\d+) steps: (\d+) done, 0 failed or not ended, 0 not run; ([\d.]+) s of CPU", last)
+    return (int(found[1]), float(found[3])) if found and found[1] == found[2] else None
+
+
+def errors(run):
+    """The worst of all members, of what a run tells of its own errors."""
+    worst = {}
+    for file in sorted(run.rglob("*.h5")):
+        said = summary(file)
+        for key, value in said.items():
+            if not isinstance(value, float | int) or value is None:
+                continue
+            if said["schema"] == "material" and key == "mean_error_percent":
+                worst["fit, mean"] = max(worst.get("fit, mean", 0), value)
+            if said["schema"] == "solution" and (error := re.fullmatch(r"(.*)_error_(N|MPa|mm)", key)):
+                of = [v for k, v in said.items() if k == f"{error[1]}_{error[2]}"]
+                if of and of[0]:
+                    worst[error[1]] = max(worst.get(error[1], 0), 100 * abs(value / of[0]))
+    return "; ".join(f"{what} {value:.2g} %" for what, value in sorted(worst.items()))
+
+
+def picture(run):
+    """A body before a table's figure before a solution's curve before a fit's."""
+    found = []
+    for file in run.rglob("*.png"):
+        order = ["render", "map", "table", "post", "tune", "sensitivity", "fit"]
+        path = file.relative_to(run).as_posix()
+        found.append((next((i for i, word in enumerate(order) if word in path), len(order)), path))
+    return run / min(found)[1] if found else None
+
+
+kept = {row["pipeline"]: row for row in csv.DictReader(table.open())} if table.exists() else {}
+folder.mkdir(exist_ok=True)
+for file in sorted((project / "pipelines").glob("*.yaml")):
+    run = runs / file.stem
+    took = cost(run) if (run / "Makefile").exists() else None
+    if not took:
+        continue
+    kept[file.stem] = dict(zip(columns, [file.stem, took[0], f"{took[1]:.3g}", errors(run)]))
+    if source := picture(run):
+        image = Image.open(source).convert("RGB")
+        image = image.resize((700, round(700 * image.height / image.width)), Image.LANCZOS)
+        image.quantize(128, dither=Image.Dither.NONE).save(folder / f"{file.stem}.png", optimize=True)
+with table.open("w", newline="") as out:
+    writer = csv.DictWriter(out, columns, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(kept[name] for name in sorted(kept))
+print(f"{len(kept)} pipelines in {table}")
