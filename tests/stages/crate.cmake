@@ -79,7 +79,7 @@ expect_said("there is no Makefile of langer-plan")
 # a table whose header stands in a file beside it
 file(MAKE_DIRECTORY ${WORK}/project/mine)
 file(WRITE ${folder}/mine/pull.csv "a,b\n0,0\n0.1,0.02\n0.2,0.05\n0.3,0.09\n0.4,0.16\n")
-file(WRITE ${folder}/mine/pull.yaml "columns: {strain_x: a, stress_x: b}\nstrain: engineering\nstress: nominal\n")
+file(WRITE ${folder}/mine/pull.yaml "columns: {strain_x: a, stress_x: b}\nstrain: engineering\nstress: nominal\nstress_unit: MPa\n")
 file(WRITE ${folder}/fit.yaml "data: [{file: mine/pull.csv}]\nlaw: {matrix: {yeoh: {a1: 0.1, a2: 0.1}}, volume: {quadratic: {d: 1.0e-3}}}\nparameters: [{key: matrix.yeoh.a1, lower: 0, upper: 1}, {key: matrix.yeoh.a2, lower: 0, upper: 1}]\n")
 file(WRITE ${folder}/p.yaml "pipeline: p\nnodes:\n  fit: {stage: fit, config: fit.yaml}\n")
 run(0 ${BIN}/langer-plan p.yaml -o deep/er/runs/p)
