@@ -15,7 +15,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -127,7 +127,7 @@ PREFIX ?= /usr/local
 package := build-package
 version := $(shell awk '/^project/ { print $$3 }' CMakeLists.txt)
 packaged: deps
-	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DLANGER_SHARED=ON > $(package).log || { cat $(package).log; exit 1; }
+	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF > $(package).log || { cat $(package).log; exit 1; }
 	@mv $(package).log $(package)/configured.log
 	@cmake --build $(package) --parallel $(JOBS)
 install: packaged
@@ -151,7 +151,7 @@ test-bundle: bundle
 
 # docs/ and what the programs tell of themselves as a site with a search: build-site/site
 site: build
-	@$(MAKE) --no-print-directory deps packages=mkdocs-material
+	@$(MAKE) --no-print-directory deps packages="mkdocs-material libjs-katex"
 	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer && mkdocs build -q -f share/site/mkdocs.yml
 	@echo "site: build-site/site; its search needs a server: python3 -m http.server -d build-site/site"
 
@@ -209,5 +209,6 @@ help:
 	@echo "make test-package             both, and whether they hold what they should and run; make test-bundle SUITE=trixie: in a bare system"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
 	@echo "make site                     docs, gallery, columns and keys as pages with a search (installs mkdocs-material)"
+	@echo "make gallery                  run the pipelines, write their pictures, costs and errors into docs/ for the site (installs python3-pil)"
 	@echo "make schemas                  write configs/schema again after a change of a listing"
 	@echo "make clean                    remove $(build); results in runs/ stay"

@@ -90,3 +90,16 @@ accuracy-random: configure
 	@mkdir -p runs/random
 	@$(build)/tests/langer-random-scenes runs/random seed=$(SEED) scenes=$(SCENES) asked=$(ASKED) | tee runs/random/table.md
 	@tests/soak/page docs/work_precision.md random runs/random/table.md
+
+# the gallery of the site: every pipeline (those of a study by name, GALLERY=dual) with an estimate of errors where its scene takes one; what it
+# took, its errors and a picture go to docs/
+GALLERY ?= $(filter-out accuracy accuracy_elsewhere dual estimates extremes paper trade,$(basename $(notdir $(wildcard pipelines/*.yaml))))
+gallery: build
+	@$(MAKE) --no-print-directory deps packages=python3-pil
+	@for one in $(GALLERY); do \
+	  for by in dual recovery ""; do \
+	    $(build)/bin/langer-plan pipelines/$$one.yaml -o $(build)/gallery/$$one --quiet $${by:+--set solve.estimate=$$by} 2>/dev/null && \
+	      $(MAKE) --no-print-directory -C $(build)/gallery/$$one > $(build)/gallery/$$one/said 2>&1 && { echo "$$one $$by"; break; }; \
+	  done; \
+	done
+	@/usr/bin/python3 share/site/gallery.py . $(build)/gallery $(build)/bin/langer

@@ -205,6 +205,22 @@ bool write_if_changed(const fs::path& path, const std::string& text) {
 
 namespace {
 
+// A folder of programs may be called anything; a blank has to be told to make, and to the shell, as such.
+std::string as_make_reads(const std::string& folder) {
+  std::string seen;
+  for (const char c : folder) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c != ' ' && byte < 0x80 && !std::isalnum(byte) && std::string_view("/._-+,=@~").find(c) == std::string_view::npos)
+      throw Failure(Exit::input, Error{{folder},
+                                       "",
+                                       fmt::format("the programs lie in a folder with {} in its name", c),
+                                       "letters, digits, blanks, / . _ - + , = @ ~",
+                                       "make gives it a meaning: put them elsewhere"});
+    seen += c == ' ' ? "\\ " : std::string(1, c);
+  }
+  return seen;
+}
+
 struct Planned {
   Planning planning;
   PlanReport report;
@@ -247,7 +263,7 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
   begin_beside(makefile);
   const OutputLock lock(makefile, command);
   for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
-  const std::string seen_bin = relative_path(bin, report.folder);
+  const std::string seen_bin = as_make_reads(relative_path(bin, report.folder));
   const std::string file_name = fs::path(pipeline_file).filename().string();
   write_if_changed(makefile, makefile_text(file_name, seen_bin, planning.rules, planning.finals));
   if (others.snakemake) write_if_changed(snakefile, snakefile_text(file_name, seen_bin, planning.rules, planning.finals));

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/quoted.hpp"
 #include "base/version.hpp"
 
 namespace langer::pipeline {
@@ -36,11 +37,11 @@ std::string snakefile_text(const std::string& pipeline_file, const std::string& 
       "#   snakemake --cores 4 [-k] [--config launch=\"srun -n1\"]\n"
       "import os\n"
       "os.environ.setdefault(\"OPENBLAS_NUM_THREADS\", \"1\")  # its threads come when `blas_threads` asks for them\n"
-      "BIN = config.get(\"bin\", \"{}\")\n"
+      "BIN = config.get(\"bin\", {})\n"
       "LAUNCH = config.get(\"launch\", \"\")\n\n"
       "rule all:\n"
       "    input: {}\n",
-      bin, listed(finals));
+      quoted(bin), listed(finals));
   std::set<std::string> taken{"all"};
   for (const Rule& rule : rules) {
     const std::string log = rule.target.substr(0, rule.target.rfind('.')) + ".log";

@@ -168,7 +168,7 @@ class Crate {
         "find . -name '*.yaml' ! -path './{}/*' -o -name Makefile ! -path './{}/*' | tar -cf - -T - | tar -xf - -C \"$OLDPWD/{}\"\n"
         "cd \"$OLDPWD\"\n"
         "{}"
-        "make --no-print-directory -C \"{}\" BIN=\"$bin\"\n"
+        "make --no-print-directory -C \"{}\" BIN=\"$(printf %s \"$bin\" | sed 's/ /\\\\ /g')\"\n"
         "\"$bin/langer\" crate \"$here\" --same-as \"{}\"\n",
         script_mark, run, inputs_folder, inputs_folder, run, copies, run, run);
     const std::string path = (folder_ / script).string();

@@ -31,20 +31,23 @@ def cost(run):
 
 
 def errors(run):
-    """The worst of all members, of what a run tells of its own errors."""
-    worst = {}
+    """The worst of all members, of what a run tells of its own errors: of fits, and of what curves name of a solution's."""
+    worst, by = {}, set()
+    for config in run.rglob("solve.yaml"):
+        by |= set(re.findall(r"^estimate: (\w+)", config.read_text(), re.M)) - {"none"}
     for file in sorted(run.rglob("*.h5")):
         said = summary(file)
         for key, value in said.items():
-            if not isinstance(value, float | int) or value is None:
-                continue
-            if said["schema"] == "material" and key == "mean_error_percent":
+            if said["schema"] == "material" and key == "mean_error_percent" and value is not None:
                 worst["fit, mean"] = max(worst.get("fit, mean", 0), value)
-            if said["schema"] == "solution" and (error := re.fullmatch(r"(.*)_error_(N|MPa|mm)", key)):
-                of = [v for k, v in said.items() if k == f"{error[1]}_{error[2]}"]
-                if of and of[0]:
-                    worst[error[1]] = max(worst.get(error[1], 0), 100 * abs(value / of[0]))
-    return "; ".join(f"{what} {value:.2g} %" for what, value in sorted(worst.items()))
+            error = re.fullmatch(r"(.*)_error_((?:N|MPa|mm)[A-Za-z_]*)", key)
+            if said["schema"] != "curves" or not error or "_error_" in error[2] or value is None:
+                continue
+            of = said.get(f"{error[1]}_{error[2]}")
+            if of and not re.search("_error_(cells|increments|scatter|solver)", key):
+                worst[error[1]] = max(worst.get(error[1], 0), 100 * abs(value / of))
+    told = "; ".join(f"{what} {value:.2g} %" for what, value in sorted(worst.items()))
+    return told + (f" (estimate: {', '.join(sorted(by))})" if by and told else "")
 
 
 def picture(run):

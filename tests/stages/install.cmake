@@ -1,5 +1,5 @@
 # What `make install` puts where, and the Debian package: it lists the same, lintian has no error, it is unpacked elsewhere and runs from
-# there. The programs are those of this build; package.cmake looks at those of `make deb` and `make bundle`, which share a library.
+# there; the same of a bundle. Both are of this build; package.cmake looks at those of `make deb` and `make bundle`.
 include(${ROOT}/tests/support/run.cmake)
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -56,9 +56,15 @@ string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" version "${version}")
 set(ENV{DESTDIR} ${WORK}/tree)
 run(0 ${CMAKE_COMMAND} --install ${build} --prefix /usr)
 unset(ENV{DESTDIR})
+set(ENV{LEVEL} 1)
 run(0 ${ROOT}/share/package/deb ${WORK}/tree ${version} ${WORK}/package)
 file(GLOB deb ${WORK}/package/*.deb)
 include(${ROOT}/tests/support/package.cmake)
 check_deb(${deb})
 run(0 ${DPKG} -x ${deb} ${WORK}/unpacked)
 expect_runs(${WORK}/unpacked/usr/bin)
+
+run(0 ${CMAKE_COMMAND} --install ${build} --prefix ${WORK}/bundle)
+run(0 ${ROOT}/share/package/bundle ${WORK}/bundle ${version} ${WORK}/package)
+file(GLOB tar ${WORK}/package/*.tar.gz)
+check_bundle(${tar})

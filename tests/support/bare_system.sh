@@ -21,7 +21,7 @@ tar -xf "$tar" -C "$at" --no-same-owner
 chown -R 1000:1000 "$root/home/user"
 mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
 trap 'umount -l "$root/proc"' EXIT
-env -i PATH=/usr/bin:/bin HOME=/home/user LANG=C.UTF-8 chroot --userspec=1000:1000 "$root" sh -ec '
+env -i PATH=/usr/sbin:/usr/bin:/bin HOME=/home/user LANG=C.UTF-8 chroot --userspec=1000:1000 "$root" sh -ec '
   cd "/home/user/Löcher und Haut"
   PATH=$PWD/'"$name"'/bin:$PATH
   cat /etc/debian_version; ldd --version | head -1
