@@ -3,11 +3,12 @@
 
 gallery.py PROJECT RUNS LANGER     RUNS holds finished runs by the names of their pipelines
 Writes docs/gallery.csv and docs/gallery/NAME.png (700 pixels wide). A pipeline without a finished run keeps what it has.
-Wants python3-pil.
+Wants python3-pil, and chromium for runs that draw nothing but their report.
 """
 import csv
 import json
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -57,7 +58,19 @@ def picture(run):
         order = ["render", "map", "table", "post", "tune", "sensitivity", "fit"]
         path = file.relative_to(run).as_posix()
         found.append((next((i for i, word in enumerate(order) if word in path), len(order)), path))
-    return run / min(found)[1] if found else None
+    return run / min(found)[1] if found else page_of(run)
+
+
+def page_of(run):
+    """A run that draws nothing itself: the begin of its report."""
+    reports = sorted(run.rglob("report.html"))
+    chromium = shutil.which("chromium")
+    if not reports or not chromium:
+        return None
+    shown = run / "report.png"
+    subprocess.run([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=8000", "--window-size=1100,900",
+                    f"--screenshot={shown}", reports[0].resolve().as_uri()], check=True, capture_output=True)
+    return shown
 
 
 kept = {row["pipeline"]: row for row in csv.DictReader(table.open())} if table.exists() else {}
