@@ -99,7 +99,9 @@ gallery: build
 	@for one in $(GALLERY); do \
 	  for by in dual recovery ""; do \
 	    $(build)/bin/langer-plan pipelines/$$one.yaml -o $(build)/gallery/$$one --quiet $${by:+--set solve.estimate=$$by} 2>/dev/null && \
-	      $(MAKE) --no-print-directory -C $(build)/gallery/$$one > $(build)/gallery/$$one/said 2>&1 && { echo "$$one $$by"; break; }; \
+	      $(MAKE) --no-print-directory -C $(build)/gallery/$$one > $(build)/gallery/$$one/said 2>&1 && \
+	      { [ -z "$$by" ] || find $(build)/gallery/$$one -name solution.h5 -exec $(build)/bin/langer show --json {} + | grep -q _error_; } && \
+	      { echo "$$one $$by"; break; }; \
 	  done; \
 	done
 	@/usr/bin/python3 share/site/gallery.py . $(build)/gallery $(build)/bin/langer

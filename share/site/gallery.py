@@ -32,23 +32,28 @@ def cost(run):
 
 
 def errors(run):
-    """The worst of all members, of what a run tells of its own errors: of fits, and of what curves name of a solution's."""
-    worst, by = {}, set()
+    """The worst of all members, of what a run tells of its own errors: in percent of what it is an error of, where a table has that."""
+    worst, by, values = {}, set(), {}
     for config in run.rglob("solve.yaml"):
         by |= set(re.findall(r"^estimate: (\w+)", config.read_text(), re.M)) - {"none"}
-    for file in sorted(run.rglob("*.h5")):
-        said = summary(file)
+    told = [summary(file) for file in sorted(run.rglob("*.h5"))]
+    for said in told:
+        if said["schema"] == "curves":
+            for key, value in said.items():
+                if isinstance(value, (int, float)):
+                    values[key] = max(values.get(key, 0), abs(value))
+    for said in told:
+        if said["schema"] == "material" and said.get("mean_error_percent") is not None:
+            worst["fit, mean", "%"] = max(worst.get(("fit, mean", "%"), 0), said["mean_error_percent"])
         for key, value in said.items():
-            if said["schema"] == "material" and key == "mean_error_percent" and value is not None:
-                worst["fit, mean"] = max(worst.get("fit, mean", 0), value)
-            error = re.fullmatch(r"(.*)_error_((?:N|MPa|mm)[A-Za-z_]*)", key)
-            if said["schema"] != "curves" or not error or "_error_" in error[2] or value is None:
+            error = re.fullmatch(r"(force|reaction_\w+|torque_\w+|von_mises_max|displacement_\w+|u_\w+)_error_(N|MPa|mm|N_mm)", key)
+            if said["schema"] != "solution" or not error or value is None:
                 continue
-            of = said.get(f"{error[1]}_{error[2]}")
-            if of and not re.search("_error_(cells|increments|scatter|solver)", key):
-                worst[error[1]] = max(worst.get(error[1], 0), 100 * abs(value / of))
-    told = "; ".join(f"{what} {value:.2g} %" for what, value in sorted(worst.items()))
-    return told + (f" (estimate: {', '.join(sorted(by))})" if by and told else "")
+            of = values.get(f"{error[1]}_{error[2]}")
+            entry = (error[1], "%" if of else error[2].replace("_", " "))
+            worst[entry] = max(worst.get(entry, 0), 100 * value / of if of else value)
+    words = "; ".join(f"{what} {value:.2g} {unit}" for (what, unit), value in sorted(worst.items()))
+    return words + (f" (estimate: {', '.join(sorted(by))})" if by and set(worst) - {("fit, mean", "%")} else "")
 
 
 def picture(run):

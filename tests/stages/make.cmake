@@ -59,6 +59,14 @@ run(0 make -C runs/p)
 run(0 ${BIN}/langer-plan p.yaml -o "my runs/p")
 run(0 make -C "my runs/p")
 
+# programs in a folder with a blank, and with what make would misread
+file(COPY ${BIN}/langer-plan ${BIN}/langer-mesh DESTINATION "${WORK}/own programs, here")
+run(0 "${WORK}/own programs, here/langer-plan" p.yaml -o runs/blank)
+run(0 make -C runs/blank)
+file(COPY ${BIN}/langer-plan DESTINATION "${WORK}/own (programs)")
+run(3 "${WORK}/own (programs)/langer-plan" p.yaml -o runs/bracket)
+expect_said("the programs lie in a folder with ( in its name")
+
 # a hundred members
 set(values 0)
 foreach(i RANGE 1 99)
