@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,17 @@ namespace langer::report {
 
 namespace {
 
+// a number with as many digits as mean something to a reader; words as they are
+std::string short_number(const std::string& word) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+  if (error != std::errc{} || end != word.data() + word.size() || word.size() <= 7) return word;
+  return fmt::format("{:.5g}", x);
+}
+
 // "yeoh: a1 0.012, a2 0.3; hgo: ..." of a part of a config
 std::string flat(const Tree& tree) {
-  if (tree.kind == Tree::Kind::scalar) return tree.scalar;
+  if (tree.kind == Tree::Kind::scalar) return short_number(tree.scalar);
   std::string text;
   for (const Tree& item : tree.list) text += (text.empty() ? "" : tree.list[0].kind == Tree::Kind::map ? "; " : ", ") + flat(item);
   for (const auto& [key, value] : tree.map) {
@@ -69,7 +78,8 @@ double resisting(const StepRecord& step) {
 }
 
 std::string with_error(double force, const KnownError& error) {
-  return std::isfinite(error.percent) ? fmt::format("{:.4g} N ± {:.2g} %", force, error.percent) : fmt::format("{:.4g} N", force);
+  return std::isfinite(error.percent) ? fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent)
+                                      : fmt::format("{:.4g}\u00a0N", force);
 }
 
 void tell_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {

@@ -74,11 +74,30 @@ file(APPEND ${WORK}/tried.html [=[
   await note('key');
   const canvas = document.querySelector('.stage canvas');
   let box = canvas.getBoundingClientRect();
-  const mouse = (target, type, x, y, more) => target.dispatchEvent(new MouseEvent(type, { clientX: box.left + x, clientY: box.top + y, bubbles: true, button: 0, ...more }));
-  mouse(canvas, 'mousedown', 300, 300, { buttons: 1 });
-  mouse(document, 'mousemove', 360, 270, { buttons: 1 });
-  mouse(document, 'mouseup', 360, 270);
+  const spot = (x, y, more) => ({ clientX: box.left + x, clientY: box.top + y, bubbles: true, cancelable: true, button: 0, ...more });
+  const mouse = (target, type, x, y, more) => target.dispatchEvent(new MouseEvent(type, spot(x, y, more)));
+  canvas.setPointerCapture = canvas.releasePointerCapture = () => {};  // no pointer is there to be captured
+  // three.js of 2019 listens to the mouse, a current one to pointers
+  const drag3d = (from, to, more) => {
+    for (const [type, [x, y]] of [['down', from], ['move', to], ['up', to]]) {
+      const told = { buttons: type === 'up' ? 0 : 1, ...more };
+      canvas.dispatchEvent(new PointerEvent('pointer' + type, { pointerId: 1, pointerType: 'mouse', isPrimary: true, pageX: 0, ...spot(x, y, told) }));
+      mouse(canvas, 'mouse' + type, x, y, told);
+    }
+  };
+  drag3d([300, 300], [360, 270]);
   await note('turned');
+  const placed = () => +document.getElementById('at').value;
+  await set('clip', 'x');
+  const before = placed();
+  drag3d([300, 300], [350, 260], { shiftKey: true });
+  root.dataset.cutmoved = placed() !== before;
+  await note('shift_drag');
+  await set('clip', 'none');
+  box = canvas.getBoundingClientRect();
+  canvas.dispatchEvent(new MouseEvent('dblclick', spot(box.width / 2 - 62, box.height / 2)));
+  root.dataset.cutput = document.getElementById('clip').value === 'free';
+  await note('double_click');
   canvas.dispatchEvent(new WheelEvent('wheel', { deltaY: -300, bubbles: true, cancelable: true }));
   await note('zoomed');
   await set('clip', 'none');
@@ -112,6 +131,13 @@ file(APPEND ${WORK}/tried.html [=[
   root.dataset.saved = new DOMParser().parseFromString(L.savedSvg(chart), 'image/svg+xml').querySelector('parsererror') ? 'broken' : 'svg';
   const first = data.charts.find(c => c.group === 'curves');
   root.dataset.csv = L.csv(first).trim().split('\n').length - 1 === first.series.reduce((n, s) => n + s.x.length, 0);
+  root.dataset.unlabelled = [...document.querySelectorAll('button, input, select')].filter(c => !(c.textContent.trim() && c.tagName === 'BUTTON') && !c.closest('label') && !c.getAttribute('aria-label')).length;
+  dispatchEvent(new Event('beforeprint'));
+  const sheet = document.querySelector('.paper'), ink = sheet.getContext('2d').getImageData(0, 0, sheet.width, sheet.height).data;
+  let coloured = 0;
+  for (let i = 0; i < ink.length; i += 4) coloured += Math.max(ink[i], ink[i + 1], ink[i + 2]) - Math.min(ink[i], ink[i + 1], ink[i + 2]) > 60;
+  root.dataset.paper = coloured > 2000;
+  dispatchEvent(new Event('afterprint'));
   root.dataset.unnamed = document.querySelectorAll('svg[role=img]:not([aria-label]), canvas[role=img]:not([aria-label])').length;
   root.dataset.tried = pictures.join(' ');
 })();
@@ -127,7 +153,7 @@ endif()
 string(REGEX MATCH "<html[^>]*>" root "${dom}")
 message("${root}")
 foreach(expected "data-errors=\"\"" "data-ready=\"yes\"" "data-view=\"ready\"" "data-picked=\"displacement u_y [^\"]* mm" "data-hovered=\"alpha = " "data-zoomed=\"true\"" "data-whole=\"true\""
-    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"")
+    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"" "data-unlabelled=\"0\"" "data-cutmoved=\"true\"" "data-cutput=\"true\"" "data-paper=\"true\"")
   if(NOT root MATCHES "${expected}")
     message(FATAL_ERROR "the page in the browser lacks ${expected}:\n${root}\n${log}")
   endif()
@@ -140,7 +166,7 @@ if(NOT root MATCHES "data-tried=\"([^\"]*)\"")
 endif()
 string(REPLACE " " ";" pictures "${CMAKE_MATCH_1}")
 list(LENGTH pictures n)
-expect_equal(${n} 21 "pictures taken")
+expect_equal(${n} 25 "pictures taken")
 set(before "")
 foreach(picture ${pictures})
   string(REGEX MATCH "=(.*)$" _ ${picture})

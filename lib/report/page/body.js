@@ -1,5 +1,6 @@
 'use strict';
-// The deformed body: its surface coloured by a field, cut open by a plane, with fibres and the indenters; three.js draws it.
+// The deformed body: its surface coloured by a field, cut open by a plane, with fibres and the indenters; three.js draws it:
+// a current release by npm, or Debian's of 2019, between which light and colours differ.
 L.decode = (text, Kind) => {
   const raw = atob(text), bytes = new Uint8Array(raw.length);
   for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
@@ -50,16 +51,17 @@ L.Body = class {
 
 // The cut of a plane through the cells, each in six tetrahedra: triangles with the field's values.
 L.sixTets = [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]];
-L.section = (cells, x, values, axis, at) => {
-  const positions = [], colours = [], d = new Float32Array(8);
+L.section = (cells, x, values, normal, at) => {
+  const positions = [], colours = [], d = new Float32Array(8), far = new Float32Array(x.length / 3);
+  for (let i = 0; i < far.length; ++i) far[i] = normal[0] * x[3 * i] + normal[1] * x[3 * i + 1] + normal[2] * x[3 * i + 2] - at;
   const cross = (i, j) => {
-    const t = (at - x[3 * i + axis]) / (x[3 * j + axis] - x[3 * i + axis]);
+    const t = far[i] / (far[i] - far[j]);
     return [0, 1, 2].map(k => x[3 * i + k] + t * (x[3 * j + k] - x[3 * i + k])).concat(values[i] + t * (values[j] - values[i]));
   };
   const add = (...corners) => corners.forEach(c => { positions.push(c[0], c[1], c[2]); colours.push(c[3]); });
   for (let c = 0; c < cells.length; c += 8) {
     let below = 0;
-    for (let k = 0; k < 8; ++k) below += (d[k] = x[3 * cells[c + k] + axis] - at) < 0 ? 1 : 0;
+    for (let k = 0; k < 8; ++k) below += (d[k] = far[cells[c + k]]) < 0 ? 1 : 0;
     if (below === 0 || below === 8) continue;
     for (const tet of L.sixTets) {
       const low = tet.filter(k => d[k] < 0).map(k => cells[c + k]), high = tet.filter(k => d[k] >= 0).map(k => cells[c + k]);
@@ -87,49 +89,53 @@ L.bodyView = (place, all) => {
   const box = (id, text, checked) => { const c = L.el('input', { id, type: 'checkbox' }); c.checked = checked; return { c, label: L.el('label', {}, c, text) }; };
   const member = select('member', bodies.map((b, i) => i), bodies.map(b => b.label));
   const field = select('field', [], []), state = range('state', 0, 1, 1, 0), scale = range('scale', 0, 5, 0.1, 1);
-  const low = L.el('input', { id: 'low', type: 'number', step: 'any' }), high = L.el('input', { id: 'high', type: 'number', step: 'any' });
+  const low = L.el('input', { id: 'low', type: 'number', step: 'any', 'aria-label': 'least colour' }), high = L.el('input', { id: 'high', type: 'number', step: 'any', 'aria-label': 'greatest colour' });
   const fit = select('fit', ['all', 'state', 'own'], ['least and largest of all states', 'of the state shown', 'as typed']);
   const colours = select('colours', ['viridis', 'cividis'], ['viridis', 'cividis']);
-  const clip = select('clip', ['none', 'x', 'y', 'z'], ['whole', 'cut at x', 'cut at y', 'cut at z']), at = range('at', -1, 1, 0.001, 0), turn = box('turn', 'other side', false);
+  const clip = select('clip', ['none', 'x', 'y', 'z', 'free'], ['whole', 'cut at x', 'cut at y', 'cut at z', 'cut across the way one looks']), at = range('at', -1, 1, 0.001, 0), turn = box('turn', 'other side', false);
   const edges = box('edges', 'cells', true), fibres = box('fibres', 'fibres', false), indenter = box('indenter', 'indenters', true);
   const stateText = L.el('output'), missing = L.el('p'), scaleText = L.el('output'), atText = L.el('output');
   const views = ['oblique', 'from above', 'along z', 'along x'].map((name, i) => { const b = L.el('button', { type: 'button' }, name); b.onclick = () => look(i); return b; });
   const save = L.el('button', { type: 'button' }, 'save picture'), times = select('times', [1, 2, 4], ['as shown', '2 × as large', '4 × as large']);
+  times.setAttribute('aria-label', 'size of the picture that is saved');
   const play = L.el('button', { type: 'button', id: 'play', 'aria-pressed': 'false' }, '▶ play'), opacity = range('opacity', 0.1, 1, 0.05, 1), opacityText = L.el('output');
-  const keys = L.el('p', { class: 'keys' }, 'With the picture in focus: arrows turn it, + and − come closer or go away, 0 fits it, space plays, [ and ] go through the states.');
+  const keys = L.el('p', { class: 'keys' }, 'With the picture in focus: arrows turn it, + and − come closer or go away, 0 fits it, space plays, [ and ] go through the states. With Shift held the mouse moves the cut; a double click puts it where it is.');
   panel.append(...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText), L.el('div', { class: 'row' }, play),
     labelled('displacement drawn', scale, scaleText), labelled('colours', L.el('div', { class: 'row' }, colours)), labelled('colour range', fit),
     L.el('div', { class: 'row' }, low, '–', high), labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText), labelled('opacity', opacity, opacityText),
     L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save, times), keys, missing);
 
   // scene
+  const bright = +THREE.REVISION >= 155 ? Math.PI : 1;
+  if (THREE.ColorManagement) THREE.ColorManagement.enabled = false;
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  if ('outputColorSpace' in renderer) renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
   renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
   renderer.domElement.setAttribute('role', 'img');
   renderer.domElement.setAttribute('tabindex', '0');
   renderer.localClippingEnabled = true;
   stage.append(renderer.domElement, over);
   const scene = new THREE.Scene(), camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
-  const lamp = new THREE.DirectionalLight(0xffffff, 0.42);
+  const lamp = new THREE.DirectionalLight(0xffffff, 0.42 * bright);
   camera.add(lamp);
   lamp.position.set(-0.5, 0.9, 0.8);
-  scene.add(camera, new THREE.AmbientLight(0xffffff, 0.66));
+  scene.add(camera, new THREE.AmbientLight(0xffffff, 0.66 * bright));
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.screenSpacePanning = true;
   controls.addEventListener('change', () => draw());
 
   const scales = {};
   for (const name of Object.keys(L.scales)) {
-    const texels = new Uint8Array(256 * 3);
-    for (let i = 0; i < 256; ++i) texels.set(L.colour(name, i / 255), 3 * i);
-    scales[name] = new THREE.DataTexture(texels, 256, 1, THREE.RGBFormat);
+    const texels = new Uint8Array(256 * 4);
+    for (let i = 0; i < 256; ++i) texels.set([...L.colour(name, i / 255), 255], 4 * i);
+    scales[name] = new THREE.DataTexture(texels, 256, 1);
     scales[name].minFilter = scales[name].magFilter = THREE.LinearFilter;
     scales[name].needsUpdate = true;
   }
   const plane = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
   const skin = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   const cutSkin = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
-  const line = new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors, transparent: true, opacity: 0.5 });
+  const line = new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.5 });
   const fibreLine = new THREE.LineBasicMaterial({ color: 0xff3d7f });
   const steel = new THREE.MeshPhongMaterial({ color: 0xc2c8ce, shininess: 40, side: THREE.DoubleSide, transparent: true, opacity: 0.72, depthWrite: false });
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), skin), cut = new THREE.Mesh(new THREE.BufferGeometry(), cutSkin);
@@ -274,21 +280,29 @@ L.bodyView = (place, all) => {
     glyphs.geometry = new THREE.BufferGeometry();
     glyphs.geometry.setAttribute('position', new THREE.BufferAttribute(ends, 3));
   };
+  // the plane's direction, and how far the body reaches along it
+  const across = new THREE.Vector3(0, 0, 1);
+  const direction = () => clip.value === 'free' ? across : new THREE.Vector3(+(clip.value === 'x'), +(clip.value === 'y'), +(clip.value === 'z'));
+  const reachOf = n => {
+    const ends = [Infinity, -Infinity], [a, b] = body.box;
+    for (let k = 0; k < 8; ++k) { const d = n.x * (k & 1 ? b : a)[0] + n.y * (k & 2 ? b : a)[1] + n.z * (k & 4 ? b : a)[2]; ends[0] = Math.min(ends[0], d); ends[1] = Math.max(ends[1], d); }
+    return ends;
+  };
   const drawCut = () => {
-    const axis = 'xyz'.indexOf(clip.value), on = axis >= 0;
+    const on = clip.value !== 'none';
     at.disabled = turn.c.disabled = !on;
     atText.textContent = '';
     cut.visible = on && !!body.cells;
     const planes = on ? [plane] : null;
     for (const m of [skin, line, fibreLine, steel]) { m.clippingPlanes = planes; m.needsUpdate = true; }
     if (!on) return;
-    const middleAt = (body.box[0][axis] + body.box[1][axis]) / 2, here = middleAt + +at.value * (body.box[1][axis] - body.box[0][axis]) / 2;
-    atText.textContent = `${clip.value} = ${L.number(here, 3)} mm`;
+    const n = direction(), [from, to] = reachOf(n), here = (from + to) / 2 + +at.value * (to - from) / 2;
+    atText.textContent = clip.value === 'free' ? `${L.number(here - (from + to) / 2, 3)} mm from the middle` : `${clip.value} = ${L.number(here, 3)} mm`;
     const side = turn.c.checked ? 1 : -1;
-    plane.normal.set(0, 0, 0).setComponent(axis, side);
+    plane.normal.copy(n).multiplyScalar(side);
     plane.constant = -side * here;
     if (!body.cells) return;
-    const s = L.section(body.cells, x, values, axis, here), uv = new Float32Array(2 * s.values.length);
+    const s = L.section(body.cells, x, values, [n.x, n.y, n.z], here), uv = new Float32Array(2 * s.values.length);
     for (let k = 0; k < s.values.length; ++k) { uv[2 * k] = Math.min(0.998, Math.max(0.002, uvOf(s.values[k]))); uv[2 * k + 1] = 0.5; }
     cut.geometry.dispose();
     cut.geometry = new THREE.BufferGeometry();
@@ -298,10 +312,9 @@ L.bodyView = (place, all) => {
 
   // from the middle of the body to that of the part that is shown
   const shift = () => {
-    const axis = 'xyz'.indexOf(clip.value), to = new THREE.Vector3();
-    if (axis < 0) return to;
-    const here = -plane.constant * plane.normal.getComponent(axis), end = plane.normal.getComponent(axis) > 0 ? body.box[1][axis] : body.box[0][axis];
-    return to.setComponent(axis, (here + end) / 2 - middle.getComponent(axis));
+    if (clip.value === 'none') return new THREE.Vector3();
+    const n = direction(), [from, end] = reachOf(n), here = -plane.constant * plane.normal.dot(n);
+    return n.clone().multiplyScalar((here + (plane.normal.dot(n) > 0 ? end : from)) / 2 - middle.dot(n));
   };
   const fitted = () => look(-1);  // from where one looks now
   const look = which => {
@@ -381,7 +394,7 @@ L.bodyView = (place, all) => {
     });
     // axes as the camera sees them
     const origin = [w - 74, h - 52];
-    const inverse = new THREE.Matrix4().getInverse(camera.matrixWorld);
+    const inverse = camera.matrixWorldInverse;
     ['x', 'y', 'z'].map((name, k) => ({ name, v: new THREE.Vector3(+(k === 0), +(k === 1), +(k === 2)).transformDirection(inverse) }))
       .sort((p, q) => p.v.z - q.v.z).forEach(({ name, v }) => {
         pen.strokeStyle = ink;
@@ -425,13 +438,15 @@ L.bodyView = (place, all) => {
 
   // the value under the pointer
   const ray = new THREE.Raycaster(), pointer = new THREE.Vector2();
-  renderer.domElement.addEventListener('mousemove', event => {
-    if (event.buttons) return L.tip('');
+  const hitBy = event => {
     const r = renderer.domElement.getBoundingClientRect();
     pointer.set((event.clientX - r.left) / r.width * 2 - 1, 1 - (event.clientY - r.top) / r.height * 2);
     ray.setFromCamera(pointer, camera);
     const kept = p => clip.value === 'none' || plane.distanceToPoint(p) > -1e-6 * size;
-    const hit = ray.intersectObjects(cut.visible ? [mesh, cut] : [mesh]).find(h => h.object === cut || kept(h.point));
+    return ray.intersectObjects(cut.visible ? [mesh, cut] : [mesh]).find(h => h.object === cut || kept(h.point));
+  };
+  renderer.domElement.addEventListener('mousemove', event => {
+    const hit = event.buttons ? null : hitBy(event);
     if (!hit) return L.tip('');
     const t = hit.uv.x * (+high.value - +low.value) + +low.value, p = hit.point;
     L.tip(`${choice.label} ${L.number(t)} ${L.unit(choice.unit)}${hit.uv.x <= 0.0021 ? ' or less' : hit.uv.x >= 0.9979 ? ' or more' : ''}\n` +
@@ -474,9 +489,64 @@ L.bodyView = (place, all) => {
 
   member.oninput = () => { const keep = state.value; choose(); state.value = keep; update(); fitted(); };
   for (const control of [field, state, scale, fit, colours, at, opacity, edges.c, fibres.c, indenter.c]) control.oninput = update;
-  for (const control of [clip, turn.c]) control.oninput = () => { update(); fitted(); };  // what is left of the body fills the picture
+  // what is left of the body fills the picture
+  clip.oninput = () => { across.copy(camera.position).sub(controls.target).normalize(); update(); fitted(); };
+  turn.c.oninput = () => { update(); fitted(); };
+
+  // the cut goes with the mouse: along its normal as that is seen, or up and down where one looks along it
+  let grasped = null;
+  const move = event => {
+    if (!grasped) return;
+    const n = direction(), right = new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0), up = new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1);
+    let a = n.dot(right), b = n.dot(up);
+    if (a * a + b * b < 0.04) { a = 0; b = 1; }
+    const [from, to] = reachOf(n), mm = perPixel() / camera.zoom, way = ((event.clientX - grasped.x) * a - (event.clientY - grasped.y) * b) * mm / (a * a + b * b);
+    at.value = Math.max(-1, Math.min(1, grasped.at + 2 * way / (to - from || 1)));
+    update();
+  };
+  const released = () => { grasped = null; controls.enabled = true; removeEventListener('mousemove', move); removeEventListener('mouseup', released); };
+  stage.addEventListener('pointerdown', event => { if (event.shiftKey && clip.value !== 'none') controls.enabled = false; }, true);
+  stage.addEventListener('mousedown', event => {
+    if (!event.shiftKey || clip.value === 'none' || event.button !== 0) return;
+    controls.enabled = false;
+    grasped = { x: event.clientX, y: event.clientY, at: +at.value };
+    addEventListener('mousemove', move);
+    addEventListener('mouseup', released);
+    event.preventDefault();
+  }, true);
+  renderer.domElement.addEventListener('dblclick', event => {
+    const hit = hitBy(event);
+    if (!hit) return;
+    if (clip.value === 'none') { clip.value = 'free'; across.copy(camera.position).sub(controls.target).normalize(); }
+    const n = direction(), [from, to] = reachOf(n);
+    at.value = Math.max(-1, Math.min(1, (2 * hit.point.dot(n) - from - to) / (to - from || 1)));
+    update();
+  });
   for (const end of [low, high]) end.oninput = () => { fit.value = 'own'; update(); };
-  addEventListener('resize', () => { resize(); draw(); });
+  // seen from where it was put, it fits again; turned or moved by hand it stays
+  let byHand = false;
+  controls.addEventListener('start', () => { byHand = true; });
+  const fitAgain = () => { if (body && size && stage.clientWidth) { if (byHand) { resize(); draw(); } else fitted(); } };
+  if (window.ResizeObserver) new ResizeObserver(fitAgain).observe(stage); else addEventListener('resize', fitAgain);
+
+  // on paper: a picture in place of WebGL, which browsers leave out
+  const paper = L.el('canvas', { class: 'paper', role: 'img' });
+  stage.append(paper);
+  L.printed.push(() => {
+    paper.setAttribute('aria-label', `${body.label}: the deformed body`);
+    const before = renderer.getPixelRatio();
+    renderer.setPixelRatio(2);
+    resize();
+    renderer.setClearColor(0xffffff);
+    renderer.render(scene, camera);
+    annotate();
+    paper.width = over.width;
+    paper.height = over.height;
+    const pen = paper.getContext('2d');
+    pen.drawImage(renderer.domElement, 0, 0);
+    pen.drawImage(over, 0, 0);
+    renderer.setPixelRatio(before);
+  });
 
   // what the address asks for, through the controls themselves: report.html#field=J&state=3&clip=z
   if (asked.has('member')) member.value = asked.get('member');

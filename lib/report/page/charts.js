@@ -122,13 +122,21 @@ L.axis = (values, log, zoom, isY) => {
 };
 L.raised = n => String(n).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] || '⁻');
 
+// what a screen reader says of a chart: what it shows, where each curve begins and ends
+L.told = chart => {
+  const known = s => s.x.map((v, k) => [v, s.y[k]]).filter(p => p[0] !== null && p[1] !== null), most = 6;
+  const ends = s => { const all = known(s); return all.length ? `${s.name} from ${L.number(all[0][1], 3)} to ${L.number(all[all.length - 1][1], 3)}` : `${s.name}: nothing`; };
+  return `${chart.title}: ${L.withUnit(chart.yLabel, chart.yUnit)} over ${L.withUnit(chart.xLabel, chart.xUnit)}; ` + chart.series.slice(0, most).map(ends).join(', ') +
+    (chart.series.length > most ? `, and ${chart.series.length - most} more` : '');
+};
+
 // A chart: drag a part to look closer, double click or `whole` to see all; arrows lead along the points.
 L.chart = chart => {
   const W = 480, H = 300, box = { l: 70, r: 20, t: 10, b: 48 };
   chart.twins = L.twinsOf(chart.series);
   const figure = L.el('figure', { class: 'chart' });
   const shown = chart.series.map(() => true), svg = L.el('svg', { viewBox: `0 0 ${W} ${H}`, role: 'img', tabindex: 0 });
-  svg.setAttribute('aria-label', `${chart.title}: ${chart.yLabel} over ${chart.xLabel}; ${chart.series.map(s => s.name).join(', ')}`);
+  svg.setAttribute('aria-label', L.told(chart));
   const state = { points: [], zoom: null, logX: false, logY: false, x: null, y: null };
   const positive = values => values.some(v => v > 0) && !values.some(v => v !== null && v < 0);
   const frame = () => {
@@ -269,9 +277,10 @@ L.savers = (title, svg, csv) => {
 };
 // drawings whose colours follow the screen and the printer
 L.redraws = [];
+L.printed = [];  // what is made anew for paper
 L.redrawAll = () => L.redraws.forEach(draw => draw());
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', L.redrawAll);
-addEventListener('beforeprint', () => { L.printing = true; L.redrawAll(); document.querySelectorAll('details').forEach(d => { d.dataset.open = d.open; d.open = true; }); });
+addEventListener('beforeprint', () => { L.printing = true; L.redrawAll(); L.printed.forEach(make => make()); document.querySelectorAll('details').forEach(d => { d.dataset.open = d.open; d.open = true; }); });
 addEventListener('afterprint', () => { L.printing = false; L.redrawAll(); document.querySelectorAll('details').forEach(d => { d.open = d.dataset.open === 'true'; }); });
 
 // the nearest point of all series, in its words

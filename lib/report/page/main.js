@@ -43,9 +43,35 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
     const place = rows.indexOf(held[0]), fold = L.el('details', { class: 'verdict good fold' }, L.el('summary', {}, L.el('b', {}, levels.good), ` ${held.length} checks hold`), ...held);
     rows.splice(place, held.length, fold);
   }
+  // what the tests tell, at a glance: a small picture and a sentence, both lead to the large ones
+  const glance = (svg, text) => {
+    const copy = svg.cloneNode(true);
+    copy.querySelectorAll('text, .here, .zoom').forEach(e => e.remove());
+    copy.removeAttribute('tabindex');
+    copy.setAttribute('aria-label', text);
+    return L.el('a', { class: 'glance', href: '#identifiability', onclick: "document.getElementById('identifiability').scrollIntoView(); return false" }, copy, L.el('span', {}, text));
+  };
+  const svgOf = figure => figure.querySelector(':scope > svg');
+  const glances = [], profiles = data.charts.filter(c => c.group === 'profiles');
+  if (profiles.length) {
+    const ends = c => { const s = c.series[0], most = (c.marks && c.marks[0] || { y: 3.84 }).y, within = s.x.filter((x, k) => x !== null && s.y[k] !== null && s.y[k] <= most); return [Math.min(...within), Math.max(...within)]; };
+    const wide = c => { const [a, b] = ends(c); return (b - a) / (Math.abs(a + b) || 1); };
+    const worst = profiles.slice().sort((a, b) => wide(b) - wide(a))[0], [a, b] = ends(worst);
+    glances.push(glance(svgOf(L.chart(worst)), `least known: ${worst.xLabel}, ${L.number(a, 3)} to ${L.number(b, 3)} ${L.unit(worst.xUnit)} at 95 %`));
+  }
+  for (const m of data.matrices.slice(0, 1)) {
+    let best = null;
+    m.values.forEach((row, i) => row.forEach((v, j) => { if (i < j && v !== null && (!best || Math.abs(v) > Math.abs(best.v))) best = { v, i, j }; }));
+    if (best) glances.push(glance(svgOf(L.matrix(m)), `largest correlation: ${m.names[best.i]}, ${m.names[best.j]}: ${L.correlation(best.v)}`));
+  }
+  for (const m of data.maps.slice(0, 1)) {
+    const all = m.values.flat().filter(v => v !== null), lost = all.filter(v => v < 0).length;
+    glances.push(glance(svgOf(L.planeMap(m)), lost ? `not strongly elliptic in ${L.number(100 * lost / all.length, 2)} % of these stretches (red)` : 'strongly elliptic at all of these stretches'));
+  }
+  const looks = glances.length ? L.el('div', { class: 'glances' }, ...glances) : '';
   const verdicts = rows.length ? L.el('div', { class: 'verdicts', role: 'list', 'aria-label': 'verdicts' }, ...rows) : '';
-  if (told.length || rows.length)
-    section('summary', 'Summary', L.el('div', { class: told.length ? 'first' : 'first wide' }, told.length ? L.el('div', {}, ...told) : '', verdicts));
+  if (told.length || rows.length || glances.length)
+    section('summary', 'Summary', L.el('div', { class: told.length ? 'first' : 'first wide' }, told.length ? L.el('div', {}, ...told) : '', L.el('div', {}, verdicts, looks)));
 }
 if (data.bodies.length) {
   const place = L.el('div', { class: 'body' });

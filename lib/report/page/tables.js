@@ -1,9 +1,12 @@
 'use strict';
 L.table = table => {
-  const head = L.el('tr', {}, ...table.columns.map(c => L.el('th', {}, c.name, L.el('small', {}, L.unit(c.unit) || '\u00a0'))));
+  const head = L.el('tr', {}, ...table.columns.map(c => L.el('th', { scope: 'col' }, c.name, L.el('small', {}, L.unit(c.unit) || '\u00a0'))));
   const rows = table.rows.map(row => L.el('tr', {}, ...row.map(v => typeof v === 'string' ? L.el('td', { class: 'word' }, v) : L.el('td', {}, L.number(v, 5)))));
-  return L.el('div', { class: 'scroll' }, L.el('table', {}, L.el('thead', {}, head), L.el('tbody', {}, ...rows)));
+  return L.el('div', { class: 'scroll' }, L.el('table', { 'aria-label': table.title || 'table' }, L.el('thead', {}, head), L.el('tbody', {}, ...rows)));
 };
+
+// what is nearly 1 shows how nearly
+L.correlation = v => (Math.abs(v) > 0.99 && Math.abs(v) < 1 - 1e-9 ? v.toFixed(3) : v.toFixed(2)).replace('-', '−');
 
 // A matrix of correlations: blue for -1, red for 1, the number in each cell.
 L.matrix = m => {
@@ -17,7 +20,7 @@ L.matrix = m => {
     m.values[i].forEach((v, j) => {
       const x = left + j * side, y = 6 + i * side, known = v !== null;
       svg.append(L.el('rect', { x, y, width: side, height: side, fill: known ? colour(v) : '#cccccc', class: 'cell' }));
-      if (side > 24) svg.append(L.el('text', { x: x + side / 2, y: y + side / 2 + 4, 'text-anchor': 'middle', style: `fill:${known && Math.abs(v) > 0.55 ? '#fff' : '#1f2328'}` }, known ? v.toFixed(2).replace('-', '−') : '–'));
+      if (side > 24) svg.append(L.el('text', { x: x + side / 2, y: y + side / 2 + 4, 'text-anchor': 'middle', style: `fill:${known && Math.abs(v) > 0.55 ? '#fff' : '#1f2328'}` }, known ? L.correlation(v) : '–'));
     });
   });
   const csv = () => ['', ...m.names].join(',') + '\n' + m.names.map((name, i) => [name, ...m.values[i]].join(',')).join('\n') + '\n';
