@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,13 +11,15 @@
 #include "store/solution_file.hpp"
 #include "store/solution_layout.hpp"
 #include "store/step_journal.hpp"
+#include "store/xdmf.hpp"
 
 namespace langer {
 
 struct SolutionWriter::State {
-  State(h5::File f, const SolutionHeader& h) : file(std::move(f)), header(h) {}
+  State(h5::File f, const SolutionHeader& h, std::string where) : file(std::move(f)), header(h), path(std::move(where)) {}
   h5::File file;
   SolutionHeader header;
+  std::string path;
   int n_steps = 0;
   std::optional<StepRecord> before, last;
   std::unique_ptr<StepJournal> journal;
@@ -25,6 +28,7 @@ struct SolutionWriter::State {
   void check(const StepRecord& record) const;
   void append(const StepRecord& record);
   void contact(const StepRecord& record);
+  std::string as_xdmf();
 };
 
 namespace {
@@ -76,7 +80,7 @@ std::string names_of(const auto& map) {
 SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header, const StillGood& still_good) {
   const auto begin = [&] {  // the journal looks first at what is there
     if (state_) return;
-    state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header);
+    state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header, path);
     state_->begin();
     sync_folder_of(path);
   };
@@ -239,6 +243,21 @@ void SolutionWriter::State::contact(const StepRecord& record) {
     add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
 }
 
+// empty: cells that XDMF does not know, or no step
+std::string SolutionWriter::State::as_xdmf() {
+  if (n_steps == 0 || !without_xdmf(header.mesh).empty()) return {};
+  const h5::Group grid = file.root().group("VTKHDF");
+  std::vector<XdmfArray> arrays;
+  for (const bool of_cells : {false, true})
+    for (const h5::Group group = grid.group(of_cells ? "CellData" : "PointData"); const std::string& name : group.datasets()) {
+      const h5::Shape shape = group.shape(name);
+      if (name == "body") continue;  // whole numbers, in the mesh
+      arrays.push_back({name, shape.size() > 1 ? static_cast<int>(shape[1]) : 1, of_cells, of_cells && solution::is_static(name)});
+    }
+  const auto times = grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
+  return xdmf(header.mesh, std::filesystem::path(path).filename().string(), times, arrays);
+}
+
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
 void SolutionWriter::say_image_of(const std::string& which) {
@@ -271,7 +290,9 @@ void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<S
   write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
   if (!summary.empty()) write_summary(state_->file.root(), summary);
   write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);
-  state_->file.commit();
+  if (const std::string text = state_->as_xdmf(); !text.empty())
+    write_text_file(std::filesystem::path(state_->path).replace_extension(".xdmf").string(), text);
+  state_->file.commit();  // last: once it is there, everything is
   state_->journal->remove();
 }
 

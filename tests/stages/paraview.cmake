@@ -24,6 +24,20 @@ run(0 ${BIN}/langer-post configs/post/smoke.yaml --solution solution.h5 --quiet 
 run(0 ${python} ${ROOT}/tests/support/read_series.py ${WORK}/project/series.pvd ${snapshot})
 expect_said("3 states")
 
+# the solution as it lies: a series in time by VTK's reader of XDMF, and by ParaView's own where it is installed
+run(0 ${python} ${ROOT}/tests/support/read_xdmf.py ${WORK}/project/solution.xdmf ${WORK}/project/solution.h5)
+message("${said}")
+expect_said("2 states")
+find_program(PVPYTHON pvpython)
+if(PVPYTHON)
+  run(0 ${PVPYTHON} ${ROOT}/tests/support/read_paraview.py ${WORK}/project)
+  message("${said}")
+  expect_said("solution.xdmf: 2 times")
+  expect_said("series.pvd: 3 times")
+else()
+  message("skipped: ParaView's own readers, for want of pvpython (Debian: paraview)")
+endif()
+
 # the reader's eyes are open: a wrong array is seen
 file(WRITE ${WORK}/spoil.py "import sys\ndata = open(sys.argv[1], 'rb').read()\nopen(sys.argv[2], 'wb').write(data.replace(b'von_mises', b'von_misez'))\n")
 run(0 ${python} ${WORK}/spoil.py ${snapshot} ${WORK}/project/spoilt.hdf)
