@@ -1,18 +1,39 @@
 # docs/paper.csv and a run of pipelines/paper.yaml as the Markdown page docs/paper.md; ends with 1 where a value or a picture is missing.
 #   awk -v run=runs/paper -f docs/paper.awk docs/paper.csv
-function value(file, key, column,   line, head, cell, n, m, i, at, row, found) {
+function value(file, key, column,   line, head, cell, n, m, i, at, found, wanted, x0, y0, s) {
   found = ""
   file = run "/" file
-  if ((getline line < file) <= 0) return ""
+  if ((getline line < file) <= 0) { close(file); return "" }
   n = split(line, head, ",")
   for (i = 1; i <= n; ++i) if (head[i] == column) at = i
+  wanted = substr(key, 1, 1) == "@" ? substr(key, 2) + 0 : ""
   while ((getline line < file) > 0) {
     m = split(line, cell, ",")
-    if (index(line "," , key ",") == 1) found = cell[at]  # of a path: the last state there
+    if (wanted != "") {  # between the rows around it
+      if (cell[1] + 0 >= wanted && found == "") {
+        s = cell[1] == x0 ? 0 : (wanted - x0) / (cell[1] - x0)
+        found = y0 + s * (cell[at] - y0)
+      }
+      x0 = cell[1] + 0; y0 = cell[at] + 0
+    } else if (index(line "," , key ",") == 1) found = cell[at]  # of a path: the last state there
   }
   close(file)
   return at ? found : ""
 }
+# {file;key;column}, {-;file;key;column;paper}, {/;file;key;column;paper} in a sentence
+function filled(text,   from, to, part, n, x, how) {
+  while ((from = index(text, "{")) > 0 && (to = index(substr(text, from), "}")) > 0) {
+    n = split(substr(text, from + 1, to - 2), part, ";")
+    how = n == 5 ? part[1] : ""
+    x = how == "" ? value(part[1], part[2], part[3]) : value(part[2], part[3], part[4])
+    if (x == "") { missing++; print substr(text, from, to) ": missing" > "/dev/stderr"; x = "missing" }
+    else x = how == "-" ? difference(x, part[5]) : how == "/" ? sprintf("%.0f", part[5] / x) : shown(x + 0)
+    text = substr(text, 1, from - 1) x substr(text, from + to)
+  }
+  return text
+}
+# in percent of the paper's number
+function difference(x, paper) { return sprintf("%+.3g", 100 * (x - paper) / (paper < 0 ? -paper : paper)) }
 function sentence(s) { return toupper(substr(s, 1, 1)) substr(s, 2) }
 function shown(x,   a) {
   a = x < 0 ? -x : x
@@ -26,20 +47,23 @@ BEGIN {
   print "<!-- written by `make paper` from docs/paper.csv and a run of pipelines/paper.yaml: do not edit -->\n"
   print "Values and pictures of `make run PIPELINE=pipelines/paper.yaml`, beside those of [A23] ([references](references.md)). The errata it"
   print "speaks of stand in [theory.md](theory.md). Meshes of 1 to 6 000 hexahedra; the paper's own size, 12 320 hexahedra in 100 steps,"
-  print "is `pipelines/indentation_paper_size.yaml`. Figures 1 to 3 and 6 of the paper are sketches.\n"
+  print "is `pipelines/indentation_paper_size.yaml`. Figures 1 to 3 and 6 of the paper are sketches."
+  print "\nThe paper's drawings cannot be had as data. What is compared are the numbers that it prints, in its tables and its text; those of its figures"
+  print "stand in `data/paper_a23_figure_9.csv` and `data/paper_a23_figure_13.csv` with the place they are from, and as points on the figures here. Of the"
+  print "other figures no number is printed: for them this page says what the text says of them and what Langer finds, and compares no curves.\n"
 }
 /^#/ || NF < 2 { next }
-$1 == "T" { printf "\n## %s\n\n| quantity | paper | Langer | why they differ |\n| --- | --- | --- | --- |\n", $2; next }
+$1 == "T" { printf "\n## %s\n\n| quantity | paper | Langer | difference, %% | why they differ |\n| --- | --- | --- | --- | --- |\n", $2; next }
 $1 == "R" {
   x = value($3, $4, $5)
   if (x == "") { missing++; print $3 ": " $4 ": " $5 ": missing" > "/dev/stderr" }
-  printf "| %s | %s | %s | %s |\n", $2, $6, x == "" ? "missing" : shown(x + 0), $7
+  printf "| %s | %s | %s | %s | %s |\n", $2, $6, x == "" ? "missing" : shown(x + 0), x != "" && $6 ~ /^-?[0-9.]+$/ && $6 + 0 != 0 ? difference(x + 0, $6 + 0) : "–", $7
   next
 }
 $1 == "F" {
   picture = run "/" $3
   if ((getline line < picture) < 0) { missing++; print picture ": missing" > "/dev/stderr" }
   close(picture)
-  printf "\n## Figure %s: %s\n\n%s.\n\n![figure %s](paper/figure_%s.png)\n", $2, $4, sentence($5), $2, $2
+  printf "\n## Figure %s: %s\n\n%s.\n\n![figure %s](paper/figure_%s.png)\n", $2, $4, sentence(filled($5)), $2, $2
 }
 END { exit missing > 0 }
