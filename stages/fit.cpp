@@ -37,7 +37,7 @@ void need_optimum(const Job<FitConfig>& job, const FitResult& found) {
 void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) {
   for (const NamedTable& table : curve_tables(record)) write_text_file(job.beside(table.name + ".csv"), table.text);
   if (!job.config.study || !job.config.study->figures) return;
-  for (const std::string& line : draw_curves(record.curves, job.beside(""))) job.say("{}", line);
+  for (const std::string& line : draw_curves(record.curves, job.config.figure_style, job.beside(""))) job.say("{}", line);
 }
 
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
@@ -75,13 +75,15 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
     record.study =
         study(problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); });
     for (const std::string& line : study_lines(record.study)) job.say("{}", line);
-    for (const std::string& line : write_study_files(record.study, *config.study, job.beside(""))) job.say("{}", line);
+    for (const std::string& line : write_study_files(record.study, *config.study, config.figure_style, job.beside("")))
+      job.say("{}", line);
   }
   if (!record.tests.empty()) write_text_file(job.beside("fit.csv"), fit_csv(record));
   write_text_file(job.beside("parameters.csv"), parameters_csv(record));
   write_curves_of_scenes(job, record);
   if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
-    for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), job.beside("")))
+    for (const std::string& line :
+         draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), config.figure_style, job.beside("")))
       job.say("{}", line);
   for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);

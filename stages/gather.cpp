@@ -81,8 +81,9 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
     for (const std::string& line : effects_lines(design, effects.back()))
       line.starts_with("warning: ") ? job.warn("{}", line.substr(9)) : job.say("{}", line);
     if (!design.figures) continue;
-    if (design.one_at_a_time || design.morris) pictures.draw("effects_" + c.name, bars(effects_bars(design, effects.back())));
-    if (design.sobol) pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back())));
+    if (design.one_at_a_time || design.morris)
+      pictures.draw("effects_" + c.name, bars(effects_bars(design, effects.back()), pictures.look()));
+    if (design.sobol) pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back()), pictures.look()));
   }
   for (std::size_t j = design.parameters.size(); j-- > 0;) {
     SweepColumn column{short_name(design.parameters[j]), design.parameters[j].unit, {}};
@@ -143,7 +144,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   }
   Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
 
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style);
   std::vector<QuantityEffects> effects;
   const Design* design = config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
   if (design) effects = effects_over(job, *design, sweep, pictures);
@@ -152,13 +153,13 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
     std::vector<MapPanel> panels;
     for (std::size_t i = 0; i < maps.size(); ++i) panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
-    pictures.draw(name, map_drawing(panels, map.style, map.columns));
+    pictures.draw(name, map_drawing(panels, map.style, map.columns, pictures.look()));
   }
   for (const auto& [name, figure] : config.figures) {
     const auto where = [&, at = "figures." + name + "."](const std::string& key) { return job.where(at + key); };
     const FigureData data = figure_over(figure, name, axes, members, where);
     write_text_file(job.beside(name + ".csv"), data.csv);
-    pictures.draw(name, gnuplot_script(data.plot, name));
+    pictures.draw(name, data.plot);
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity);

@@ -7,7 +7,7 @@
 #include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
 #include "plot/pictures.hpp"
-#include "post/contact_surface.hpp"
+#include "run/contact_state.hpp"
 #include "run/post_config.hpp"
 #include "run/post_files.hpp"
 #include "stage.hpp"
@@ -78,31 +78,27 @@ struct Table {
   }
 };
 
-// the surfaces that may touch, where a column asks for them
-std::map<std::string, ContactSurface> surfaces_of(const Solution& solution, const std::vector<Measure>& measures) {
-  std::map<std::string, ContactSurface> surfaces;
-  if (std::none_of(measures.begin(), measures.end(),
-                   [](const Measure& m) { return m.quantity && is_of_contact_surface(line_of(*m.quantity).word); }))
-    return surfaces;
-  for (const auto& [name, nodes] : solution.reader.header().contact_nodes)
-    surfaces.emplace(name, ContactSurface(solution.reader.header().mesh, nodes));
-  return surfaces;
+bool asked(const std::vector<Measure>& measures, auto&& of) {
+  return std::any_of(measures.begin(), measures.end(), [&](const Measure& m) { return m.quantity && of(line_of(*m.quantity)); });
 }
 
 Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
-               const std::vector<Measure>& measures) {
+               const ContactStates& contacts, const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
   const Loads loads = loads_of(solution.reader.header());
   EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
   for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
-  const auto surfaces = surfaces_of(solution, measures);
+  const bool areas = asked(measures, [](const QuantityLine& line) { return is_of_contact_surface(line.word); });
+  const bool touched = asked(measures, is<OfContact>);
+  const bool slips = asked(measures, [](const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; });
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
     const StepRecord record = solution.record(row);
     StepState state = state_of(record);
-    add_contact_numbers(state.histories, surfaces, record);
+    if (areas) add_contact_numbers(state.histories, contacts.surfaces(), record);
+    if (touched) state.contact = contacts.nodes(row, record, slips);
     state.sums = sums[row];
     GaussValues gauss;
     const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
@@ -168,8 +164,21 @@ Renders renders_of(const PostConfig& config) {
   return renders;
 }
 
-std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders, const Body& body) {
+std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders, const Body& body,
+                                     const Available& available) {
   std::vector<Complaint> complaints;
+  const auto needs_contact = [&](const std::string& key, const std::optional<Quantity>& field) {
+    if (!field || !is<OfContact>(line_of(*field))) return;
+    const QuantityLine& line = line_of(*field);
+    if (!available.contact)
+      complaints.push_back(
+          {key + ".field", fmt::format("{} of a solution without contact", line.word), "a field that needs no indenter", ""});
+    else if (line.needs.shapes && !available.energy)
+      complaints.push_back({key + ".field", fmt::format("{} needs the shapes of the indenters", line.word),
+                            "a solution whose config this version can read", ""});
+  };
+  for (const auto& [name, map] : config.maps) needs_contact("maps." + name, map.field);
+  for (const auto& [name, keyed] : renders) needs_contact(keyed.first, keyed.second.field);
   for (const auto& [name, map] : config.maps)
     for (const Complaint& c : langer::complaints(map, body))
       complaints.push_back({"maps." + name + "." + c.key, c.found, c.expected, c.hint});
@@ -185,16 +194,16 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
   return complaints;
 }
 
-std::vector<Complaint> complaints_on_section(const Mesh& mesh, const std::string& key, const Measures& list) {
-  std::vector<Complaint> complaints;
-  for (std::size_t i = 0; mesh.section && i < list.measures.size(); ++i)
-    if (const auto& quantity = list.measures[i].quantity; quantity && is_of_contact_surface(line_of(*quantity).word))
-      complaints.push_back({fmt::format("{}[{}].quantity", key, i), fmt::format("{} of a section", line_of(*quantity).word),
-                            "another quantity", "a section's reactions are those of the whole body"});
-  return complaints;
+// a row with what the indenters do to the nodes, where the picture shows that
+StepState pictured_state(const Solution& solution, const ContactStates& contacts, int row, const std::optional<Quantity>& field) {
+  const StepRecord record = solution.record(row);
+  StepState state = state_of(record);
+  if (field && is<OfContact>(line_of(*field))) state.contact = contacts.nodes(row, record, line_of(*field).needs.shapes);
+  return state;
 }
 
-Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const Table& table, std::size_t n_shown) {
+Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts, const Table& table,
+                 std::size_t n_shown) {
   Curves curves;
   curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(n_shown));
   const Column& x = table.columns.front();
@@ -203,7 +212,7 @@ Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const Tab
     curves.curves.push_back({y.name, x.name, x.unit, y.name, y.unit, x.values, y.values});
   }
   for (const auto& [name, map] : job.config.maps) {
-    const StepState state = state_of(solution.record(table.row(job, "maps." + name + ".step", map.step)));
+    const StepState state = pictured_state(solution, contacts, table.row(job, "maps." + name + ".step", map.step), map.field);
     const auto values = picture_values(solution.body, state, map.field, map.family, job.config.stress);
     curves.maps.push_back(surface_map(solution.body, map, name, values, state.t));
   }
@@ -212,7 +221,7 @@ Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const Tab
 }
 
 Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& indenters, const StepState& state,
-                   const RenderChoice& choice, StressAt stress) {
+                   const RenderChoice& choice, StressAt stress, const Look& look) {
   const SolutionHeader& header = solution.reader.header();
   RenderScene scene{header.mesh, header.mesh.X, {}, "", {}};
   for (const RigidContact& indenter : indenters) scene.indenters.push_back(outline_at(indenter, state.t, shown_of(header.mesh)));
@@ -225,16 +234,16 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
     scene.values = picture_values(solution.body, state, *choice.field, choice.family, stress);
     scene.label = with_unit(field.label, field.unit);
   }
-  return render(scene, choice);
+  return render(scene, choice, look);
 }
 
-void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution, int row, double t) {
+void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts, int row, double t) {
   const SolutionHeader& header = solution.reader.header();
-  const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), job.config.stress);
+  const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), row, contacts, job.config.stress);
   write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity, t);
 }
 
-void write_series(const Job<PostConfig>& job, const Solution& solution) {
+void write_series(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts) {
   const SolutionHeader& header = solution.reader.header();
   const std::string folder = job.beside("series");
   std::error_code failed;
@@ -247,11 +256,37 @@ void write_series(const Job<PostConfig>& job, const Solution& solution) {
       for (const auto& [name, nodes] : header.contact_nodes)
         record.contacts[name] = {std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
                                  std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
-    const SnapshotFields fields = snapshot_fields(solution.body, header, record, job.config.stress);
+    const SnapshotFields fields = snapshot_fields(solution.body, header, record, row, contacts, job.config.stress);
     files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
     write_vtu(job.beside(files.back().second), header.mesh, record.t, fields.points, fields.cells);
   }
   write_pvd(job.beside("series.pvd"), files);
+}
+
+void add_points(const Job<PostConfig>& job, const std::string& name, const FigurePoints& points, Plot& plot) {
+  const PointColumns read = read_points(points, [&](const std::string& key) { return job.where("figures." + name + "." + key); });
+  const std::string file = name + "_points.csv";
+  write_text_file(job.beside(file), csv({{points.x, "-", read.x}, {points.y, "-", read.y}}));
+  PlotLine line{file, points.x, points.y, points.legend};
+  line.points = true;
+  plot.lines.insert(plot.lines.begin(), line);
+}
+
+void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& columns, const std::string& csv_file, int rows,
+                 Pictures& pictures) {
+  for (const auto& [name, figure] : job.config.figures) {
+    Plot plot = plot_of(figure, columns, csv_file, csv_name);
+    plot.rows = rows;
+    if (figure.points) add_points(job, name, *figure.points, plot);
+    pictures.draw(name, plot);
+  }
+}
+
+void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps, Pictures& pictures) {
+  for (const SurfaceMap& map : maps) {
+    write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
+    pictures.draw(map.name, map_drawing({{"", &map}}, job.config.maps.at(map.name).style, 1, pictures.look()));
+  }
 }
 
 // of the solution; those that are columns stand there already
@@ -277,38 +312,32 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);
   std::vector<Complaint> complaints = shown.complaints;
-  for (const auto& more : {further.complaints, complaints_on_section(header.mesh, "columns", shown),
-                           complaints_on_section(header.mesh, "further", further), complaints_of(config, renders, solution.body)})
+  for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body, available)})
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
 
   std::vector<Measure> measures = shown.measures;
   measures.insert(measures.end(), further.measures.begin(), further.measures.end());
-  const Table table = table_of(job, solution, indenters, measures);
+  const ContactStates contacts(solution.reader, indenters);
+  const Table table = table_of(job, solution, indenters, contacts, measures);
   std::vector<int> snapshots;
   for (std::size_t i = 0; i < config.snapshots.size(); ++i)
     snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
   std::map<std::string, int> pictured;
   for (const auto& [name, keyed] : renders) pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
-  Curves curves = curves_of(job, solution, table, shown.measures.size());
+  Curves curves = curves_of(job, solution, contacts, table, shown.measures.size());
 
   // the main output comes last: once it is there, everything is
   const std::filesystem::path csv_file = std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
-  for (int row : snapshots) write_snapshot_of(job, solution, row, table.t[static_cast<std::size_t>(row)]);
-  if (config.series) write_series(job, solution);
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.draw == Draw::always);
-  for (const auto& [name, figure] : config.figures) {
-    Plot plot = plot_of(figure, config.columns, csv_file.filename().string(), csv_name);
-    plot.rows = static_cast<int>(table.t.size());
-    pictures.draw(name, gnuplot_script(plot, name));
-  }
-  for (const SurfaceMap& map : curves.maps) {
-    write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
-    pictures.draw(map.name, map_drawing({{"", &map}}, config.maps.at(map.name).style));
-  }
+  for (int row : snapshots) write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
+  if (config.series) write_series(job, solution, contacts);
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style, config.draw == Draw::always);
+  draw_curves(job, config.columns, csv_file.filename().string(), static_cast<int>(table.t.size()), pictures);
+  draw_maps(job, curves.maps, pictures);
   for (const auto& [name, keyed] : renders)
-    pictures.draw(name, drawing_of(solution, indenters, state_of(solution.record(pictured.at(name))), keyed.second, config.stress));
+    pictures.draw(name, drawing_of(solution, indenters, pictured_state(solution, contacts, pictured.at(name), keyed.second.field),
+                                   keyed.second, config.stress, pictures.look()));
   for (const std::string& name : renders.empty() ? std::vector<std::string>{} : missing)
     job.say("not drawn: the indenter \"{}\", whose triangles the solution does not hold", name);
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);

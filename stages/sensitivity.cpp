@@ -118,7 +118,7 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   if (record.morris) write_text_file(job.beside("sensitivity_morris.csv"), morris_csv(record));
   if (record.sobol) write_text_file(job.beside("sensitivity_sobol.csv"), sobol_csv(record));
   if (config.figures)
-    for (const std::string& line : draw_sensitivity(record, job.beside(""))) job.say("{}", line);
+    for (const std::string& line : draw_sensitivity(record, config.figure_style, job.beside(""))) job.say("{}", line);
   write_sensitivity(job.output, record, job.identity);
   return summary_of(record);
 }

@@ -93,27 +93,32 @@ struct LevelErrors {
 void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Levels& levels,
           const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
-  std::string all = "level,cpu_s,error_percent,error_low,error_high\n", best = all;
+  const std::string head = "level,cpu_s,error_percent,error_low,error_high";
+  std::string all = head + "\n", best = head + ",number\n";
+  std::vector<std::string> notes;  // names as long as these would stand on each other beside the points
   const auto line = [&](std::size_t i) {
     const double e = errors.found[i],
                  low = std::max(e - errors.uncertain, 0.1 * e);  // an end of 0 has no place on a logarithmic axis
-    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_cell(name_of(levels.members[i])), cpu[i], e, low,
+    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", csv_cell(name_of(levels.members[i])), cpu[i], e, low,
                        e + errors.uncertain);
   };
   for (std::size_t i = 0; i < cpu.size(); ++i)
-    if (std::isfinite(cpu[i]) && errors.found[i] > 0) all += line(i);
+    if (std::isfinite(cpu[i]) && errors.found[i] > 0) all += line(i) + "\n";
   for (int i : errors.front)
-    if (errors.found[static_cast<std::size_t>(i)] > 0) best += line(static_cast<std::size_t>(i));
+    if (const auto k = static_cast<std::size_t>(i); errors.found[k] > 0) {
+      best += line(k) + fmt::format(",{}\n", notes.size() + 1);
+      notes.push_back(fmt::format("{}  {}", notes.size() + 1, name_of(levels.members[k])));
+    }
   write_text_file(job.beside(name + ".csv"), all);
   write_text_file(job.beside(name + "_front.csv"), best);
   Plot plot;
   plot.title = job.config.title;
-  plot.x_label = "CPU time [s]", plot.y_label = "error of " + literal(quantity) + " [%]";
-  plot.logarithmic = true;
+  plot.x_label = "CPU time (s)", plot.y_label = "error of " + literal(quantity) + " (%)";
+  plot.scale = AxisScale::log;
   plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "levels"}};
-  plot.lines[0].names = "level", plot.lines[1].points = true;
+  plot.lines[0].names = "number", plot.notes = std::move(notes), plot.lines[1].points = true;
   if (errors.uncertain > 0) plot.lines[1].low = "error_low", plot.lines[1].high = "error_high";
-  pictures.draw(name, gnuplot_script(plot, name));
+  pictures.draw(name, plot);
 }
 
 // lines of cheapest.csv
@@ -159,7 +164,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string());
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), job.config.figure_style);
   std::string choice = "quantity,wanted_percent,level,error_percent,cpu_s,memory_MB\n";
   std::vector<Summary> summary;
   for (const SweepColumn& column : values.columns) {

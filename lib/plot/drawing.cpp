@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include <fmt/format.h>
 
+#include "plot/figure_style.hpp"
 #include "plot/gnuplot.hpp"
 
 namespace langer {
 
 namespace {
-
-int byte(double x) { return static_cast<int>(std::lround(255 * std::clamp(x, 0.0, 1.0))); }
 
 std::string escaped(const std::string& text) {
   std::string s;
@@ -73,8 +73,14 @@ std::string points_text(const std::vector<PagePoint>& points) {
   return s;
 }
 
+Label printed(Label label, DecimalSign sign) {
+  if (!label.own) label.text = with_decimal(label.text, sign);
+  return label;
+}
+
 struct SvgWriter {
   std::string& s;
+  DecimalSign sign;
   void operator()(const Patch& p) const {
     s += fmt::format("<polygon points=\"{}\" fill=\"{}\"", points_text(p.corners), hex(p.fill));
     s += p.hem > 0 ? fmt::format(" stroke=\"{}\" stroke-width=\"{}\"/>\n", hex(p.fill), p.hem) : "/>\n";
@@ -83,10 +89,13 @@ struct SvgWriter {
     s += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\"/>\n",
                      points_text(l.points), hex(l.colour), l.width, l.opacity);
   }
-  void operator()(const Label& t) const {
+  void operator()(const Label& label) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
-    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", t.at[0], t.at[1], t.size,
-                     anchors[static_cast<int>(t.anchor)], t.white ? " fill=\"#ffffff\"" : "",
+    const Label t = printed(label, sign);
+    const std::string turn =
+        t.turned == 0 ? "" : fmt::format(" transform=\"rotate({:g} {:.2f} {:.2f})\"", -t.turned, t.at[0], t.at[1]);
+    s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}{}>{}</text>\n", t.at[0], t.at[1],
+                     t.size, anchors[static_cast<int>(t.anchor)], t.white ? " fill=\"#ffffff\"" : "", turn,
                      t.enhanced ? with_subscripts(t) : escaped(t.text));
   }
 };
@@ -95,9 +104,10 @@ struct SvgWriter {
 // A row is x, y and the colour with its transparency; an empty line ends a polygon.
 struct GnuplotWriter {
   const Drawing& drawing;
-  std::string polygons, labels;
+  DecimalSign sign;
+  std::string polygons = {}, labels = {};
   void polygon(const std::vector<PagePoint>& corners, const Colour& c, double opacity) {
-    const unsigned colour = byte(1 - opacity) << 24 | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+    const unsigned colour = colour_byte(1 - opacity) << 24 | colour_byte(c.r) << 16 | colour_byte(c.g) << 8 | colour_byte(c.b);
     for (const PagePoint& p : corners) polygons += fmt::format("{:.2f} {:.2f} {}\n", p[0], drawing.height - p[1], colour);
     polygons += "\n";
   }
@@ -124,83 +134,88 @@ struct GnuplotWriter {
               l.colour, l.opacity);
     }
   }
-  void operator()(const Label& t) {
+  void operator()(const Label& label) {
     constexpr const char* anchors[] = {"left", "center", "right"};
+    const Label t = printed(label, sign);
     // SVG places the base line, gnuplot the middle of the letters
-    labels += fmt::format("set label {} at {:.2f},{:.2f} {} front {}enhanced font ',{}'{}\n", gnuplot_string(t.text), t.at[0],
-                          drawing.height - t.at[1] + 0.35 * t.size, anchors[static_cast<int>(t.anchor)], t.enhanced ? "" : "no",
-                          0.75 * t.size, t.white ? " textcolor rgb '#ffffff'" : "");
+    const double up = 0.35 * t.size, turned = t.turned * std::numbers::pi / 180;
+    labels += fmt::format("set label {} at {:.2f},{:.2f} {} {}front {}enhanced font ',{}'{}\n", gnuplot_string(t.text),
+                          t.at[0] - up * std::sin(turned), drawing.height - t.at[1] + up * std::cos(turned),
+                          anchors[static_cast<int>(t.anchor)], t.turned == 0 ? "" : fmt::format("rotate by {:g} ", t.turned),
+                          t.enhanced ? "" : "no", 0.75 * t.size, t.white ? " textcolor rgb '#ffffff'" : "");
   }
 };
 
 }  // namespace
 
-std::string hex(const Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b)); }
+std::string with_decimal(const std::string& text, DecimalSign sign) {
+  if (sign == DecimalSign::point) return text;
+  std::string s = text;
+  const auto digit = [&](std::size_t i) { return i < s.size() && s[i] >= '0' && s[i] <= '9'; };
+  for (std::size_t i = 1; i + 1 < s.size(); ++i)
+    if (s[i] == '.' && digit(i - 1) && digit(i + 1)) s[i] = ',';
+  return s;
+}
 
-std::string svg(const Drawing& drawing) {
+double text_width(const std::string& text, double size) {
+  double letters = 0;
+  for (const Piece& piece : pieces(text))
+    for (char c : piece.text)  // one for each character of UTF-8
+      if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) letters += piece.below ? 0.7 : 1;
+  return 0.6 * size * letters;
+}
+
+void add_lines_above(Drawing& drawing, const PagePoint& end, const std::string& text, double size, double room) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!lines.back().empty() && text_width(lines.back() + " " + word, size) > room) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    drawing.marks.push_back(Label{
+        {end[0], end[1] - 1.25 * size * static_cast<double>(lines.size() - 1 - i)}, lines[i], size, Label::Anchor::end, true});
+}
+
+std::string svg(const Drawing& drawing, const FigureStyle& style) {
+  const double mm = style.drawing_unit() / 72 * 25.4;
+  const std::string unit = style.on_paper() ? "mm" : "";
+  const double k = style.on_paper() ? mm : 1;
   std::string s = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-      "font-family=\"DejaVu Sans, Arial, sans-serif\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{3:.6g}{2}\" height=\"{4:.6g}{2}\" "
+      "font-family=\"{5}, DejaVu Sans, Arial, sans-serif\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      drawing.width, drawing.height);
-  for (const auto& mark : drawing.marks) std::visit(SvgWriter{s}, mark);
+      drawing.width, drawing.height, unit, k * drawing.width, k * drawing.height, escaped(style.font));
+  for (const auto& mark : drawing.marks) std::visit(SvgWriter{s, style.decimal}, mark);
   return s + "</svg>\n";
 }
 
-std::string gnuplot_script(const Drawing& drawing, const std::string& name) {
+std::string gnuplot_script(const Drawing& drawing, const std::string& name, const FigureStyle& style) {
   std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\nset encoding utf8\n", name);
-  s += fmt::format("set terminal pngcairo size {},{} font 'DejaVu Sans' fontscale 2 linewidth 2 background rgb 'white'\n",
-                   2 * drawing.width, 2 * drawing.height);
-  s += fmt::format(
-      "set output {}\nset lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n",
-      gnuplot_file(name + ".png"));
+  s += "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n";
   s += fmt::format("unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n", drawing.width, drawing.height);
-  GnuplotWriter writer{drawing, {}, {}};
+  GnuplotWriter writer{drawing, style.decimal};
   for (const auto& mark : drawing.marks) std::visit(writer, mark);
-  const bool empty = writer.polygons.empty();
-  return s + writer.labels + (empty ? "" : "$marks << end\n" + writer.polygons + "end\n") +
-         (empty ? "plot NaN\n"
-                : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n") +
-         "unset output\n";
-}
-
-namespace {
-
-// CIE 15 and IEC 61966-2-1: L* a* b* with white point D65, and sRGB
-constexpr double white[3] = {0.95047, 1, 1.08883};
-double from_f(double t) { return t > 6.0 / 29 ? t * t * t : 3 * (6.0 / 29) * (6.0 / 29) * (t - 4.0 / 29); }
-double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
-double decoded(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
-
-std::array<double, 3> linear_rgb(double L, double C, double h) {
-  const double fy = (L + 16) / 116, a = C * std::cos(h), b = C * std::sin(h);
-  const double X = white[0] * from_f(fy + a / 500), Y = white[1] * from_f(fy), Z = white[2] * from_f(fy - b / 200);
-  return {3.2404542 * X - 1.5371385 * Y - 0.4985314 * Z, -0.9692660 * X + 1.8760108 * Y + 0.0415560 * Z,
-          0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z};
-}
-
-}  // namespace
-
-Colour scale_colour(double position) {
-  const double s = std::clamp(position, 0.0, 1.0);
-  const double L = 22 + 70 * s;
-  const double h = (310 - 210 * s) * std::numbers::pi / 180;  // violet, blue, green, yellow
-  const double C = 29 + 120 * (s - 0.35) * (s - 0.35);        // stays within what a screen can show, least around blue-green
-  const auto rgb = linear_rgb(L, C, h);
-  return {encoded(rgb[0]), encoded(rgb[1]), encoded(rgb[2])};
-}
-
-Colour signed_colour(double position) {
-  const double s = std::clamp(std::abs(position), 0.0, 1.0);
-  // hue and most chroma of either end within what a screen can show
-  const double h = (position < 0 ? 277 : 32) * std::numbers::pi / 180, C = (position < 0 ? 41 : 60) * s;
-  const auto rgb = linear_rgb(96 - 62 * s, C, h);
-  return {encoded(rgb[0]), encoded(rgb[1]), encoded(rgb[2])};
-}
-
-double lightness(const Colour& c) {
-  const double Y = 0.2126729 * decoded(c.r) + 0.7151522 * decoded(c.g) + 0.0721750 * decoded(c.b);
-  return Y > 216.0 / 24389 ? 116 * std::cbrt(Y) - 16 : Y * 24389 / 27;
+  s += writer.labels;
+  if (!writer.polygons.empty()) s += "$marks << end\n" + writer.polygons + "end\n";
+  const double inch = style.drawing_unit() / 72;  // of a unit; labels are said in points of a screen
+  for (PictureFormat format : style.formats) {
+    const std::string font = gnuplot_string(style.font);
+    if (format == PictureFormat::svg) continue;
+    if (format == PictureFormat::png)
+      s += fmt::format("set terminal pngcairo size {:.0f},{:.0f} font {} fontscale {:.4g} background rgb 'white'\n",
+                       style.dpi * inch * drawing.width, style.dpi * inch * drawing.height, font,
+                       style.dpi / 96.0 * style.drawing_unit() / 0.75);
+    else
+      s += fmt::format("set terminal {}cairo size {:.4f}in,{:.4f}in font {} fontscale {:.4g}\n",
+                       names(PictureFormat{})[static_cast<std::size_t>(format)], inch * drawing.width, inch * drawing.height, font,
+                       style.drawing_unit() / 0.75);
+    s += fmt::format("set output {}\n", gnuplot_file(name + "." + names(PictureFormat{})[static_cast<std::size_t>(format)]));
+    s += writer.polygons.empty()
+             ? "plot NaN\n"
+             : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n";
+  }
+  return s + "unset output\n";
 }
 
 std::vector<double> ticks(double low, double high, int wished) {

@@ -3,16 +3,15 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-namespace langer {
+#include "base/csv_table.hpp"
+#include "plot/colours.hpp"
 
-struct Colour {
-  double r = 0, g = 0, b = 0;  // sRGB, 0 to 1
-};
-std::string hex(const Colour& colour);  // "#rrggbb"
+namespace langer {
 
 using PagePoint = std::array<double, 2>;
 
@@ -33,6 +32,8 @@ struct Label {
   enum class Anchor { start, middle, end } anchor = Anchor::start;
   bool enhanced = false;  // with gnuplot's marks, as σ_{xx}: shown as subscripts
   bool white = false;     // instead of black: on dark ground
+  double turned = 0;      // degrees, counter-clockwise about `at`
+  bool own = false;       // words of the config: their numbers keep their decimal sign
 };
 
 struct Drawing {
@@ -40,16 +41,25 @@ struct Drawing {
   std::vector<std::variant<Patch, Stroke, Label>> marks;
 };
 
-std::string svg(const Drawing& drawing);
-// writes <name>.png when run by gnuplot
-std::string gnuplot_script(const Drawing& drawing, const std::string& name);
+// What a drawing takes from the style of the figures.
+struct Look {
+  static constexpr double number_size = 13;  // units of a page that numbers and labels are high
+  ColourMap colours = ColourMap::violet_yellow;
+  SignedColours signed_colours = SignedColours::blue_red;
+  std::optional<double> width;  // of the page; none: what the drawing likes
+  bool titles = true;
+};
 
-// Colours of a scale from 0 (dark violet) to 1 (light yellow): lightness grows evenly, so that the scale reads in grey and for
-// colour-blind readers. Computed in CIE LCh: lightness, chroma and hue are simple functions of the position.
-Colour scale_colour(double position);
-// From -1 (blue) over 0 (almost white) to 1 (red): lightness falls evenly on both sides.
-Colour signed_colour(double position);
-double lightness(const Colour& colour);  // CIE L*, 0 to 100
+struct FigureStyle;
+std::string svg(const Drawing& drawing, const FigureStyle& style);
+// writes <name>.png, .pdf and .eps, as far as the style wants them, when run by gnuplot
+std::string gnuplot_script(const Drawing& drawing, const std::string& name, const FigureStyle& style);
+
+// 0.5 as 0,5: points between digits only
+std::string with_decimal(const std::string& text, DecimalSign sign);
+double text_width(const std::string& text, double size);  // about, of enhanced or plain text
+// Enhanced text that ends at a place, in as many lines upwards as its words need to be no wider than `room`.
+void add_lines_above(Drawing& drawing, const PagePoint& end, const std::string& text, double size, double room);
 
 // Round numbers from low to high, about `wished` of them, and their texts with as many digits as the steps need.
 std::vector<double> ticks(double low, double high, int wished = 5);

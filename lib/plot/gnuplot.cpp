@@ -16,6 +16,8 @@
 
 #include <fmt/format.h>
 
+#include "plot/figure_style.hpp"
+
 namespace langer {
 
 namespace {
@@ -75,53 +77,100 @@ std::string plain(const std::string& text) {
   return s;
 }
 
-std::string gnuplot_script(const Plot& plot, const std::string& name) {
-  std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name);
-  s += "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
+namespace {
+
+double small(const FigureStyle& style) { return 0.86 * style.points(); }  // of words within a figure
+
+// what `plot` draws of one line: a band, the line itself, bars and names
+std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i, const FigureStyle& style) {
+  const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
+  const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
+  // lines beyond the last colour begin with other dashes
+  const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
+  const char* const rgb = colours[colour % colours.size()];
+  const std::string file = gnuplot_file(line.csv), x = gnuplot_string(line.x), y = gnuplot_string(line.y);
+  std::string s;
+  if (!line.error.empty())
+    s += fmt::format(
+        "{0} using (column({1})):(column({2})-column({3})):(column({2})+column({3})) with filledcurves fs transparent solid 0.2 "
+        "noborder lc rgb '{4}' notitle, \\\n     ",
+        file, x, y, gnuplot_string(line.error), rgb);
+  s += fmt::format("{} using {}:{}", file, x, y);
+  if (line.points)
+    s += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb, open_markers[dash % open_markers.size()]);
+  else
+    s += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
+                     markers[dash % markers.size()], every);
+  s += fmt::format(" title {}", printed(line.values ? with_decimal(line.legend, style.decimal) : line.legend));
+  if (!line.low.empty())
+    s += fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle", file, x, y,
+                     gnuplot_string(line.low), gnuplot_string(line.high), rgb);
+  if (!line.names.empty())
+    s += fmt::format(
+        ", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',{:.3g}' tc rgb '#555555' notitle", file, x,
+        y, gnuplot_string(line.names), small(style));
+  return s;
+}
+
+std::string frame_of(const Plot& plot, const FigureStyle& style) {
+  std::string s = "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
+  if (style.decimal == DecimalSign::comma) s += "set decimalsign ','\n";
   s += "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
   s += "set key outside center top horizontal reverse Left samplen 3\n";
   if (plot.lines.size() == 1) s += "unset key\n";
-  if (!plot.title.empty()) s += fmt::format("set title {}\n", printed(plot.title));
+  if (!plot.title.empty() && style.titles) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
-  if (plot.logarithmic) s += "set logscale xy\n";
+  if (plot.scale != AxisScale::linear)
+    s += fmt::format("set logscale {}\n", plot.scale == AxisScale::log ? "xy" : plot.scale == AxisScale::log_x ? "x" : "y");
   if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
-  const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
-  std::string draw = "plot ";
-  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
-    const PlotLine& line = plot.lines[i];
-    const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
-    // lines beyond the last colour begin with other dashes
-    const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
-    const char* const rgb = colours[colour % colours.size()];
-    if (!line.error.empty()) {
-      const auto column = [](const std::string& name) { return fmt::format("column({})", gnuplot_string(name)); };
-      draw += fmt::format("{}{} using ({}):({}-{}):({}+{}) with filledcurves fs transparent solid 0.2 noborder lc rgb '{}' notitle",
-                          i ? ", \\\n     " : "", gnuplot_file(line.csv), column(line.x), column(line.y), column(line.error),
-                          column(line.y), column(line.error), rgb);
-    }
-    draw += fmt::format("{}{} using {}:{}", i || !line.error.empty() ? ", \\\n     " : "", gnuplot_file(line.csv),
-                        gnuplot_string(line.x), gnuplot_string(line.y));
-    if (line.points)
-      draw += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
-                          open_markers[dash % open_markers.size()]);
-    else
-      draw += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
-                          markers[dash % markers.size()], every);
-    draw += fmt::format(" title {}", printed(line.legend));
-    if (!line.low.empty())
-      draw += fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle", gnuplot_file(line.csv),
-                          gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.low), gnuplot_string(line.high), rgb);
-    if (!line.names.empty())
-      draw +=
-          fmt::format(", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',9' tc rgb '#555555' notitle",
-                      gnuplot_file(line.csv), gnuplot_string(line.x), gnuplot_string(line.y), gnuplot_string(line.names));
+  if (plot.y_most) s += fmt::format("set yrange [*:*<{:g}]\n", *plot.y_most);
+  for (const PlotMark& mark : plot.marks)
+    s += fmt::format(
+        "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 2 lc rgb '#555555'\n"
+        "set label {1} at graph 0.99, first {0:g} right offset 0,0.6 font ',{2:.3g}' tc rgb '#555555'\n",
+        mark.y, printed(with_decimal(mark.text, style.decimal)), small(style));
+  if (plot.notes.empty()) return s;
+  s += "set rmargin at screen 0.66\n";
+  const double step = std::min(0.052, 0.84 / static_cast<double>(plot.notes.size()));
+  for (std::size_t i = 0; i < plot.notes.size(); ++i)
+    s += fmt::format("set label {} at screen 0.68,{:.4f} noenhanced font ',{:.3g}' tc rgb '#333333'\n",
+                     printed(with_decimal(plot.notes[i], style.decimal)), 0.88 - step * static_cast<double>(i), small(style));
+  return s;
+}
+
+// one for the screen: sizes that were there before papers were thought of
+std::string terminal_of(PictureFormat format, const FigureStyle& style) {
+  const double inches = style.width_mm() / 25.4, tall = style.height ? *style.height / 25.4 : inches / 1.5;
+  const double points = style.points(), thick = points / 10.5, pixels = style.dpi / 96.0;
+  const std::string font =
+      gnuplot_string(fmt::format("{},{:.4g}", style.font, format == PictureFormat::svg ? points / 0.75 : points));
+  switch (format) {
+    case PictureFormat::svg:
+      return fmt::format("svg enhanced size {:.0f},{:.0f} {} font {} linewidth {:.3g} background rgb 'white'", 96 * inches,
+                         96 * tall, style.on_paper() ? "fixed" : "dynamic", font, thick);
+    case PictureFormat::png:
+      if (style.on_paper())
+        return fmt::format(
+            "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} background rgb 'white'",
+            style.dpi * inches, style.dpi * tall, font, pixels, pixels * thick, pixels * thick);
+      return fmt::format(
+          "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:g} linewidth {:g} pointscale {:g} background rgb 'white'",
+          style.dpi * inches, style.dpi * tall, gnuplot_string(style.font + ",13"), pixels, pixels, pixels);
+    default:
+      return fmt::format("{}cairo enhanced size {:.4f}in,{:.4f}in font {} linewidth {:.3g} pointscale {:.3g}",
+                         names(format)[static_cast<std::size_t>(format)], inches, tall, font, thick, 0.75 * thick);
   }
-  for (const auto& [terminal, size, type] :
-       {std::array{"svg", "720,480 dynamic", "svg"}, std::array{"pngcairo", "1440,960", "png"}})
-    s += fmt::format("set terminal {} enhanced size {} font 'DejaVu Sans,{}' {}background rgb 'white'\nset output {}\n{}\n",
-                     terminal, size, type == std::string("svg") ? 14 : 13,
-                     type == std::string("svg") ? "" : "fontscale 2 linewidth 2 pointscale 2 ", gnuplot_file(name + "." + type),
-                     draw);
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Plot& plot, const std::string& name, const FigureStyle& style) {
+  std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) + frame_of(plot, style);
+  std::string draw = "plot ";
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
+  for (PictureFormat format : style.formats)
+    s += fmt::format("set terminal {}\nset output {}\n{}\n", terminal_of(format, style),
+                     gnuplot_file(name + "." + names(format)[static_cast<std::size_t>(format)]), draw);
   return s + "unset output\n";
 }
 

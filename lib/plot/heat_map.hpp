@@ -15,6 +15,7 @@ struct HeatMap {
   double x_from = 0, x_to = 1, y_from = 0, y_to = 1;  // of the outer cells' centres
   MatX values;                                        // NaN cells are grey
   double limit = 1;           // of the scale, -limit to limit: blue below zero, red above; larger values have the end's colour
+  double middle = 0;          // not 0: the scale is logarithmic beyond about a third of this value, and linear about 0
   bool swap_colours = false;  // red below zero: for what is lost there
   bool losses = false;        // values from 0 to limit, the smaller the redder; no scale
   bool numbers = false;       // written into the cells
@@ -22,7 +23,7 @@ struct HeatMap {
   bool first_row_on_top = false;
 };
 
-Drawing heat_map(const HeatMap& map);
+Drawing heat_map(const HeatMap& map, const Look& look = {});
 
 // Groups of bars with intervals.
 struct Bars {
@@ -30,6 +31,6 @@ struct Bars {
   std::vector<std::string> groups, series;
   MatX values, low, high;  // (series, groups); low and high may be empty
 };
-Drawing bars(const Bars& bars);
+Drawing bars(const Bars& bars, const Look& look = {});
 
 }  // namespace langer

@@ -9,8 +9,12 @@
 
 namespace langer {
 
-void Pictures::need_places(const std::string& name, std::initializer_list<const char*> types) const {
-  for (const char* type : types) need_replaceable_from(place(name + type), place(name + ".gp"));
+void Pictures::need_places(const std::string& name, bool svg_too) const {
+  std::vector<std::string> types{".gp.log"};
+  for (PictureFormat format : style_.formats)
+    if (svg_too || format != PictureFormat::svg)
+      types.push_back(std::string(".") + names(format)[static_cast<std::size_t>(format)]);
+  for (const std::string& type : types) need_replaceable_from(place(name + type), place(name + ".gp"));
 }
 
 void Pictures::run(const std::string& name, const std::string& script) {
@@ -20,15 +24,15 @@ void Pictures::run(const std::string& name, const std::string& script) {
   if (!reason.empty()) failed_[reason] += (failed_[reason].empty() ? "" : ", ") + name;
 }
 
-void Pictures::draw(const std::string& name, const std::string& script) {
-  need_places(name, {".svg", ".png", ".gp.log"});  // which gnuplot writes
-  run(name, script);
+void Pictures::draw(const std::string& name, const Plot& plot) {
+  need_places(name, true);
+  run(name, gnuplot_script(plot, name, style_));
 }
 
 void Pictures::draw(const std::string& name, const Drawing& drawing) {
-  need_places(name, {".png", ".gp.log"});
-  write_text_file(place(name + ".svg"), svg(drawing));
-  run(name, gnuplot_script(drawing, name));
+  need_places(name, false);
+  if (style_.wants(PictureFormat::svg)) write_text_file(place(name + ".svg"), svg(drawing, style_));
+  run(name, gnuplot_script(drawing, name, style_));
 }
 
 std::string Pictures::place(const std::string& file) const { return (std::filesystem::path(folder_) / file).string(); }

@@ -5,14 +5,30 @@
 #include <numbers>
 
 #include "element/surface.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/section.hpp"
 #include "mesh/select.hpp"
 
 namespace langer {
 
 ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates) : mesh_(mesh), candidates_(std::move(candidates)) {
-  std::vector<int> sorted = candidates_;
+  std::vector<int> sorted = mesh.section ? through_layers(mesh, candidates_) : candidates_;
   std::sort(sorted.begin(), sorted.end());
   facets_ = facets_within(mesh, boundary(mesh), sorted);
+  if (!mesh.section) return;
+  const int layer = n_front(mesh);  // those of the planes of the section are no surface of the body
+  std::erase_if(facets_, [&](const Facet& facet) {
+    const auto nodes = facet_nodes(mesh, facet);
+    return std::all_of(nodes.begin(), nodes.end(), [&](int node) { return node / layer == nodes[0] / layer; });
+  });
+}
+
+// the nodes behind z = 0 move with those in front, and the cells count as often as the section says
+void ContactSurface::fold(std::vector<Vec3>& area) const {
+  const auto layer = static_cast<std::size_t>(n_front(mesh_));
+  for (std::size_t i = layer; i < area.size(); ++i) area[i % layer] += area[i];
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] = i < layer ? Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0)) : Vec3(Vec3::Zero());
 }
 
 ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
@@ -26,6 +42,7 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] += force.row(a).transpose();
   }
+  if (mesh_.section) fold(area);
   ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates_[i]);
@@ -52,6 +69,19 @@ void add_contact_numbers(std::map<std::string, double>& numbers, const std::map<
   if (surfaces.empty()) return;
   numbers["contact_area"] = area, numbers["contact_radius"] = std::sqrt(area / std::numbers::pi);
   numbers["contact_pressure_max"] = pressure;
+}
+
+void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& candidates, const ContactPerArea& state,
+                       const ContactRecord& contact, const std::vector<double>& slip) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto node = static_cast<std::size_t>(candidates[i]);
+    ContactNode& here = nodes[node];
+    const double pressure = state.pressure[node], all = state.traction[node].norm();
+    here.status = std::max(here.status, contact.status[i]);
+    if (!slip.empty()) here.slip = std::max(here.slip, slip[i]);
+    if (all == 0 || pressure < here.pressure) continue;
+    here.pressure = pressure, here.friction = std::sqrt(std::max(0.0, all * all - pressure * pressure));
+  }
 }
 
 bool is_of_contact_surface(std::string_view column) {

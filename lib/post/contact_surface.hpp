@@ -2,7 +2,7 @@
 //   area of a node     integral N_a da over the facets all of whose nodes are candidates, a vector along the outward normal [mm^2]
 //   traction           force of the indenter on the body over that area [MPa];  pressure: its part along the inward normal
 //   area of contact    sum of the areas of the nodes that touch: too large by about half a cell around its rim
-// Sections (mesh/section.hpp) have none: their reactions are those of the whole circle.
+// Of a section (mesh/section.hpp) areas are those of the whole circle, or of the slab, as its reactions are.
 #pragma once
 
 #include <map>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "post/quantity.hpp"
 #include "store/solution_file.hpp"
 #include "tensor/types.hpp"
 
@@ -29,6 +30,7 @@ class ContactSurface {
   ContactPerArea at(const std::vector<Vec3>& u, const ContactRecord& contact) const;  // u (n) [mm]
 
  private:
+  void fold(std::vector<Vec3>& area) const;
   const Mesh& mesh_;
   std::vector<int> candidates_;
   std::vector<Facet> facets_;
@@ -40,5 +42,9 @@ void add_contact_numbers(std::map<std::string, double>& numbers, const std::map<
 
 // the columns that it gives: contact_area, contact_radius, contact_pressure_max
 bool is_of_contact_surface(std::string_view column);
+
+// Adds what one indenter does to the nodes; slip (k) of its candidates [mm], empty where it is not known.
+void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& candidates, const ContactPerArea& state,
+                       const ContactRecord& contact, const std::vector<double>& slip);
 
 }  // namespace langer

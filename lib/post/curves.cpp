@@ -75,6 +75,12 @@ struct Measurement {
 
   double operator()(OfState value) const { return value(state); }
   double operator()(OfNodes value) const { return value(mean(state.u, m.nodes)); }
+  double operator()(OfContact value) const {
+    double sum = 0;
+    for (int node : m.nodes)
+      sum += value(state.contact.empty() ? ContactNode{0, 0, 0, 0} : state.contact[static_cast<std::size_t>(node)]);
+    return sum / static_cast<double>(m.nodes.size());
+  }
   double operator()(OfSet value) const {
     SetState set{mean(state.u, m.nodes), Vec3::Zero(), m.length};
     for (int node : m.nodes) set.reaction += state.reaction[node];

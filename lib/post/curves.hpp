@@ -93,6 +93,7 @@ struct StepState {
   int stick = 0, slip = 0;                  // nodes of all contacts
   std::map<std::string, double> histories;  // what the unloaded state lacks is 0
   PathSums sums;
+  std::vector<ContactNode> contact;  // (n), where a measure asks for it
 };
 StepState unloaded(const Mesh& mesh);
 

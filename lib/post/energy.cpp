@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "contact/touch.hpp"
 
@@ -38,9 +39,11 @@ double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks,
                        std::vector<TurnedSet> turned)
-    : mesh_(mesh), contacts_(std::move(contacts)), kinks_(std::move(kinks)), turned_(std::move(turned)) {}
+    : mesh_(mesh), contacts_(std::move(contacts)), kinks_(std::move(kinks)), turned_(std::move(turned)) {
+  for (const RigidContact& contact : contacts_) slips_.emplace_back(contact.nodes.size(), 0.0);
+}
 
-void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) const {
+void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) {
   const RigidContact& contact = contacts_[k];
   const Vec3 c0 = indenter_displacement(contact, last_.t), c = indenter_displacement(contact, now.t), dc = c - c0;
   rates.push_back(dc / step.dt);
@@ -66,7 +69,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     from_contact.begin[node] += r0, from_contact.end[node] += r1;
     step.begin += r0.dot(worked), step.end += r1.dot(worked);
     for (const auto& [state, from, power] :
-         {std::tuple{&last_, &from_contact.begin, &step.begin}, {&now, &from_contact.end, &step.end}})
+         {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin}, {&now, &from_contact.end, &step.end}})
       if (k < state->bonds.size() && !state->bonds[k].empty())
         (*from)[node] += state->bonds[k][i], *power += state->bonds[k][i].dot(worked);
     // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
@@ -81,6 +84,9 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
       const Vec3 n = shape_at(contact.shape, x).normal;
       step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
     }
+    if (r0.isZero(0) || r1.isZero(0)) continue;
+    const Vec3 n = shape_at(contact.shape, Vec3(mesh_.X[node] + now.u[node] - c)).normal;
+    slips_[k][i] += (v - v.dot(n) * n).norm();
   }
 }
 

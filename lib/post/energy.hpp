@@ -42,6 +42,8 @@ class EnergyPath {
   };
   void add(State state);               // in the order of the path, from the unloaded one
   std::vector<PathSums> sums() const;  // one for each state added
+  // Way of the candidates of a contact along its indenter up to the last state added, in increments at both ends of which they touch [mm].
+  const std::vector<double>& slip(std::size_t contact) const { return slips_[contact]; }
 
  private:
   struct Interval {
@@ -54,7 +56,7 @@ class EnergyPath {
   struct Ends {
     std::vector<Vec3> begin, end;  // (n)
   };
-  void add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) const;
+  void add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates);
   Ends imposed(const State& now) const;  // movement in the interval, at the rates of its two ends [mm]
   const Mesh& mesh_;
   std::vector<RigidContact> contacts_;
@@ -64,6 +66,7 @@ class EnergyPath {
   bool jumped_ = false;  // in the last interval
   std::vector<Interval> intervals_;
   std::vector<double> stored_;
+  std::vector<std::vector<double>> slips_;
   std::vector<Vec3> rates_;  // of the indenters in the last interval, per t: movement, and rotation after it
 };
 

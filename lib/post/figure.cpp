@@ -1,10 +1,13 @@
 #include "post/figure.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "base/csv_table.hpp"
 #include "base/error.hpp"
+#include "config/writer.hpp"
 
 namespace langer {
 
@@ -17,8 +20,30 @@ const ColumnChoice* find(const std::vector<ColumnChoice>& columns, const std::st
 
 }  // namespace
 
-std::string with_unit(const std::string& label, const std::string& unit) {
-  return unit == "-" ? label : fmt::format("{} ({})", label, unit);
+PointColumns read_points(const FigurePoints& points, const std::function<Place(const std::string& key)>& where) {
+  const CsvTable table = read_table(points.file.path);
+  const auto column = [&](const std::string& key, const std::string& name) {
+    std::vector<std::string> known;
+    for (const CsvCell& cell : table.header.cells) known.push_back(cell.text);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw Failure(Exit::config,
+                    Error{where("points." + key), "points." + key, fmt::format("{} has no column \"{}\"", points.file.path, name),
+                          "one of " + list_words(known), ""});
+    std::vector<double> values;
+    for (const CsvRow& row : table.rows)
+      values.push_back(csv_number(row.cells[static_cast<std::size_t>(found - known.begin())].text)
+                           .value_or(std::numeric_limits<double>::quiet_NaN()));
+    return values;
+  };
+  return {column("x", points.x), column("y", points.y)};
+}
+
+std::string legend_of(const ColumnChoice& choice) {
+  if (choice.name || !choice.quantity) return literal(column_name(choice));
+  const std::string family =
+      line_of(*choice.quantity).needs.fibres && choice.family > 1 ? fmt::format(", family {}", choice.family) : "";
+  return label_of(choice) + (choice.at ? " at " + literal(*choice.at) : "") + family;
 }
 
 std::vector<Complaint> complaints(const FigureChoice& figure, const std::vector<ColumnChoice>& columns) {
@@ -52,14 +77,15 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
   const ColumnChoice &x = *find(columns, figure.x), &y = *find(columns, figure.y[0]);
   Plot plot;
   plot.title = figure.title;
+  plot.scale = figure.scale;
   plot.x_label = with_unit(figure.x_label.value_or(label_of(x)), unit_of(x));
   // several quantities on one axis have no common name but the one the user gives
   const bool alike = std::all_of(figure.y.begin(), figure.y.end(),
                                  [&](const std::string& name) { return label_of(*find(columns, name)) == label_of(y); });
   plot.y_label = figure.y_label || alike ? with_unit(figure.y_label.value_or(label_of(y)), unit_of(y)) : unit_of(y);
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
-    plot.lines.push_back(
-        {csv, head_of(figure.x), head_of(figure.y[i]), figure.legends.empty() ? literal(figure.y[i]) : figure.legends[i]});
+    plot.lines.push_back({csv, head_of(figure.x), head_of(figure.y[i]),
+                          figure.legends.empty() ? legend_of(*find(columns, figure.y[i])) : figure.legends[i]});
     for (const std::string& band : bands_of(figure.y[i]))
       if (find(columns, band) && plot.lines.back().error.empty()) plot.lines.back().error = head_of(band);
   }

@@ -10,11 +10,6 @@
 
 namespace langer {
 
-std::vector<Complaint> MapStyle::complaints() const {
-  if (!range || (*range)[0] < (*range)[1]) return {};
-  return {{"range", "its ends are not ascending", "[low, high]", ""}};
-}
-
 std::vector<Complaint> MapChoice::complaints() const {
   if (is_field(line_of(field))) return {};
   return {{"field", line_of(field).word, "a quantity of nodes or points, as u_y or von_mises", ""}};

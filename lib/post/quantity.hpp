@@ -3,6 +3,7 @@
 //   StepState            one number of the whole state, or of the indenter: nothing to name
 //   displacement         mean over the nodes of a named set (an observation point is a set of one node)
 //   row of values        the same, of a row of post/fields.hpp at each node
+//   ContactNode          the same, of what the indenters do to each node
 //   SetState             reaction summed, or movement averaged, over a named set
 //   Extremes             over all Gauss points of the body; their place is the reference position [mm]
 // Signs: stress and pressure positive in tension; force positive where the body resists the indenter's travel.
@@ -31,9 +32,17 @@ struct Extremes {
   Vec3 place = Vec3::Zero();  // of the greatest von Mises stress
 };
 
+// What all indenters together do to a node; of several that touch it the one with the greatest pressure.
+struct ContactNode {
+  double pressure = 0, friction = 0;  // along the normal and across it, over the deformed area [MPa]
+  double slip = 0;                    // way against the indenter while it touches [mm]
+  int status = -1;                    // -1: not a candidate, else as in ContactRecord
+};
+
 using OfState = double (*)(const StepState& state);
 using OfNodes = double (*)(const Vec3& u);
 using OfPoint = double (*)(const VecX& row, int family);
+using OfContact = double (*)(const ContactNode& node);
 using OfSet = double (*)(const SetState& set);
 using OfBody = double (*)(const Extremes& all);
 
@@ -50,7 +59,7 @@ struct QuantityLine {
   const char *word, *unit;
   const char* label;    // on the axis of a figure
   const char* meaning;  // with its sign
-  std::variant<OfState, OfNodes, OfPoint, OfSet, OfBody> value;
+  std::variant<OfState, OfNodes, OfPoint, OfContact, OfSet, OfBody> value;
   Needs needs = {};
 };
 
@@ -67,7 +76,8 @@ template <class Of>
 bool is(const QuantityLine& line) {
   return std::holds_alternative<Of>(line.value);
 }
-inline bool needs_place(const QuantityLine& line) { return is<OfNodes>(line) || is<OfPoint>(line) || is<OfSet>(line); }
-inline bool is_field(const QuantityLine& line) { return is<OfNodes>(line) || is<OfPoint>(line); }  // has a value at every node
+// has a value at every node
+inline bool is_field(const QuantityLine& line) { return is<OfNodes>(line) || is<OfPoint>(line) || is<OfContact>(line); }
+inline bool needs_place(const QuantityLine& line) { return is_field(line) || is<OfSet>(line); }
 
 }  // namespace langer

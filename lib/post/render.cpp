@@ -16,7 +16,7 @@ namespace langer {
 
 namespace {
 
-constexpr double page_width = 960, margin = 24, bar_room = 150;
+constexpr double margin = 24;
 constexpr int most_patches = 6000;
 const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89}, grey{0.45, 0.47, 0.50},
     vermilion{0.835, 0.369, 0}, blue{0, 0.447, 0.698};
@@ -40,7 +40,6 @@ Mat3 eye(const std::array<double, 2>& view) {
 // light from above, left and in front of the eye; the shadow side keeps enough of its colour to be read
 double light(const Vec3& n) { return std::max(0.0, n.dot(Vec3(-0.35, 0.80, 0.49).normalized())); }
 double shade(const Vec3& n) { return 0.74 + 0.26 * light(n); }
-Colour shaded(const Colour& c, double s) { return {c.r * s, c.g * s, c.b * s}; }
 
 // Seen positions to the page.
 struct Page {
@@ -60,15 +59,17 @@ double mean_depth(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
-void add_colour_bar(Drawing& drawing, double title_room, double low, double high, const std::string& label) {
+void add_colour_bar(Drawing& drawing, double title_room, double low, double high, const std::string& label, double bar_room,
+                    ColourMap colours) {
   constexpr int bands = 128;
   // label above, the axes below
-  const double x = page_width - bar_room + 30, width = 22, height = std::min(300.0, drawing.height - title_room - 190);
+  const double x = drawing.width - bar_room + 30, width = 22, height = std::min(300.0, drawing.height - title_room - 190);
   const double top = title_room + (drawing.height - title_room - height - 100) / 2;
   for (int i = 0; i < bands; ++i) {
     // from the top, each down to the end: no seams
     const double y0 = top + height * i / bands, y1 = top + height;
-    drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale_colour(1 - (i + 0.5) / bands)});
+    drawing.marks.push_back(
+        Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale_colour(1 - (i + 0.5) / bands, colours)});
   }
   drawing.marks.push_back(Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
   const std::vector<double> at = ticks(low, high);
@@ -78,11 +79,11 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
     drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
     drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, texts[i], 13});
   }
-  drawing.marks.push_back(Label{{page_width - margin, top - 16}, label, 14, Label::Anchor::end, true});
+  add_lines_above(drawing, {drawing.width - margin, top - 16}, label, 14, bar_room < 150 ? bar_room + 40 : drawing.width);
 }
 
-void add_axes(Drawing& drawing, const Mat3& R) {
-  const PagePoint origin{page_width - bar_room + 60, drawing.height - margin - 36};
+void add_axes(Drawing& drawing, const Mat3& R, double bar_room) {
+  const PagePoint origin{drawing.width - bar_room + 60, drawing.height - margin - 36};
   for (int i = 0; i < 3; ++i) {
     const Vec3 seen = R.col(i);
     drawing.marks.push_back(Stroke{{origin, {origin[0] + 36 * seen[0], origin[1] - 36 * seen[1]}}, ink, 1.4});
@@ -276,7 +277,7 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
   return seen;
 }
 
-void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, std::vector<Item>& items) {
+void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, ColourMap colours, std::vector<Item>& items) {
   const int m = std::clamp(static_cast<int>(std::sqrt(most_patches / std::max<double>(1, seen.quads.size()))), 1, 6);
   for (const Seen::Quad& quad : seen.quads) {
     Item item{mean_depth(quad.corners), {}};
@@ -293,7 +294,7 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, st
       const auto N = weights(p, q);
       double value = 0;
       for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
-      return shaded(scale_colour((value - seen.low) / (seen.high - seen.low)), s);
+      return shaded(scale_colour((value - seen.low) / (seen.high - seen.low), colours), s);
     };
     // below the parts of a quad the quad itself, so that the page does not shine through between them
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
@@ -338,22 +339,23 @@ void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector
 
 }  // namespace
 
-Drawing render(const RenderScene& scene, const RenderChoice& choice) {
+Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look) {
   const Seen seen = look_at(scene, choice);
-  const double title_room = choice.title.empty() ? 0 : 40;
-  const double room = page_width - bar_room - 2 * margin, tallest = 640;
+  const bool titled = look.titles && !choice.title.empty();
+  const double title_room = titled ? 40 : 0, page_width = look.width.value_or(960), bar_room = page_width < 500 ? 118 : 150;
+  const double room = page_width - bar_room - 2 * margin, tallest = page_width / 1.5;
   const Vec3 size = seen.box.isEmpty() ? Vec3(1, 1, 1) : Vec3(seen.box.sizes());
   Page page;
   page.scale = std::min(room / size[0], tallest / size[1]);
   Drawing drawing;
   drawing.width = page_width;
-  drawing.height = std::round(std::max(400.0, page.scale * size[1] + 2 * margin + title_room));
+  drawing.height = std::round(std::max(std::min(400.0, 0.8 * page_width), page.scale * size[1] + 2 * margin + title_room));
   const Vec3 middle = seen.box.isEmpty() ? Vec3(0, 0, 0) : Vec3(seen.box.center());
   page.left = margin + room / 2 - page.scale * middle[0];
   page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
 
   std::vector<Item> items;
-  paint_body(scene, seen, page, items);
+  paint_body(scene, seen, page, look.colours, items);
   for (const OpenedOutline& indenter : seen.indenters) paint_indenter(indenter, page, items);
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
   for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
@@ -361,9 +363,10 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice) {
     drawing.marks.push_back(Stroke{{page(seen.R * scene.mesh.X[edge[0]]), page(seen.R * scene.mesh.X[edge[1]])}, grey, 1.3});
   add_actions(drawing, scene, seen.R, page, seen.extent);
   add_points(drawing, scene, seen.R, page);
-  if (seen.coloured) add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label);
-  add_axes(drawing, seen.R);
-  if (!choice.title.empty()) drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle});
+  if (seen.coloured) add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label, bar_room, look.colours);
+  add_axes(drawing, seen.R, bar_room);
+  if (titled)
+    drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle, false, false, 0, true});
   return drawing;
 }
 

@@ -78,7 +78,7 @@ struct RenderScene {
   std::vector<Action> actions = {};
 };
 
-Drawing render(const RenderScene& scene, const RenderChoice& choice);
+Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look = {});
 
 // Facets that belong to one of the kept cells only, corners counter-clockwise from outside.
 std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept);

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "mesh/raise.hpp"
-#include "post/contact_surface.hpp"
 #include "post/render.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
+#include "run/contact_state.hpp"
 #include "run/post_files.hpp"
 
 namespace langer::report {
@@ -26,28 +26,7 @@ struct ShownField {
   std::string name, label, unit;
   Span span;
   std::vector<std::vector<double>> values;  // state, node
-  bool of_contact = false;                  // the contact pressure in place of a quantity
 };
-
-using Surfaces = std::map<std::string, ContactSurface>;
-Surfaces surfaces_of(const SolutionHeader& header) {
-  Surfaces surfaces;
-  if (header.mesh.section) return surfaces;
-  for (const auto& [name, nodes] : header.contact_nodes)
-    if (ContactSurface surface(header.mesh, nodes); !surface.empty()) surfaces.emplace(name, std::move(surface));
-  return surfaces;
-}
-
-// of all indenters, at each node [MPa]
-std::vector<double> contact_pressure(const Surfaces& surfaces, const std::vector<Vec3>& u, const StepRecord& record) {
-  std::vector<double> pressure(u.size(), 0);
-  for (const auto& [name, contact] : record.contacts)
-    if (const auto surface = surfaces.find(name); surface != surfaces.end()) {
-      const ContactPerArea state = surface->second.at(u, contact);
-      for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] = std::max(pressure[i], state.pressure[i]);
-    }
-  return pressure;
-}
 
 std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const Body& body) {
   std::vector<ShownField> fields;
@@ -64,6 +43,22 @@ std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const
                         {}});
   }
   return fields;
+}
+
+// what indenters do to the surface; slip and status where anything slips
+std::vector<Quantity> contact_quantities(const SolutionReader& solution, const ContactStates& contacts) {
+  std::vector<Quantity> shown;
+  const auto& surfaces = contacts.surfaces();
+  if (std::all_of(surfaces.begin(), surfaces.end(), [](const auto& named) { return named.second.empty(); })) return shown;
+  shown.push_back(quantity("contact_pressure"));
+  bool slips = false;
+  for (int i = 0; i < solution.n_steps() && !slips; ++i)
+    for (const auto& [name, contact] : solution.step(i).contacts)
+      slips = slips || std::find(contact.status.begin(), contact.status.end(), 2) != contact.status.end();
+  if (!slips) return shown;
+  if (contacts.knows_slip()) shown.push_back(quantity("slip"));
+  shown.push_back(quantity("contact_status"));
+  return shown;
 }
 
 // rows of the table of states: 0 is the unloaded one
@@ -230,10 +225,11 @@ struct States {
 
 // of these rows of the table of states; fields: their values are added
 States states_of(const SolutionReader& solution, Body& body, const Chosen& chosen, const std::vector<int>& rows, StressAt stress,
-                 std::vector<ShownField>& fields) {
+                 const ContactStates& contacts, std::vector<ShownField>& fields) {
   States states;
   BranchRows branches(body, solution);
-  const Surfaces surfaces = surfaces_of(solution.header());
+  const bool touched =
+      std::any_of(fields.begin(), fields.end(), [](const ShownField& f) { return is<OfContact>(line_of(f.quantity)); });
   for (const int row : rows) {
     branches.go_to(row);
     const StepRecord record = row == 0 ? StepRecord{} : solution.step(row - 1);
@@ -243,11 +239,14 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
     for (const int node : chosen.nodes) here.insert(here.end(), state.u[node].begin(), state.u[node].end());
     const GaussValues gauss = gauss_values(body, state.u);
     for (ShownField& f : fields) f.values.emplace_back();
-    const std::vector<double> pressed = contact_pressure(surfaces, state.u, record);
+    const std::vector<ContactNode> contact =
+        touched ? contacts.nodes(row, record, contacts.knows_slip()) : std::vector<ContactNode>();
     for (const int node : chosen.nodes) {
       const VecX values = node_values(body, node, gauss, stress);
-      for (ShownField& f : fields)
-        f.values.back().push_back(f.of_contact ? pressed[static_cast<std::size_t>(node)] : value_of(f.quantity, values, f.family));
+      for (ShownField& f : fields) {
+        const OfContact* of = std::get_if<OfContact>(&line_of(f.quantity).value);
+        f.values.back().push_back(of ? (*of)(contact[static_cast<std::size_t>(node)]) : value_of(f.quantity, values, f.family));
+      }
     }
     states.told.push_back(object(
         {{"row", number(row)}, {"t", number(state.t)}, {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
@@ -264,7 +263,10 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   Body body(mesh, header.laws(), header.directions, formulation_of(header, path));
   const auto surface = outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
   std::vector<ShownField> fields = fields_of(config.shown, body);
-  if (!surfaces_of(header).empty()) fields.push_back({{}, 0, "contact_pressure", "contact pressure", "MPa", {}, {}, true});
+  std::vector<RigidContact> indenters = indenters_of(header);
+  follow_records(indenters, solution);
+  const ContactStates contacts(solution, indenters);
+  for (const ShownField& f : fields_of(contact_quantities(solution, contacts), body)) fields.push_back(f);
 
   const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
   const double left = budget - static_cast<double>(indenters_view(solution, {}).text.size());
@@ -273,7 +275,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const Chosen& chosen = cells ? whole : outside;
   const std::vector<int> rows = rows_shown(solution.n_steps(), states);
 
-  const States at = states_of(solution, body, chosen, rows, config.stress, fields);
+  const States at = states_of(solution, body, chosen, rows, config.stress, contacts, fields);
 
   double largest = 0;
   for (const auto& state : at.u)

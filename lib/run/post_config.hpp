@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plot/figure_style.hpp"
 #include "post/curves.hpp"
 #include "post/cycle.hpp"
 #include "post/figure.hpp"
@@ -32,6 +33,7 @@ struct PostConfig {
   std::map<std::string, MapChoice> maps;
   std::optional<RenderChoice> render;
   std::map<std::string, RenderChoice> renders;
+  FigureStyle figure_style;
   Draw draw = Draw::always;
   static void fields(auto& v) {
     v(&PostConfig::stress, "stress", unit::none, "how stress at a node is taken from the Gauss points around it");
@@ -46,11 +48,13 @@ struct PostConfig {
       "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&PostConfig::series, "series", unit::none,
       "all states with their times for ParaView, PyVista and meshio: series.pvd, and series/step_<row>.vtu with what a snapshot has");
-    v(&PostConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg and <name>.png");
+    v(&PostConfig::figures, "figures", unit::none,
+      "x-y figures by name, <name>.svg and <name>.png, or in the formats of figure_style");
     v(&PostConfig::maps, "maps", unit::none,
       "fields on the surface by name, <name>.svg, .png and .csv; <name>_min and _max are in the summary");
     v(&PostConfig::render, "render", unit::none, "picture of the deformed body, render.svg and render.png");
     v(&PostConfig::renders, "renders", unit::none, "more such pictures by name, <name>.svg and <name>.png");
+    v(&PostConfig::figure_style, "figure_style", unit::none, "how figures, maps and pictures are made");
     v(&PostConfig::draw, "draw", unit::none,
       "on_request: figures are left as scripts, and `gnuplot <name>.gp` in their folder draws one; for members of a large sweep, whose "
       "pictures take more time than they do");

@@ -8,7 +8,7 @@
 #include "config/reader.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
-#include "post/contact_surface.hpp"
+#include "run/contact_state.hpp"
 #include "run/step_record.hpp"
 #include "scene/loads.hpp"
 #include "scene/solve_config.hpp"
@@ -17,14 +17,6 @@
 namespace langer {
 
 namespace {
-
-Field field(std::string name, std::string unit, int components, std::size_t rows, double value = 0) {
-  return {std::move(name), std::move(unit), components, std::vector<double>(rows * components, value)};
-}
-
-void put(Field& f, std::size_t row, const auto& values) {
-  for (int i = 0; i < f.components; ++i) f.values[row * f.components + i] = values[i];
-}
 
 // What follows from a row of values, at points and in cells alike.
 struct StressFields {
@@ -52,26 +44,6 @@ struct StressFields {
     for (Field& f : stretch) fields.push_back(std::move(f));
   }
 };
-
-void add_contact(std::vector<Field>& points, std::size_t n, const std::string& name, const std::vector<int>& nodes,
-                 const ContactRecord& contact) {
-  Field status = field("contact_status_" + name, "-", 1, n, -1);  // -1: not a candidate
-  Field force = field("contact_force_" + name, "N", 3, n);
-  Field gap = field("contact_gap_" + name, "mm", 1, n, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto node = static_cast<std::size_t>(nodes[i]);
-    status.values[node] = contact.status[i];
-    put(force, node, contact.r[i]);
-    gap.values[node] = contact.gap[i];
-  }
-  for (Field* f : {&status, &force, &gap}) points.push_back(std::move(*f));
-  if (contact.beta.empty()) return;
-  Field beta = field("adhesion_" + name, "-", 1, n, -1), bonds = field("adhesive_force_" + name, "N", 3, n);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
-    put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);
-  for (Field* f : {&beta, &bonds}) points.push_back(std::move(*f));
-}
 
 }  // namespace
 
@@ -106,7 +78,8 @@ StepState state_of(const StepRecord& record) {
   return state;
 }
 
-SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, StressAt at) {
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, int row,
+                               const ContactStates& contacts, StressAt at) {
   const Mesh& mesh = body.mesh();
   const std::size_t n = mesh.X.size(), n_cells = static_cast<std::size_t>(mesh.n_cells());
   const GaussValues gauss = gauss_values(body, record.u);
@@ -121,15 +94,7 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   }
   out.points = {std::move(u), std::move(reaction)};
   at_nodes.move_to(out.points);
-  for (const auto& [name, contact] : record.contacts) {
-    add_contact(out.points, n, name, header.contact_nodes.at(name), contact);
-    if (mesh.section) continue;
-    const ContactPerArea state = ContactSurface(mesh, header.contact_nodes.at(name)).at(record.u, contact);
-    Field traction = field("contact_traction_" + name, "MPa", 3, n);
-    for (std::size_t i = 0; i < n; ++i) put(traction, i, state.traction[i]);
-    out.points.push_back(std::move(traction));
-    out.points.push_back({"contact_pressure_" + name, "MPa", 1, state.pressure});
-  }
+  add_contact_fields(out.points, contacts, header, record, row);
 
   StressFields means(n_cells, body.n_families());
   std::vector<Field> before, after;
@@ -146,7 +111,9 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
       put(after[k], e, Vec3(F * body.fibres(cell)[k]));  // as long as the fibre is stretched
     }
   }
+  out.cells.push_back(means.J);  // first, and so the one that viewers show: at nodes it is smoothed
   means.move_to(out.cells);
+  out.cells.erase(std::find_if(out.cells.begin() + 1, out.cells.end(), [](const Field& f) { return f.name == "J"; }));
   for (auto* fibres : {&before, &after})
     for (Field& f : *fibres) out.cells.push_back(std::move(f));
   return out;
@@ -156,6 +123,11 @@ std::vector<double> picture_values(const Body& body, const StepState& state, Qua
   std::vector<double> values;
   if (const OfNodes* of = std::get_if<OfNodes>(&line_of(field).value)) {
     for (const Vec3& u : state.u) values.push_back((*of)(u));
+    return values;
+  }
+  if (const OfContact* of = std::get_if<OfContact>(&line_of(field).value)) {
+    values.assign(state.u.size(), (*of)(ContactNode()));
+    for (std::size_t i = 0; i < state.contact.size(); ++i) values[i] = (*of)(state.contact[i]);
     return values;
   }
   const GaussValues gauss = gauss_values(body, state.u);

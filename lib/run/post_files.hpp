@@ -35,7 +35,10 @@ StepState state_of(const StepRecord& record);
 struct SnapshotFields {
   std::vector<Field> points, cells;
 };
-SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, StressAt at);
+class ContactStates;
+// row: of the table of states, which the record is of
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, int row,
+                               const ContactStates& contacts, StressAt at);
 
 // Field of a picture at each node.
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at);

@@ -16,6 +16,14 @@ struct Field {
   std::vector<double> values;
 };
 
+inline Field field(std::string name, std::string unit, int components, std::size_t rows, double value = 0) {
+  return {std::move(name), std::move(unit), components, std::vector<double>(rows * static_cast<std::size_t>(components), value)};
+}
+void put(Field& f, std::size_t row, const auto& values) {
+  for (int i = 0; i < f.components; ++i)
+    f.values[row * static_cast<std::size_t>(f.components) + static_cast<std::size_t>(i)] = values[i];
+}
+
 // the mesh's own positions are written: shift them by the displacement beforehand for a deformed picture
 // time: of the state, in FieldData/TimeValue; the first scalar, vector and symmetric tensor are marked as VTK's active ones
 void write_snapshot(const std::string& path, const Mesh& mesh, const std::vector<Field>& point_fields,

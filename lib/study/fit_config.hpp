@@ -18,6 +18,7 @@
 #include "base/input_path.hpp"
 #include "config/tree.hpp"
 #include "fit/fit.hpp"
+#include "plot/figure_style.hpp"
 #include "study/study_config.hpp"
 
 namespace langer {
@@ -202,6 +203,7 @@ struct FitConfig {
   bool draft = true;
   SecondAnswer cross_check = SecondAnswer::none;
   std::optional<StudyConfig> study;
+  FigureStyle figure_style;
   static void fields(auto& v) {
     v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
     v(&FitConfig::law, "law", unit::none, "energy terms, fibre angles and the numbers that are not fitted", required);
@@ -222,6 +224,7 @@ struct FitConfig {
     v(&FitConfig::cross_check, "cross_check", unit::none, "a cross-check by another method; disagreement is a warning",
       Formerly{"check"});
     v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
+    v(&FitConfig::figure_style, "figure_style", unit::none, "how figures are made");
   }
   bool has_scenes() const;
   double noise() const { return study.value_or(StudyConfig{}).noise; }  // part of the largest value of a test

@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "config/writer.hpp"
 #include "material/path.hpp"
+#include "plot/figure_style.hpp"
 #include "sensitivity/sampling.hpp"
 
 namespace langer {
@@ -73,6 +74,7 @@ struct SensitivityConfig {
   int resamples = 500;
   int threads = 1;
   bool figures = false;
+  FigureStyle figure_style;
   static void fields(auto& v) {
     v(&SensitivityConfig::parameters, "parameters", unit::none,
       "the numbers to rank; none means those of the fit, between the fit's bounds");
@@ -90,7 +92,8 @@ struct SensitivityConfig {
     v(&SensitivityConfig::seed, "seed", unit::none, "of the random samples", at_least(0));
     v(&SensitivityConfig::resamples, "resamples", unit::none, "of the bootstrap behind each 95 % interval", between(50, 100000));
     v(&SensitivityConfig::threads, "threads", unit::none, "processor cores; the results do not depend on it", between(1, 1024));
-    v(&SensitivityConfig::figures, "figures", unit::none, "draw effects over strain and by zone, SVG and PNG");
+    v(&SensitivityConfig::figures, "figures", unit::none, "draw effects over strain and by zone");
+    v(&SensitivityConfig::figure_style, "figure_style", unit::none, "how figures are made");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> all;

@@ -43,7 +43,7 @@ struct StudyConfig {
     v(&StudyConfig::stability, "stability", unit::none, "map where the law is stable");
     v(&StudyConfig::stability_to, "stability_to", unit::none, "largest strain or shear of that map", positive);
     v(&StudyConfig::threads, "threads", unit::none, "processor cores; the results do not depend on it", between(1, 1024));
-    v(&StudyConfig::figures, "figures", unit::none, "draw correlations, profiles and stability, SVG and PNG");
+    v(&StudyConfig::figures, "figures", unit::none, "draw correlations, profiles and stability");
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plot/figure_style.hpp"
 #include "store/material_file.hpp"
 #include "study/sensitivity_file.hpp"
 #include "study/study.hpp"
@@ -12,11 +13,12 @@
 namespace langer {
 
 // Both return a line for every figure that could not be drawn.
-std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const std::string& folder);
+std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const FigureStyle& style,
+                                           const std::string& folder);
 // of fit.csv of one uniaxial test: figs 4 and 5 of [A23]
-std::vector<std::string> draw_fit(const std::string& measured_column, const std::string& folder);
+std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style, const std::string& folder);
 // of fit_<name>.csv of each curve and field that was measured in scenes: measured and found over what it was measured over, errors
-std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, const std::string& folder);
-std::vector<std::string> draw_sensitivity(const SensitivityRecord& record, const std::string& folder);
+std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, const FigureStyle& style, const std::string& folder);
+std::vector<std::string> draw_sensitivity(const SensitivityRecord& record, const FigureStyle& style, const std::string& folder);
 
 }  // namespace langer

@@ -55,7 +55,7 @@ struct Design {
     v(&Design::sobol, "sobol", unit::none, "samples (k + 2) + 1 members");
     v(&Design::seed, "seed", unit::none, "of the random places", at_least(0));
     v(&Design::resamples, "resamples", unit::none, "of the bootstrap behind each 95 % interval", between(50, 100000));
-    v(&Design::figures, "figures", unit::none, "draw the effects on each quantity, SVG and PNG");
+    v(&Design::figures, "figures", unit::none, "draw the effects on each quantity");
   }
   std::vector<Complaint> complaints() const;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "plot/figure_style.hpp"
 #include "sweep/design.hpp"
 #include "sweep/sweep_figure.hpp"
 
@@ -41,6 +42,7 @@ struct GatherConfig {
   std::vector<GatherMember> members;
   std::map<std::string, SweepFigure> figures;
   std::map<std::string, SweepMap> maps;
+  FigureStyle figure_style;
   static void fields(auto& v) {
     v(&GatherConfig::rows, "rows", unit::none,
       "members: one for each file; parameters: one for each number that a fit found, of one fit, with what it is where data were made up, "
@@ -49,6 +51,7 @@ struct GatherConfig {
     v(&GatherConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg, .png and .csv");
     v(&GatherConfig::maps, "maps", unit::none,
       "maps of all members in one picture, on one colour scale, <name>.svg and .png; the name of a map that post made");
+    v(&GatherConfig::figure_style, "figure_style", unit::none, "how figures and maps are made");
     v(&GatherConfig::axes, "axes", unit::none, "first columns of the table; written by plan");
     v(&GatherConfig::members, "members", unit::none, "one per file gathered, in the same order; written by plan");
   }

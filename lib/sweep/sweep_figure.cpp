@@ -67,6 +67,13 @@ struct Table {
   }
 };
 
+// what a column of that name shows, where it has the name of a quantity
+std::string shown(const std::string& name) {
+  const auto lines = quantity_lines();
+  const auto found = std::find_if(lines.begin(), lines.end(), [&](const QuantityLine& line) { return line.word == name; });
+  return found == lines.end() ? literal(name) : found->label;
+}
+
 [[noreturn]] void unknown(const Place& place, const std::string& key, const std::string& name,
                           const std::vector<std::string>& known) {
   const std::string near = nearest(name, known);
@@ -82,13 +89,14 @@ class Drawer {
 
   FigureData data() {
     data_.plot.title = figure_.title;
+    data_.plot.scale = figure_.scale;
     if (figure_.points) add_points(*figure_.points);
     const auto axis = std::find_if(axes_.begin(), axes_.end(), [&](const SweepAxis& a) { return a.name == figure_.x; });
     if (axis == axes_.end())
       over_curves();
     else
       over_axis(static_cast<std::size_t>(axis - axes_.begin()));
-    const std::string y_label = figure_.y_label ? *figure_.y_label : figure_.y.size() == 1 ? literal(figure_.y[0]) : "";
+    const std::string y_label = figure_.y_label ? *figure_.y_label : figure_.y.size() == 1 ? shown(figure_.y[0]) : "";
     data_.plot.y_label = y_label.empty() ? y_unit_ : with_unit(y_label, y_unit_);
     data_.csv = table_.csv();
     return std::move(data_);
@@ -111,7 +119,7 @@ class Drawer {
                                         fmt::format("{} in {}", figure_.y[i], unit), "names in " + y_unit_, ""});
   }
   std::string legend(std::size_t i, const std::string& member) const {
-    const std::string name = figure_.legends.empty() ? literal(figure_.y[i]) : figure_.legends[i];
+    const std::string name = figure_.legends.empty() ? shown(figure_.y[i]) : figure_.legends[i];
     if (member.empty()) return name;
     const bool alone = figure_.y.size() == figure_.once.size() + 1;  // of those drawn for each member
     return alone && figure_.legends.empty() ? member : name + ", " + member;
@@ -119,6 +127,7 @@ class Drawer {
   // several y of several members: colours are the y, dashes the members
   void add_line(const std::string& x, const std::string& y, std::size_t i, std::size_t member, const std::string& member_name) {
     PlotLine line{file_, x, y, legend(i, member_name)};
+    line.values = !member_name.empty() && figure_.member.empty();
     if (figure_.y.size() > figure_.once.size() + 1 && !member_name.empty())
       line.colour = static_cast<int>(i), line.dash = static_cast<int>(member);
     line.points = std::find(figure_.markers.begin(), figure_.markers.end(), figure_.y[i]) != figure_.markers.end();
@@ -126,26 +135,11 @@ class Drawer {
   }
 
   void add_points(const FigurePoints& points) {
-    const CsvTable table = read_table(points.file.path);
-    const auto column = [&](const std::string& key, const std::string& name) {
-      std::vector<std::string> known;
-      for (const CsvCell& cell : table.header.cells) known.push_back(cell.text);
-      const auto found = std::find(known.begin(), known.end(), name);
-      if (found == known.end())
-        throw Failure(Exit::config,
-                      Error{where_("points." + key), "points." + key,
-                            fmt::format("{} has no column \"{}\"", points.file.path, name), "one of " + list_words(known), ""});
-      std::vector<double> values;
-      for (const CsvRow& row : table.rows)
-        values.push_back(csv_number(row.cells[static_cast<std::size_t>(found - known.begin())].text)
-                             .value_or(std::numeric_limits<double>::quiet_NaN()));
-      return values;
-    };
-    PlotLine line{file_, table_.add("points_" + points.x, column("x", points.x)),
-                  table_.add("points_" + points.y, column("y", points.y)), points.legend};
+    const PointColumns read = read_points(points, where_);
+    PlotLine line{file_, table_.add("points_" + points.x, read.x), table_.add("points_" + points.y, read.y), points.legend};
     line.points = true;
     data_.plot.lines.push_back(line);
-    data_.plot.rows = static_cast<int>(table.rows.size());
+    data_.plot.rows = static_cast<int>(read.x.size());
   }
 
   void over_axis(std::size_t axis) {
@@ -193,7 +187,7 @@ class Drawer {
       const std::string ending = "_" + (m.at.empty() ? std::to_string(k + 1) : fmt::format("{}", fmt::join(m.at, "_")));
       const std::string x_head =
           shared ? csv_name(x.name, x.unit) : table_.add(csv_name(x.name + (k ? ending : ""), x.unit), x.values);
-      data_.plot.x_label = with_unit(figure_.x_label.value_or(literal(figure_.x)), x.unit);
+      data_.plot.x_label = with_unit(figure_.x_label.value_or(shown(figure_.x)), x.unit);
       data_.plot.rows = std::max(data_.plot.rows, static_cast<int>(x.values.size()));
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
         const Column& y = column(m, fmt::format("y[{}]", i), figure_.y[i]);

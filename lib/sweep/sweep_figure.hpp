@@ -11,25 +11,12 @@
 #include <vector>
 
 #include "base/fields.hpp"
-#include "base/input_path.hpp"
-#include "plot/gnuplot.hpp"
+#include "post/figure.hpp"
 #include "post/map.hpp"
 #include "store/curves_file.hpp"
 #include "sweep/gather.hpp"
 
 namespace langer {
-
-// Points from a CSV file beside what was computed.
-struct FigurePoints {
-  InputPath file;
-  std::string x, y, legend;
-  static void fields(auto& v) {
-    v(&FigurePoints::file, "file", unit::none, "CSV file whose first line names its columns", required);
-    v(&FigurePoints::x, "x", unit::none, "column in the unit of the figure's x", required);
-    v(&FigurePoints::y, "y", unit::none, "column in the unit of the figure's y", required);
-    v(&FigurePoints::legend, "legend", unit::none, "what they are", required);
-  }
-};
 
 struct SweepFigure {
   std::string x;
@@ -37,6 +24,7 @@ struct SweepFigure {
   std::string title, member;
   std::optional<FigurePoints> points;
   std::optional<std::string> x_label, y_label;
+  AxisScale scale = AxisScale::linear;
   static void fields(auto& v) {
     v(&SweepFigure::x, "x", unit::none, "an axis of the sweep, or a column of the members' tables, without its unit", required);
     v(&SweepFigure::y, "y", unit::none, "names from the summary, or columns of the members' tables; of the same unit", required);
@@ -51,6 +39,7 @@ struct SweepFigure {
     v(&SweepFigure::title, "title", unit::none, "above the figure");
     v(&SweepFigure::x_label, "x_label", unit::none, "what x is; the unit is added");
     v(&SweepFigure::y_label, "y_label", unit::none, "what y is; the unit is added");
+    v(&SweepFigure::scale, "scale", unit::none, "axes that are logarithmic");
   }
   std::vector<Complaint> complaints() const;
 };

@@ -63,6 +63,7 @@ struct TuneConfig {
   TuneReference reference;
   std::vector<double> wanted{5, 2, 1, 0.5, 0.2};
   std::string title;
+  FigureStyle figure_style;
   std::vector<GatherAxis> axes;
   std::vector<GatherMember> members;
   static void fields(auto& v) {
@@ -70,6 +71,7 @@ struct TuneConfig {
     v(&TuneConfig::reference, "reference", unit::none, "what counts as right", required);
     v(&TuneConfig::wanted, "wanted", unit::none, "errors in percent for which the cheapest level is told");
     v(&TuneConfig::title, "title", unit::none, "above the pictures");
+    v(&TuneConfig::figure_style, "figure_style", unit::none, "how the pictures are made");
     v(&TuneConfig::axes, "axes", unit::none, "what tells the levels apart; written by plan");
     v(&TuneConfig::members, "members", unit::none, "one per file, in the same order; written by plan");
   }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/stopwatch.hpp"
+#include "plot/figure_style.hpp"
 #include "plot/gnuplot.hpp"
 #include "solve/forecast.hpp"
 #include "support/indentation.hpp"
@@ -102,8 +103,8 @@ void measure_growth(const Material& skin) {
                                {"growth.csv", "dofs", "forecast_MB", "forecast", true}}}}) {
     Plot plot;
     plot.x_label = "free degrees of freedom", plot.y_label = label, plot.lines = lines;
-    plot.logarithmic = true;
-    std::ofstream(std::string(name) + ".gp") << gnuplot_script(plot, name);
+    plot.scale = AxisScale::log;
+    std::ofstream(std::string(name) + ".gp") << gnuplot_script(plot, name, FigureStyle());
     if (const std::string wrong = run_gnuplot(".", std::string(name) + ".gp"); !wrong.empty()) fmt::print("  {}\n", wrong);
   }
 }

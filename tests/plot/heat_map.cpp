@@ -44,7 +44,7 @@ TEST_CASE("A heat map has one cell per value: red above zero, blue below, grey w
   CHECK(cells[3].fill.r == cells[3].fill.g);
   CHECK(top(cells[0]) < top(cells[2]));
   const auto labels = marks_of<Label>(d);
-  for (const char* text : {"correlation", "a", "b", "1", "-0.5", "0", "–"}) CHECK(label(labels, text) != nullptr);
+  for (const char* text : {"correlation", "a", "b", "1", "-0.50", "0", "–"}) CHECK(label(labels, text) != nullptr);
   map.first_row_on_top = false;
   const auto turned = marks_of<Patch>(heat_map(map));
   CHECK(top(turned[0]) > top(turned[2]));

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/rigid.hpp"
 #include "element/surface.hpp"
+#include "mesh/section.hpp"
 #include "mesh/select.hpp"
+#include "post/energy.hpp"
 #include "support/block.hpp"
 
 using namespace langer;
@@ -60,4 +63,74 @@ TEST_CASE("friction is in the traction and not in the pressure, and what does no
   CHECK(state.pressure[slips] == doctest::Approx(Pressed::pressure).epsilon(1e-12));
   CHECK(state.area == doctest::Approx(p.areas.sum() - p.areas[p.top[0]]).epsilon(1e-12));
   CHECK(state.pressure[static_cast<std::size_t>(p.mesh.node_sets.at("y_min")[0])] == 0);
+}
+
+TEST_CASE("on a section the area is that of the whole circle, pressed and stretched") {
+  Mesh mesh = test::block({0, 0.5, 1.25, 2}, {0, 1, 2}, {0, 1});
+  make_section(mesh, {SectionOf::axisymmetric, 1e-3});
+  const int front = n_front(mesh);
+  std::vector<int> top;
+  std::vector<Vec3> u;
+  for (std::size_t i = 0; i < mesh.X.size(); ++i) {
+    if (static_cast<int>(i) < front && std::abs(mesh.X[i][1] - 2) < 1e-12) top.push_back(static_cast<int>(i));
+    u.push_back(Vec3(0.2 * mesh.X[i][0], -0.1, 0.2 * mesh.X[i][2]));
+  }
+  REQUIRE(top.size() == 4);
+  const double stretch = 1.2, pressure = 0.3;
+  ContactRecord contact;
+  for (const int node : top) {  // integral over the circle of N_a 2 pi r dr, linear N_a
+    double area = 0;
+    for (const int other : top) {
+      const double a = stretch * mesh.X[static_cast<std::size_t>(node)][0],
+                   b = stretch * mesh.X[static_cast<std::size_t>(other)][0];
+      bool between = false;
+      for (const int third : top) {
+        const double c = stretch * mesh.X[static_cast<std::size_t>(third)][0];
+        between = between || (c > std::min(a, b) && c < std::max(a, b));
+      }
+      if (other != node && !between) area += 2 * std::numbers::pi * std::abs(b - a) * (a / 3 + b / 6);
+    }
+    contact.r.push_back(Vec3(0, -pressure * area, 0)), contact.status.push_back(1), contact.gap.push_back(0);
+  }
+  const ContactPerArea state = ContactSurface(mesh, top).at(u, contact);
+  CHECK(state.area == doctest::Approx(std::numbers::pi * std::pow(stretch * 2, 2)).epsilon(1e-9));
+  for (const int node : top) CHECK(state.pressure[static_cast<std::size_t>(node)] == doctest::Approx(pressure).epsilon(1e-9));
+}
+
+TEST_CASE("what indenters do to a node: pressure, friction, status and slip of the one that presses most") {
+  Pressed p;
+  for (std::size_t i = 0; i < p.top.size(); ++i) p.contact.r[i] += Vec3(0.1 * p.areas[p.top[i]], 0, 0);
+  p.contact.status[1] = 2;
+  const ContactPerArea state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
+  std::vector<double> slip(p.top.size(), 0.0);
+  slip[1] = 0.25;
+  std::vector<ContactNode> nodes(p.mesh.X.size());
+  add_contact_nodes(nodes, p.top, state, p.contact, slip);
+  const ContactNode &slips = nodes[static_cast<std::size_t>(p.top[1])], &sticks = nodes[static_cast<std::size_t>(p.top[2])];
+  CHECK(slips.pressure == doctest::Approx(Pressed::pressure).epsilon(1e-12));
+  CHECK(slips.friction == doctest::Approx(0.1).epsilon(1e-9));
+  CHECK(slips.status == 2);
+  CHECK(slips.slip == 0.25);
+  CHECK(sticks.status == 1);
+  CHECK(sticks.slip == 0);
+  CHECK(nodes[static_cast<std::size_t>(p.mesh.node_sets.at("y_min")[0])].status == -1);
+}
+
+TEST_CASE("slip is the way along the indenter while it touches, there and back, and nothing of the way along its normal") {
+  const Pressed p;
+  const Plane plane{{0, 2, 0}, {0, -1, 0}};
+  RigidContact flat{"flat", plane, 0.3, p.top, {{0, Vec3::Zero()}, {1, Vec3(0.5, 0, 0)}}};
+  EnergyPath path(p.mesh, {flat});
+  // it moves by 0.5 t along x; the body by +0.3 along x and up and down, then stays: slip 0.2 - 0.3 = 0.1 there, then 0.3
+  const auto state = [&](double t, const Vec3& u, double force) {
+    std::vector<Vec3> moved(p.mesh.X.size(), u), r(p.top.size(), Vec3(0, -force, 0));
+    return EnergyPath::State{t, moved, std::vector<Vec3>(p.mesh.X.size(), Vec3::Zero()), {r}, 0};
+  };
+  path.add(state(0, Vec3::Zero(), 0));
+  path.add(state(0.2, Vec3(0.7, 0, 0), 1));  // comes to the body: not known, and not counted
+  for (const double s : path.slip(0)) CHECK(s == 0);
+  path.add(state(0.6, Vec3(1.0, 0.4, 0), 1));
+  for (const double s : path.slip(0)) CHECK(s == doctest::Approx(0.1).epsilon(1e-12));
+  path.add(state(1, Vec3(1.0, 0.1, 0), 1));
+  for (const double s : path.slip(0)) CHECK(s == doctest::Approx(0.3).epsilon(1e-12));
 }

@@ -143,6 +143,8 @@ TEST_CASE("a column has the dimension that its unit says") {
   for (Vec3& u : scaled.state.u) u *= length;
   for (Vec3& r : scaled.state.reaction) r *= force;
   s.state.u_ind = Vec3(0.1, -0.4, 0.2), scaled.state.u_ind = length * s.state.u_ind;
+  s.state.contact.assign(s.mesh.X.size(), {0.2, 0.05, 0.01, 2});
+  scaled.state.contact.assign(s.mesh.X.size(), {stress * 0.2, stress * 0.05, length * 0.01, 2});
   s.state.force_ind = Vec3(0.3, 2, -0.1), scaled.state.force_ind = force * s.state.force_ind;
   s.state.sums = {0.6, 1.5, 0.2, 0.01, 0.4, 0.7, 0.8};
   scaled.state.sums = {length * 0.6, length * force * 1.5, length * force * 0.2, 0.01, length * force * 0.4, 0.7, force * 0.8};

@@ -9,6 +9,7 @@
 
 #include "contact/rigid.hpp"
 #include "plot/drawing.hpp"
+#include "plot/figure_style.hpp"
 #include "plot/gnuplot.hpp"
 #include "post/figure.hpp"
 #include "post/map.hpp"
@@ -185,11 +186,11 @@ TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break ou
   Drawing drawing{100, 50, {}};
   drawing.marks = {Patch{{{0, 0}, {10, 0}, {10, 10}}, Colour{1, 0, 0}}, Stroke{{{0, 0}, {10, 0}}, Colour{}},
                    Label{{5, 5}, "a <b> & 'c'\n`touch broken` \"d\"", 12}};
-  const std::string s = svg(drawing);
+  const std::string s = svg(drawing, FigureStyle());
   CHECK(count(s, "<polygon") == 1);
   CHECK(count(s, "<polyline") == 1);
   CHECK(s.find("a &lt;b&gt; &amp; 'c' `touch broken`") != std::string::npos);
-  const std::string script = gnuplot_script(drawing, "p");
+  const std::string script = gnuplot_script(drawing, "p", FigureStyle());
   CHECK(count(script, "0.00 50.00 16711680\n10.00 50.00 16711680\n10.00 40.00 16711680\n\n") == 1);  // the patch, y upwards, red
   CHECK(count(script, ".50 0\n") == 4);  // the stroke as a black rectangle
   CHECK(count(script, "\n\n") == 2);
@@ -206,12 +207,12 @@ TEST_CASE("labels of quantities have subscripts in both pictures, other labels s
   Drawing drawing{100, 50, {}};
   drawing.marks = {Label{{5, 5}, "stress σ_{xx} (mm^2, a\\_b) < u_y", 20, Label::Anchor::end, true},
                    Label{{5, 25}, "my_file_{x}", 12}};
-  const std::string s = svg(drawing);
+  const std::string s = svg(drawing, FigureStyle());
   CHECK(s.find(">stress σ<tspan dy=\"5.00\" font-size=\"14.00\">xx</tspan><tspan dy=\"-5.00\" font-size=\"20.00\"> (mm</tspan>"
                "<tspan dy=\"-5.00\" font-size=\"14.00\">2</tspan><tspan dy=\"5.00\" font-size=\"20.00\">, a_b) &lt; u</tspan>"
                "<tspan dy=\"5.00\" font-size=\"14.00\">y</tspan></text>") != std::string::npos);
   CHECK(s.find(">my_file_{x}</text>") != std::string::npos);
-  const std::string script = gnuplot_script(drawing, "p");
+  const std::string script = gnuplot_script(drawing, "p", FigureStyle());
   CHECK(script.find("right front enhanced") != std::string::npos);
   CHECK(script.find("set label 'my_file_{x}' at 5.00,29.20 left front noenhanced") != std::string::npos);
 }
@@ -232,7 +233,7 @@ TEST_CASE("a figure takes its columns by name, labels carry units, legends are t
   CHECK(plot.x_label == "indenter travel (mm)");
   CHECK(plot.y_label == "displacement u_y (mm)");
   CHECK(plot.lines[1].y == "u_y_B_mm");
-  CHECK(plot.lines[1].legend == "u\\_y\\_B");
+  CHECK(plot.lines[1].legend == "displacement u_y at B");
   figure.legends = {"A", "B"};
   figure.y_label = "swelling";
   plot = plot_of(figure, columns, "curves.csv", head);
@@ -253,11 +254,11 @@ TEST_CASE("a column whose error stands beside it has a band in its figure") {
   figure.x = "u_ind", figure.y = {"force"};
   const Plot with = plot_of(figure, columns, "c.csv", csv_name);
   CHECK(with.lines.at(0).error == "force_error_N");
-  CHECK(gnuplot_script(with, "f").find("(column('force_N')-column('force_error_N'))") != std::string::npos);
+  CHECK(gnuplot_script(with, "f", FigureStyle()).find("(column('force_N')-column('force_error_N'))") != std::string::npos);
   columns.pop_back();
   const Plot without = plot_of(figure, columns, "c.csv", csv_name);
   CHECK(without.lines.at(0).error.empty());
-  CHECK(gnuplot_script(without, "f").find("filledcurves") == std::string::npos);
+  CHECK(gnuplot_script(without, "f", FigureStyle()).find("filledcurves") == std::string::npos);
 }
 
 TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, and so is its absence") {
@@ -265,14 +266,14 @@ TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, an
   write(where + "/curves.csv", "t,u_mm,force_N\n0,0,0\n1,0.5,2\n2,1,8\n");
   Plot plot{
       "Force `touch broken`", "u (mm)", "F (N)", {{"curves.csv", "u_mm", "force_N", "it's"}, {"curves.csv", "u_mm", "t", "t"}}};
-  write(where + "/f.gp", gnuplot_script(plot, "f"));
+  write(where + "/f.gp", gnuplot_script(plot, "f", FigureStyle()));
   if (has_gnuplot()) {
     CHECK(run_gnuplot(where, "f.gp") == "");
     CHECK(text_of(where + "/f.svg").find("</svg>") != std::string::npos);
     CHECK(text_of(where + "/f.png").starts_with("\x89PNG"));
     CHECK_FALSE(std::filesystem::exists(where + "/broken"));
     for (PlotLine& line : plot.lines) line.csv = "missing.csv";
-    write(where + "/g.gp", gnuplot_script(plot, "g"));
+    write(where + "/g.gp", gnuplot_script(plot, "g", FigureStyle()));
     const std::string complaint = run_gnuplot(where, "g.gp");
     INFO(complaint);
     CHECK(complaint.starts_with("gnuplot: "));
@@ -290,7 +291,7 @@ TEST_CASE("names of files that gnuplot would take for a pipe, a stream or a bloc
   for (const std::string name : {"<touch run #", "|touch run #", "-", "$data", "+", "--help", "'x"}) {
     CAPTURE(name);
     write(where + "/" + name + ".csv", "t,u_mm\n0,0\n1,0.5\n");
-    write(where + "/" + name + ".gp", gnuplot_script(Plot{"", "t", "u", {{name + ".csv", "t", "u_mm", "u"}}}, name));
+    write(where + "/" + name + ".gp", gnuplot_script(Plot{"", "t", "u", {{name + ".csv", "t", "u_mm", "u"}}}, name, FigureStyle()));
     if (!has_gnuplot()) continue;
     CHECK(run_gnuplot(where, name + ".gp") == "");
     CHECK(text_of(where + "/" + name + ".svg").find("</svg>") != std::string::npos);

@@ -156,7 +156,7 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     fs::create_directories(folder);
     StudyConfig config = s.config;
     config.figures = true;
-    const auto said = write_study_files(s.record, config, folder);
+    const auto said = write_study_files(s.record, config, {}, folder);
     const std::string identifiability = text_of(folder + "/identifiability.csv"), advice = text_of(folder + "/advice.csv");
     CHECK(identifiability.starts_with("parameter,value,standard_error,relative_percent,profile_low,profile_high,"));
     CHECK(std::count(identifiability.begin(), identifiability.end(), '\n') == 4);
@@ -179,7 +179,7 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     fs::remove_all(folder);
     fs::create_directories(folder);
     config.figures = false;
-    write_study_files(s.record, config, folder);
+    write_study_files(s.record, config, {}, folder);
     CHECK(fs::exists(folder + "/advice.csv"));
     CHECK(!fs::exists(folder + "/correlation.svg"));
   }

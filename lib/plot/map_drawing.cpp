@@ -1,18 +1,18 @@
 // Panels, bands, marks and the colour bar of maps.
+#include "plot/map_drawing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "plot/gnuplot.hpp"
-#include "post/figure.hpp"
-#include "post/map.hpp"
+#include "plot/units.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double bar_room = 178, gap = 16, left_room = 62, bottom_room = 44;
+constexpr double gap = 16, left_room = 62, bottom_room = 44;
 constexpr int wished_bands = 14, parts = 3;  // of a facet's side, where bands end in it
 const Colour ink{0.13, 0.13, 0.13};
 
@@ -40,6 +40,8 @@ Polygon part_of(const Polygon& polygon, auto&& f) {
 struct Scale {
   std::vector<double> levels;
   bool is_signed = false, below = false, beyond = false;  // values outside the levels
+  ColourMap colours = ColourMap::violet_yellow;
+  SignedColours signed_colours = SignedColours::blue_red;
   int band(double value) const { return static_cast<int>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin()); }
   Colour colour(int band) const {
     const int last = static_cast<int>(levels.size());
@@ -47,8 +49,8 @@ struct Scale {
     const double middle = band == 0      ? levels.front() - 0.5 * step
                           : band == last ? levels.back() + 0.5 * step
                                          : 0.5 * (levels[band - 1] + levels[band]);
-    if (!is_signed) return scale_colour((middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step));
-    return signed_colour(middle / (std::max(std::abs(levels.front()), std::abs(levels.back())) + step));
+    if (!is_signed) return scale_colour((middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step), colours);
+    return signed_colour(middle / (std::max(std::abs(levels.front()), std::abs(levels.back())) + step), signed_colours);
   }
 };
 
@@ -227,7 +229,8 @@ class Painter {
   }
 };
 
-void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& label, double x, double top, double height) {
+void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& label, double x, double top, double height,
+                    double room) {
   const double width = 20, tip = 16;
   const std::size_t n = scale.levels.size() - 1;
   const auto y = [&](double level) {
@@ -262,25 +265,34 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
     if (std::abs(std::remainder(std::round(scale.levels[i] / (scale.levels[1] - scale.levels[0])), double(every))) < 0.5)
       drawing.marks.push_back(Label{{x + width + 8, at + 4.4}, texts[i], 12});
   }
-  drawing.marks.push_back(Label{{drawing.width - 10, top - tip - 14}, label, 13, Label::Anchor::end, true});
+  add_lines_above(drawing, {drawing.width - 10, top - tip - 14}, label, 13, room);
 }
 
 }  // namespace
 
-Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns) {
+std::vector<Complaint> MapStyle::complaints() const {
+  if (!range || (*range)[0] < (*range)[1]) return {};
+  return {{"range", "its ends are not ascending", "[low, high]", ""}};
+}
+
+Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns, const Look& look) {
   const Window window = window_of(panels, style);
-  const Scale scale = scale_of(panels, style, window);
+  Scale scale = scale_of(panels, style, window);
+  scale.colours = look.colours, scale.signed_colours = look.signed_colours;
   const int n = static_cast<int>(panels.size());
   columns = std::clamp(columns, 1, n);
   const int rows = (n + columns - 1) / columns;
   const bool titled = std::any_of(panels.begin(), panels.end(), [](const MapPanel& p) { return !p.title.empty(); });
-  const double width = columns == 1 ? 460 : columns == 2 ? 340 : 260;  // of a panel
+  const double bar_room = look.width && *look.width < 500 ? 110 : 178;
+  const double liked = columns == 1 ? 460 : columns == 2 ? 340 : 260;  // width of a panel
+  const double width = look.width ? std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns) : liked;
   const double k = width / (window.x_high - window.x_low), height = k * (window.z_high - window.z_low);
-  const double panel_title = titled ? 24 : 8, title_room = style.title.empty() ? 8 : 38;
+  const double panel_title = titled ? 24 : 8, title_room = style.title.empty() || !look.titles ? 8 : 38;
 
   Drawing drawing;
   drawing.width = std::round(left_room + columns * width + (columns - 1) * gap + bar_room);
-  drawing.height = std::round(title_room + rows * (height + panel_title) + bottom_room);
+  drawing.height =
+      std::round(title_room + std::max(190.0, rows * (height + panel_title)) + bottom_room);  // the colour bar needs that
   for (int i = 0; i < n; ++i) {
     const int row = i / columns, column = i % columns;
     const double left = left_room + column * (width + gap), top = title_room + row * (height + panel_title) + panel_title;
@@ -294,13 +306,15 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
     if (!panels[i].title.empty())
       drawing.marks.push_back(Label{{left + width / 2, top - 7}, panels[i].title, 14, Label::Anchor::middle});
   }
-  const double bar = std::min(360.0, drawing.height - title_room - bottom_room - 60);
+  const double words = look.width ? 36 : 0;  // its label takes more than one line on a narrow page
+  const double bar = std::min(360.0, drawing.height - title_room - bottom_room - 60 - words);
   const double free = drawing.height - title_room - bottom_room - bar;
   const SurfaceMap& first = *panels.front().map;
-  add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20, title_room + free / 2 + 14,
-                 bar);
-  if (!style.title.empty())
-    drawing.marks.push_back(Label{{(drawing.width - bar_room) / 2, 24}, style.title, 16, Label::Anchor::middle});
+  add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20,
+                 title_room + (free + words) / 2 + 14, bar, look.width ? bar_room - 10 : drawing.width);
+  if (title_room > 8)
+    drawing.marks.push_back(
+        Label{{(drawing.width - bar_room) / 2, 24}, style.title, 16, Label::Anchor::middle, false, false, 0, true});
   return drawing;
 }
 
