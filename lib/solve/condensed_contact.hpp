@@ -22,6 +22,7 @@ struct Condensed {
   bool follows = false;          // some E is not 0
   VecX along;                    // under force control: of its candidates its direction, of others 0; else empty
   std::vector<Mat3> springs;     // their part of E, where there are any
+  VecX start_moves;              // under force control: what slip is measured from, per travel; empty without friction
   MatX slipping(MatX M) const {  // T times the rows of each contact
     for (std::size_t p = 0; p < T.size(); ++p) {
       const auto row = 3 * static_cast<Eigen::Index>(p);

@@ -45,7 +45,7 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
 
 Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near) {
   const auto m = static_cast<Eigen::Index>(near.size()), n_last = static_cast<Eigen::Index>(factor.last().size());
-  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}, false, {}, {}};
+  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}, false, {}, {}, {}};
   const auto node_of = [&](const Near& n) { return state.contacts[n.contact].nodes[n.candidate]; };
   std::vector<int> sharing(factor.last().size(), 0);  // candidates of several contacts share a node's springs
   for (Eigen::Index p = 0; p < m; ++p)
@@ -71,9 +71,15 @@ Condensed condensed(const ContactState& state, const TangentFactor& factor, cons
   out.W = factor.linear().compliance(out.B);
   if (state.controlled < 0) return out;
   out.along = VecX::Zero(3 * m);
-  for (Eigen::Index p = 0; p < m; ++p)
-    if (static_cast<int>(near[p].contact) == state.controlled)
-      out.along.segment<3>(3 * p) = near[p].law.frame.transpose() * state.contacts[near[p].contact].control->along;
+  if (!state.start_moves.empty()) out.start_moves = VecX::Zero(3 * m);
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const Near& n = near[p];
+    if (static_cast<int>(n.contact) != state.controlled) continue;
+    out.along.segment<3>(3 * p) = n.law.frame.transpose() * state.contacts[n.contact].control->along;
+    if (state.start_moves.empty()) continue;
+    out.start_moves.segment<3>(3 * p) = n.law.frame.transpose() * state.start_moves[n.candidate];
+    out.start_moves[3 * p] = 0;  // the gap knows no start
+  }
   return out;
 }
 
@@ -115,15 +121,16 @@ class Law {
   Answer at(double travel, const VecX& r) const {
     const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along) : c_.move;  // of the nodes past the indenter
     const VecX b = without_change(travel, move);
+    const VecX q = c_.start_moves.size() > 0 ? VecX(c_.q - travel * c_.start_moves) : c_.q;
     Answer answer{VecX(c_.move.size()), r};
     if (direct_) {
-      take(solve_local({slipping_, c_.q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
+      take(solve_local({slipping_, q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
       if (!c_.follows) answer.s = answer.r - c_.present;
       if (answer.solved && c_.follows) answer.s = lu_.solve(answer.r - b);
       if (answer.solved || !c_.follows) return answer;
     }
     answer.s = VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
-    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, c_.q + c_.slipping(move), b, c_.mu}, answer.s);
+    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, q + c_.slipping(move), b, c_.mu}, answer.s);
     answer.r = b + A_ * answer.s;
     for (std::size_t p = 0; p < c_.E.size(); ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
       if (local.status[p] == ContactStatus::open) answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();

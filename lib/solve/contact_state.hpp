@@ -20,8 +20,9 @@ struct ContactState {
   const Reactions& r;
   // of the contact under force control, if there is one
   int controlled = -1;
-  double force = 0;              // sum of its reactions along its direction [N]
-  const Bonds* bonds = nullptr;  // of indenters that adhere
+  double force = 0;                    // sum of its reactions along its direction [N]
+  std::vector<Vec3> start_moves = {};  // by candidate: what its slip is measured from, per travel; empty without friction
+  const Bonds* bonds = nullptr;        // of indenters that adhere
 };
 
 }  // namespace langer

@@ -114,8 +114,9 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       const Stopwatch watch(cost_.contact);
       const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
       const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, &bonds_},
-                                  factor_, half.last);
+      change = linearised_contact(
+          {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, start_moves(), &bonds_}, factor_,
+          half.last);
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;

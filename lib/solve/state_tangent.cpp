@@ -48,8 +48,9 @@ void StateTangent::take_candidates() {
   }
   if (near_.empty()) return;
   const std::vector<Vec3> c(statics_.contacts_.size(), Vec3::Zero());
-  c_ = condensed({statics_.contacts_, X, now.u, statics_.u_start_, c, c, now.r, pushed_ ? statics_.controlled_ : -1}, factor_,
-                 near_);
+  ContactState state{statics_.contacts_, X, now.u, statics_.u_start_, c, c, now.r, pushed_ ? statics_.controlled_ : -1};
+  if (pushed_ && statics_.starts_with_travel()) state.start_moves = start_moves();
+  c_ = condensed(state, factor_, near_);
 }
 
 // The law of one candidate, each row of the size of a compliance.
@@ -98,6 +99,7 @@ void StateTangent::take_rows() {
     const Vec3 along = c_.along.segment<3>(3 * p);
     const Mat3 springs = c_.springs.empty() ? Mat3(Mat3::Zero()) : c_.springs[q];
     M.block<3, 1>(3 * p, 3 * m) = (rows.r * (c_.E[q] - springs) - rows.x * c_.T[q]) * along;
+    if (c_.start_moves.size() > 0) M.block<3, 1>(3 * p, 3 * m) -= rows.x * c_.start_moves.segment<3>(3 * p);
     M.row(3 * m).segment<3>(3 * p) += typical * along.transpose();
     M.row(3 * m).head(3 * m) -= typical * (along.transpose() * springs) * c_.W.middleRows<3>(3 * p);
   }
@@ -118,38 +120,40 @@ VecX StateTangent::local_of(const VecX& last) const {
   return d;
 }
 
-// Of the state that the increment began with to where it was expected to end, and the slip is measured from between them.
+// What the start of a candidate's slip is found from: the state that the increment began with, and where its movement was expected to end.
+Approach StateTangent::approach(const RigidContact& contact, int node) const {
+  const BodyState &now = statics_.now_, &was = statics_.before_;
+  const Vec3 u0 = was.u.segment<3>(3 * node), u = u0 + statics_.extrapolated_ * (u0 - earlier_.u.segment<3>(3 * node));
+  return {statics_.equilibrium_.mesh().X[node],
+          u0,
+          u,
+          indenter_displacement(contact, was.t, was.travel),
+          indenter_displacement(contact, now.t, now.travel),
+          contact.rotation ? contact.rotation->angle.at(now.t) - contact.rotation->angle.at(was.t) : 0};
+}
+
+std::vector<Vec3> StateTangent::start_moves() const {
+  std::vector<Vec3> out;
+  const RigidContact& contact = *statics_.controlled();
+  const Vec3 none = Vec3::Zero();
+  for (int node : contact.nodes)
+    out.push_back(change_of_slips_from(contact, approach(contact, node), {none, none, none, none, contact.control->along},
+                                       statics_.options_.gap_tolerance));
+  return out;
+}
+
+// Of the two states before; an indenter's travel in this increment is an unknown of its own.
 std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, const StateDerivative& earlier) const {
   std::vector<Vec3> out(near_.size(), Vec3::Zero());
-  const BodyState& was = statics_.before_;
-  const double s = statics_.begun_.extrapolated, travel = statics_.begun_.travel;
-  const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
-  const auto expected = [s](const auto& now, const auto& then) { return now + s * (now - then); };
-  double d_travel = expected(before.travel, earlier.travel);
-  if (statics_.begun_.at_touch) {
-    const auto at = [&](const VecX& now, const VecX& then) {
-      return
-          [&, s](int node) { return Vec3(now.segment<3>(3 * node) + s * (now.segment<3>(3 * node) - then.segment<3>(3 * node))); };
-    };
-    const auto moved = at(before.u, earlier.u), u = at(was.u, earlier_.u);
-    d_travel = change_of_touch(
-        *statics_.controlled(), statics_.now_.t, travel, [&](int node) { return Vec3(X[node] + u(node)); }, moved);
-  }
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const RigidContact& contact = statics_.contacts_[n.contact];
     if (contact.mu == 0 || status_[p] == ContactStatus::open) continue;
-    const auto at = 3 * contact.nodes[n.candidate];
-    const Vec3 along = contact.control ? contact.control->along : Vec3(Vec3::Zero());
-    const Approach a{X[contact.nodes[n.candidate]],
-                     was.u.segment<3>(at),
-                     expected(Vec3(was.u.segment<3>(at)), Vec3(earlier_.u.segment<3>(at))),
-                     indenter_displacement(contact, was.t, was.travel),
-                     indenter_displacement(contact, statics_.now_.t, travel),
-                     contact.rotation ? contact.rotation->angle.at(statics_.now_.t) - contact.rotation->angle.at(was.t) : 0};
-    const Approach d{Vec3::Zero(), before.u.segment<3>(at), expected(Vec3(before.u.segment<3>(at)), Vec3(earlier.u.segment<3>(at))),
-                     before.travel * along, d_travel * along};
-    const Vec3 from = change_of_slips_from(contact, a, d, statics_.options_.gap_tolerance) - d.c0;
+    const int node = contact.nodes[n.candidate];
+    const Vec3 d_u0 = before.u.segment<3>(3 * node), d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
+    const Vec3 d_c0 = contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
+    const Approach d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
+    const Vec3 from = change_of_slips_from(contact, approach(contact, node), d, statics_.options_.gap_tolerance) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }

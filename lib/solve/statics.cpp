@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/stopwatch.hpp"
-#include "contact/touch.hpp"
 #include "linear/krylov.hpp"
 #include "mesh/reference.hpp"
 
@@ -54,7 +53,7 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
 }
 
 void Statics::begin(double t) {
-  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false, begun_ = {};
+  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false, extrapolated_ = 0;
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
@@ -68,14 +67,13 @@ void Statics::begin(double t) {
   if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
-  begun_.travel = travel_;
+  if (starts_with_travel()) expected_ = u_;
 }
 
 // Behind a kink of what moves nodes the last movement says nothing.
 bool Statics::goes_on() const {
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
     if (!p.in_proportion() && !p.goes_on(before_.t, now_.t, t_)) return false;
-  if (controlled_ >= 0 && !controlled()->control->force.goes_on(before_.t, now_.t, t_)) return false;
   for (const RigidContact& contact : contacts_)
     if (contact.rotation && !contact.rotation->angle.goes_on(before_.t, now_.t, t_)) return false;
   return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
@@ -85,7 +83,7 @@ void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
-  u_ += step, begun_.extrapolated = s;
+  u_ += step, extrapolated_ = s;
   travel_ += s * (now_.travel - before_.travel);
 }
 
@@ -100,20 +98,42 @@ void Statics::bring_to_touch() {
   const auto k = static_cast<std::size_t>(controlled_);
   if (std::any_of(r_[k].begin(), r_[k].end(), [](const Vec3& r) { return !r.isZero(0); })) return;
   const auto position = [&](int node) { return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node)); };
-  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch, begun_.at_touch = true;
+  if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch;
 }
 
 void Statics::slip_from_touch() {
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const RigidContact& contact = contacts_[k];
-    if (contact.mu == 0) continue;
-    const Vec3 c = indenter_displacement(contact, t_, travel_), c0 = indenter_displacement(contact, now_.t, now_.travel);
-    const double angle = contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0;
-    for (int node : contact.nodes)
-      u_start_[k].segment<3>(3 * node) =
-          slips_from(contact, {equilibrium_.mesh().X[node], now_.u.segment<3>(3 * node), u_.segment<3>(3 * node), c0, c, angle},
-                     options_.gap_tolerance);
-  }
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (contacts_[k].mu > 0) slip_from_touch(k, u_);
+}
+
+void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
+  for (int node : contacts_[k].nodes)
+    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], approach(k, node, expected), options_.gap_tolerance);
+}
+
+Approach Statics::approach(std::size_t k, int node, const VecX& expected) const {
+  const RigidContact& contact = contacts_[k];
+  return {equilibrium_.mesh().X[node],
+          now_.u.segment<3>(3 * node),
+          expected.segment<3>(3 * node),
+          indenter_displacement(contact, now_.t, now_.travel),
+          indenter_displacement(contact, t_, travel_),
+          contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0};
+}
+
+// A node slips from where the way of the indenter has it touch. Where that way is an unknown, the start of the slip follows it: then a
+// pushed indenter and a moved one that go the same way have the same slip.
+bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled()->mu > 0; }
+
+std::vector<Vec3> Statics::start_moves() const {
+  std::vector<Vec3> out;
+  if (!starts_with_travel()) return out;
+  const auto k = static_cast<std::size_t>(controlled_);
+  const Vec3 none = Vec3::Zero();
+  for (int node : controlled()->nodes)
+    out.push_back(change_of_slips_from(*controlled(), approach(k, node, expected_),
+                                       {none, none, none, none, controlled()->control->along}, options_.gap_tolerance));
+  return out;
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }
@@ -272,6 +292,7 @@ void Statics::moved(const VecX& du, double step) {
     }
   }
   if (controlled_ >= 0) travel_ += step * travel_next_;
+  if (starts_with_travel()) slip_from_touch(static_cast<std::size_t>(controlled_), expected_);
 }
 
 Problem Statics::problem() {

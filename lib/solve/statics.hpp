@@ -13,6 +13,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
+#include "contact/touch.hpp"
 #include "nonlinear/free_balance.hpp"
 #include "nonlinear/newton.hpp"
 #include "solve/bonds.hpp"
@@ -98,6 +99,10 @@ class Statics {
   bool goes_on() const;        // imposed displacements, as in the last increment
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
+  void slip_from_touch(std::size_t k, const VecX& expected);
+  Approach approach(std::size_t k, int node, const VecX& expected) const;
+  bool starts_with_travel() const;        // the slip of an indenter under force control
+  std::vector<Vec3> start_moves() const;  // by its candidate, what the slip is measured from, per travel
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
   bool contact_law_holds(const VecX& u) const;
@@ -136,11 +141,8 @@ class Statics {
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;
-  struct {
-    double extrapolated = 0;  // of the movement of the last increment, with which this one was begun
-    double travel = 0;        // [mm]
-    bool at_touch = false;    // where the indenter under force control was brought
-  } begun_;
+  double extrapolated_ = 0;              // of the movement of the last increment, with which this one was begun
+  VecX expected_;                        // u that it was begun with, where the start of slip follows the travel
   int controlled_ = -1;                  // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
