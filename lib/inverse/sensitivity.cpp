@@ -8,6 +8,7 @@
 
 #include "run/step_forces.hpp"
 #include "run/step_record.hpp"
+#include "scene/torque.hpp"
 
 namespace langer {
 
@@ -238,6 +239,12 @@ void Sensitivity::write(StepRecord& whole) const {
       for (int node : run_.mesh.node_sets.at(set)) sum += d.reaction[static_cast<std::size_t>(node)];
       for (int k = 0; k < 3; ++k) scalars[derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p)] = sum[k];
     }
+    for (const auto& [torque, value] : torque_derivatives(whole, d, run_.mesh, run_.scene))
+      scalars[derivative_name(torque + "_N_mm", p)] = value;
+    for (const auto& [name, nodes] : run_.mesh.node_sets)  // what forces and pressures move
+      for (int k = 0; k < 3 && nodes.size() == 1 && !run_.scene.loads.empty(); ++k)
+        scalars[derivative_name("u_" + std::string(1, "xyz"[k]) + "_" + name + "_mm", p)] =
+            d.u[static_cast<std::size_t>(nodes[0])][k];
   }
 }
 

@@ -114,6 +114,8 @@ namespace {
 std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
   if (word == "energy") return "d_energy_N_mm_d_";
   if (word == "force" || word == "force_x" || word == "force_y" || word == "force_z") return "d_" + std::string(word) + "_N_d_";
+  if (word.starts_with("torque_")) return "d_" + std::string(word) + "_N_mm_d_";
+  if (word.starts_with("u_") && c.at) return "d_" + std::string(word) + "_" + *c.at + "_mm_d_";
   if (word.starts_with("reaction_") && c.at) return "d_reaction_" + *c.at + "_" + word.back() + "_N_d_";
   return "";
 }

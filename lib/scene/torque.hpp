@@ -11,6 +11,10 @@ namespace langer {
 // whole: of the whole body, with travels of pushed indenters
 void tell_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene);
 
+// Of torque_<name> by name, where displacements, reactions and an indenter's travel change by those of `derivative`.
+std::map<std::string, double> torque_derivatives(const StepRecord& whole, const StepRecord& derivative, const Mesh& mesh,
+                                                 const Scene& scene);
+
 // of the named ones, the size of each [N mm]
 std::map<std::string, double> torques_of(const StepRecord& whole, const Scene& scene);
 

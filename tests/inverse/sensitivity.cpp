@@ -160,6 +160,48 @@ TEST_CASE("derivatives of a run are those of runs: hex27, layers, a section, a h
         some, 1e-5);
 }
 
+// scalars of the last step against differences of runs
+void check_scalar(const std::string& text, const std::string& scalar, const std::string& derivative, const std::string& key,
+                  double tolerance) {
+  CAPTURE(scalar);
+  const SolveConfig config = test::config_of(text + listed({key}));
+  std::vector<Steps> found;
+  const double told = steps_of(config, &found).back().scalars.at(derivative), value = value_of(config, key), h = 3e-4 * value;
+  SolveConfig more = config, less = config;
+  change(more, key, h), change(less, key, -h);
+  const auto last = [&](const SolveConfig& other) {
+    const StepRecord end = steps_of(other).back();
+    return scalar == "apex" ? end.u[static_cast<std::size_t>(test::mesh_in(config).node_sets.at("apex")[0])][1]
+                            : end.scalars.at(scalar);
+  };
+  const double difference = (last(more) - last(less)) / (2 * h);
+  CHECK(told == doctest::Approx(difference).epsilon(tolerance));
+}
+
+TEST_CASE("derivatives of torques, of pushed indenters with friction and of what a suction lifts are those of runs") {
+  std::string disc = block("hex8", "[6, 2, 6]");
+  disc.insert(disc.find("sets: {") + 7, "disc: {of: top, within: {cylinder: {axis: y, radius: 2}}}, ");
+  check_scalar(disc + "material: " + skin + "loads: [{on: disc, rotation: {angle: 20}}]\n" + four, "torque_disc",
+               "d_torque_disc_N_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
+  check_scalar(
+      block("hex8", "[6, 2, 6]") + "material: " + skin +
+          "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: 0.2, motion: [{t: 0.5, "
+          "to: [0, -0.6, 0]}, {t: 1, to: [0, -0.6, 0]}], rotation: [{t: 0.5, to: 0}, {t: 1, to: 20}]}}\n" +
+          four,
+      "torque_ball", "d_torque_ball_N_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-3);
+  check_scalar(
+      block("hex8", "[6, 2, 6]") + "material: " + skin +
+          "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: 0.3, control: {force: "
+          "2, along: [0.4, -1, 0]}}}\n" +
+          four,
+      "travel_ball", "d_travel_ball_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-3);
+  check_scalar(
+      "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: [8, 2, 8]}}\n  points: {apex: [0, 3, 0]}\n  "
+      "sets: {hole: {of: top, within: {cylinder: {axis: y, radius: 2}}}}\nsupports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " +
+          skin + "loads: [{on: hole, pressure: -0.02}]\n" + four,
+      "apex", "d_u_y_apex_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
+}
+
 TEST_CASE("a number that breaks the symmetry of a scene takes the symmetry away, or is refused where that is named") {
   const std::string straight =
       "{matrix: {yeoh: {a1: 0.05, a2: 0.05}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 0}], volume: {quadratic: {d: 1.0e-3}}}\n";
