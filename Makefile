@@ -3,6 +3,10 @@
 #   make test                 set up, build, run every test
 #   make help                 the other targets
 PIPELINE ?= pipelines/indentation.yaml
+# a bare name is one of pipelines/
+ifneq ($(wildcard pipelines/$(PIPELINE).yaml),)
+override PIPELINE := pipelines/$(PIPELINE).yaml
+endif
 JOBS     ?= $(shell nproc)
 LAUNCH   ?=
 
@@ -176,6 +180,7 @@ clean:
 help:
 	@echo "make                          set up, build, run $(PIPELINE)"
 	@echo "make build                    set up and build the programs in $(build)/bin"
+	@echo "make PIPELINE=twist           set up, build, run pipelines/twist.yaml"
 	@echo "make plan PIPELINE=file       check a pipeline; write its configs and Makefile to $(run)"
 	@echo "make run  PIPELINE=file       ... and run what is new or changed"
 	@echo "         JOBS=4               steps at the same time"
