@@ -50,6 +50,8 @@ Key key(const Vec3& x) { return {x[0], x[1], x[2]}; }
 // where the line between them meets the plane; the same to the last digit from both ends
 Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double at) {
   if (key(b) < key(a)) return crossing(b, a, axis, at);
+  if (a[axis] == at) return a;  // faces that meet in a corner on the plane agree there
+  if (b[axis] == at) return b;
   Vec3 x = a + (at - a[axis]) / (b[axis] - a[axis]) * (b - a);
   x[axis] = at;
   return x;
@@ -75,6 +77,32 @@ void add_face(Outline& out, const std::vector<Vec3>& corners) {
   for (const Vec3& x : corners) face.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
 }
 
+void add_line(Outline& out, const std::vector<Vec3>& corners) {
+  std::vector<int>& line = out.lines.emplace_back();
+  for (const Vec3& x : corners) line.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
+}
+
+}  // namespace
+
+namespace {
+
+// Follows the sides of a cut from one of them on.
+std::vector<Vec3> chain_from(std::map<Key, Vec3>::iterator link, std::map<Key, Vec3>& next, const Vec3& begin) {
+  std::vector<Vec3> chain{begin};
+  for (; link != next.end(); link = next.find(key(chain.back()))) {
+    chain.push_back(link->second);
+    next.erase(link);
+  }
+  return chain;
+}
+
+// but for a facet or two that an STL file lacks
+bool is_closed(const std::vector<Vec3>& chain) {
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
+  return (chain.front() - chain.back()).norm() < 0.1 * length;
+}
+
 }  // namespace
 
 OpenedOutline cut_open(const Outline& outline, int axis, double at, double side) {
@@ -89,13 +117,19 @@ OpenedOutline cut_open(const Outline& outline, int axis, double at, double side)
       if (to[k] != from[k])
         next[key(to[k])] = from[k];  // else the plane goes through a corner, or the face is a strip without width
   }
-  while (!next.empty()) {  // closed lines, one after the other; an open one is closed by its chord
-    std::vector<Vec3> loop;
-    for (auto link = next.begin(); link != next.end(); link = next.find(key(loop.back()))) {
-      loop.push_back(link->second);
-      next.erase(link);
-    }
-    if (loop.size() > 2) add_face(out.cap, loop);
+  std::map<Key, Vec3> begins;  // of open lines: nothing leads there
+  for (const auto& [from, to] : next) begins.emplace(from, Vec3(std::get<0>(from), std::get<1>(from), std::get<2>(from)));
+  for (const auto& [from, to] : next) begins.erase(key(to));
+  for (const auto& [from, begin] : begins) {
+    const std::vector<Vec3> chain = chain_from(next.find(from), next, begin);
+    if (is_closed(chain))
+      add_face(out.cap, chain);
+    else
+      add_line(out.kept, chain);
+  }
+  while (!next.empty()) {
+    const std::vector<Vec3> chain = chain_from(next.begin(), next, next.begin()->second);
+    if (chain.size() > 3) add_face(out.cap, {chain.begin() + 1, chain.end()});
   }
   for (const auto& line : outline.lines) {
     std::vector<int>& copy = out.kept.lines.emplace_back();

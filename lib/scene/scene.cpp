@@ -11,7 +11,9 @@
 #include "contact/touch.hpp"
 #include "geometry/read_surface.hpp"
 #include "mesh/bounding_box.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
+#include "mesh/section.hpp"
 #include "scene/adhesion.hpp"
 #include "scene/loads.hpp"
 #include "scene/section.hpp"
@@ -266,6 +268,24 @@ void check_control(const Scene& scene, const ContactConfig& contact, const std::
                         "one indenter under force control", "others may move as told by `motion`"});
 }
 
+// A force that pushes out of the body against its far side from within would have to bring the indenter through the body first.
+void refuse_far_side(const RigidContact& rigid, const std::string& on, const Mesh& mesh, const std::string& key, const Find& where,
+                     std::vector<Error>& errors) {
+  if (!rigid.control || rigid.nodes.empty()) return;
+  bool covers = false;
+  for (const Facet& facet : surface_of(mesh, on))
+    for (const auto& quad : facet_quads(mesh, facet)) {
+      const auto X = [&](int k) { return mesh.X[static_cast<std::size_t>(quad[static_cast<std::size_t>(k)])]; };
+      const Vec3 outward = cross(X(2) - X(0), X(3) - X(1));
+      if (rigid.control->along.dot(outward) < 1e-9 * outward.norm()) return;
+      covers = true;
+    }
+  if (covers)
+    errors.push_back({where(key + ".on"), key + ".on",
+                      fmt::format("the surface of \"{}\" faces away: the force pushes out of the body there", on),
+                      "a set whose surface faces the indenter", "look at `on` and at `control.along`"});
+}
+
 // A hole that no candidate lies beyond has nothing to press on.
 void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
                       std::vector<Error>& errors) {
@@ -296,6 +316,7 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
     refuse_wide_hole(rigid, mesh, key + ".rigid.aperture", where, nodes.errors);
+    refuse_far_side(rigid, contact.on, mesh, key, where, nodes.errors);
     if (contact.adhesion) take_adhesion(rigid, contact, mesh, key, where, nodes.errors);
     const auto at_rest = [&](int node) { return mesh.X[static_cast<std::size_t>(node)]; };
     if (rigid.control && !rigid.nodes.empty() && !travel_to_touch(rigid, 0, 0, at_rest))

@@ -226,6 +226,18 @@ TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
     }
 }
 
+TEST_CASE("a plate with a hole has no end: a plane through it leaves the two lines of its profile, and no face") {
+  const Outline whole = outline(Aperture{2, 0.25, {0, 4, 0}, {0, 1, 0}}, {Vec3::Zero(), 10, 24});
+  for (double at : {0., 0.1}) {
+    const OpenedOutline cut = cut_open(whole, 2, at, -1);
+    CHECK(!cut.kept.faces.empty());
+    CHECK(cut.cap.faces.empty());
+    REQUIRE(cut.kept.lines.size() == whole.lines.size() + 2);
+    for (const auto& line : cut.kept.lines)
+      for (int p : line) CHECK(cut.kept.points[static_cast<std::size_t>(p)][2] == doctest::Approx(at));
+  }
+}
+
 TEST_CASE("outlines are closed, and what is cut off them leaves a face in the plane") {
   for (const auto& [name, shape] : closed_shapes()) {
     const auto named = name;

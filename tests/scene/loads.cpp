@@ -169,6 +169,9 @@ TEST_CASE("what a load cannot be is refused at its key") {
   CHECK(of_block("[{on: bottom, force: {y: -1}}]").find("loads[0].force.y: every node of \"bottom\" is held") != std::string::npos);
   CHECK(of_block("[{on: top, displacement: {x: 1}}, {on: top, traction: {x: -1}}]").find("loads[1].traction.x") !=
         std::string::npos);
+  const std::string pushed =
+      "[]\ncontacts: {ball: {on: bottom, rigid: {sphere: {radius: 1, centre: [2, 3, 1.5]}}, control: {force: 1}}}";
+  CHECK(of_block(pushed).find("contacts.ball.on: the surface of \"bottom\" faces away") != std::string::npos);
   const std::string section =
       "mesh: {geometry: {section: {of: axisymmetric, size: [2, 1], divisions: [4, 2]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\nsupports: [{on: bottom, hold: [x, y]}]\nloads: ";
