@@ -219,6 +219,18 @@ int main(int argc, char** argv) {
       {"gather",
        {program("gather"), "table.yaml", "--curves", "in/curves.h5", "--curves", "in/curves.h5", "-o", "OUT/sweep.h5"},
        "sweep.h5"},
+      // a plate pressed on and suction, a sphere that turns with friction, one that is pushed, bonds that come loose
+      {"suction", {program("solve"), "configs/solve/suction_plate.yaml", "-o", "OUT/solution.h5"}, "solution.h5"},
+      {"twist",
+       {program("solve"), "configs/solve/twist_friction.yaml", "--set", "mesh.geometry.indented_block.edge=0.5", "-o",
+        "OUT/solution.h5"},
+       "solution.h5"},
+      {"pushed",
+       {program("solve"), "configs/solve/indentation_force.yaml", "--mesh", "in/mesh.h5", "-o", "OUT/solution.h5"},
+       "solution.h5"},
+      {"adhesion",
+       {program("solve"), "configs/solve/pull_off.yaml", "--set", "mesh.geometry.indented_disc.edge=0.08", "-o", "OUT/solution.h5"},
+       "solution.h5"},
       {"plan", {program("plan"), "pipelines/indentation_angles.yaml", "-o", "OUT"}, "Makefile"},
       {"make", {"make", "-j2", "-C", "OUT"}, "table/sweep.h5"},
   };
