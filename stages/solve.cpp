@@ -7,6 +7,7 @@
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 #include "run/run_words.hpp"
+#include "run/step_record.hpp"
 #include "stage.hpp"
 
 namespace langer {
