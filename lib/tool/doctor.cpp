@@ -50,6 +50,7 @@ constexpr Tool tools[]{
     {"gnuplot", "gnuplot --version", "figures are not drawn; their scripts and tables are there all the same", "gnuplot-nox"},
     {"python3", "python3 --version", "no Python package; all programs run without it", "python3"},
     {"sbatch", "sbatch --version", "langer-plan --slurm writes arrays for a machine that has Slurm", ""},
+    {"snakemake", "", "langer-plan --snakemake writes a Snakefile for a machine that has it", "snakemake"},
     {"ccx", "ccx -v | grep -i version", "exported decks cannot be checked here", "calculix-ccx"},
     {"paraview", "", "snapshot_*.hdf and series.pvd open in ParaView on any machine", "paraview"},
 };
@@ -85,7 +86,13 @@ Finding gmsh(const fs::path& bin) {
 }
 
 Finding python_package(const char* name, const char* debian, const char* without) {
-  const std::string version = said_by(fmt::format("python3 -c 'import {0}; print({0}.__version__)'", name));
+  const auto ask = [&](const char* python) {
+    return said_by(fmt::format("{0} -c 'import {1}; print({1}.__version__)'", python, name));
+  };
+  const std::string version = ask("python3");
+  if (version.empty() && !ask("/usr/bin/python3").empty())
+    return {name, false, false,
+            fmt::format("{}: it is there for /usr/bin/python3, and `python3` is another; pip install {}", without, name)};
   if (version.empty()) return {name, false, false, fmt::format("{}; apt install {}", without, debian)};
   return {name, true, false, version};
 }

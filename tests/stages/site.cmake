@@ -40,8 +40,11 @@ foreach(pipeline ${pipelines})
   endif()
 endforeach()
 # what was measured has its picture, its cost and what is known of its errors
-file(STRINGS ${ROOT}/docs/gallery.csv rows)
+file(READ ${ROOT}/docs/gallery.csv rows)
+string(REPLACE ";" "," rows "${rows}")  # it would part the rows
+string(REPLACE "\n" ";" rows "${rows}")
 list(POP_FRONT rows)
+list(REMOVE_ITEM rows "")
 set(pictures 0)
 foreach(row ${rows})
   string(REGEX MATCH "^([^,]+),([0-9]+),([0-9.]+)," _ "${row}")

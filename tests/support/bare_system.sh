@@ -30,9 +30,14 @@ env -i PATH=/usr/sbin:/usr/bin:/bin HOME=/home/user LANG=C.UTF-8 chroot --usersp
   make -C skin
   langer show skin/run/post/curves.h5
   ls skin/run/report/report.html
-  printf "geometry: {file: {path: body.msh}}\n" > file.yaml
-  touch body.msh
-  if [ ! -e '"$name"'/lib/langer/langer_gmsh.so ]; then
-    if langer-mesh file.yaml -o file.h5; then exit 1; else [ $? = 3 ]; fi
+  printf "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\nexport: [msh]\n" > block.yaml
+  printf "geometry: {file: {path: block.msh}}\n" > file.yaml
+  langer-mesh block.yaml -o block.h5
+  if [ -e '"$name"'/lib/langer/langer_gmsh.so ]; then
+    langer-mesh file.yaml -o file.h5
+  elif langer-mesh file.yaml -o file.h5; then
+    exit 1
+  else
+    [ $? = 3 ]
   fi'
 echo "$suite: $name runs"
