@@ -1,0 +1,104 @@
+# Fits of scenes as a user runs them: side by side, killed and gone on with, refused without harm to what was there.
+include(${ROOT}/tests/support/run.cmake)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/project)
+set(folder ${WORK}/project)
+set(scene "mesh: {geometry: {indented_disc: {size: [16, 4], radius: 2.5, depth: 1, edge: 0.2}}}
+supports: [{on: bottom, hold: [x, y]}]
+contacts:
+  sphere: {on: top, rigid: {sphere: {radius: DIAMETER, centre: [0, CENTRE, 0]}}, motion: [{t: 1, to: [0, -1, 0]}]}
+material: {matrix: {yeoh: {a1: 0.012, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-3}}}
+stability: off
+path: {first: 0.1, largest: 0.1}
+")
+string(REPLACE DIAMETER 2.5 small "${scene}")
+string(REPLACE CENTRE 6.5 small "${small}")
+string(REPLACE DIAMETER 4 large "${scene}")
+string(REPLACE CENTRE 8 large "${large}")
+file(WRITE ${folder}/post.yaml "columns: [{quantity: u_ind}, {quantity: force}]\n")
+foreach(size small large)
+  file(WRITE ${folder}/${size}.yaml "${${size}}")
+  run(0 ${BIN}/langer-solve ${size}.yaml -o ${size}/solution.h5 --quiet)
+  run(0 ${BIN}/langer-post post.yaml --solution ${size}/solution.h5 -o ${size}/curves.h5 --quiet)
+endforeach()
+set(law "law: {matrix: {yeoh: {a1: 0.05, a2: 0.01, a3: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}
+parameters:
+  - {key: matrix.yeoh.a1, lower: 0.001, upper: 1}
+  - {key: matrix.yeoh.a2, lower: 0, upper: 1}
+  - {key: matrix.yeoh.a3, lower: 0, upper: 1}
+draft: false
+")
+set(two "data:
+  - {kind: scene, solve: small.yaml, file: small/curves.h5, name: small, columns: {u_ind: u_ind, force: force}, standard_deviation: 2.0e-3}
+  - {kind: scene, solve: large.yaml, file: large/curves.h5, name: large, columns: {u_ind: u_ind, force: force}, standard_deviation: 2.0e-3}
+")
+file(WRITE ${folder}/fit.yaml "${two}${law}")
+
+macro(expect_same a b what)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${folder}/${a} ${folder}/${b} RESULT_VARIABLE differ)
+  if(NOT differ EQUAL 0)
+    message(FATAL_ERROR "${what}: ${a} and ${b} differ")
+  endif()
+endmacro()
+
+# side by side the same digits
+run(0 ${BIN}/langer-fit fit.yaml -o whole/material.h5)
+run(0 ${BIN}/langer-fit fit.yaml --set jobs=2 -o beside/material.h5)
+foreach(table parameters fit_small fit_large)
+  expect_same(whole/${table}.csv beside/${table}.csv "jobs: 2")
+endforeach()
+
+# killed once some runs are kept: the next fit goes on with them, to the same digits
+file(WRITE ${WORK}/kill.sh "cd ${folder}
+\"$@\" 2> said & p=$!
+while kill -0 $p 2>/dev/null && [ \"$(stat -c %s killed/material.h5.runs 2>/dev/null || echo 0)\" -lt 3000 ]; do sleep 0.01; done
+kill -KILL $p; wait $p; echo code $?\n")
+execute_process(COMMAND sh ${WORK}/kill.sh ${BIN}/langer-fit fit.yaml -o killed/material.h5 OUTPUT_VARIABLE code)
+if(NOT code MATCHES "code 137")
+  message(FATAL_ERROR "the fit ended before it was killed: ${code}")
+endif()
+if(NOT EXISTS ${folder}/killed/material.h5.runs OR EXISTS ${folder}/killed/material.h5)
+  message(FATAL_ERROR "a killed fit keeps its runs, and has no result")
+endif()
+run(0 ${BIN}/langer-fit fit.yaml -o killed/material.h5)
+expect_said(" runs that an earlier fit made")
+if(EXISTS ${folder}/killed/material.h5.runs)
+  message(FATAL_ERROR "the runs of a fit that is done are still there")
+endif()
+foreach(table parameters fit_small fit_large)
+  expect_same(whole/${table}.csv killed/${table}.csv "killed and gone on with")
+endforeach()
+
+# what does not fit is named at its line, and what was there stays
+file(SHA256 ${folder}/whole/material.h5 before)
+macro(expect_refused code text said_at)
+  file(WRITE ${folder}/bad.yaml "${text}")
+  run(${code} ${BIN}/langer-fit bad.yaml -o whole/material.h5)
+  expect_said("${said_at}")
+  file(SHA256 ${folder}/whole/material.h5 after)
+  if(NOT before STREQUAL after)
+    message(FATAL_ERROR "a fit that was refused (${said_at}) changed an earlier result")
+  endif()
+endmacro()
+set(one "data: [{kind: scene, solve: small.yaml, file: short.csv, columns: {u_ind: travel_mm, force: force_N}}]\n")
+file(WRITE ${folder}/short.csv "travel_mm,force_N\n0.5,0.1\n0.7,0.2\n0.9,0.3\n1.2,0.5\n")
+expect_refused(3 "${one}${law}" "short.csv:5:1")
+file(WRITE ${folder}/short.csv "travel_mm,force_MPa\n0.5,0.1\n0.7,0.2\n0.9,0.3\n")
+string(REPLACE force_N force_MPa pressed "${one}")
+expect_refused(3 "${pressed}${law}" "the unit MPa of the column")
+file(WRITE ${folder}/short.csv "travel_mm,force_N\n0.5,0.1\n0.7,0.2\n0.9,0.3\n")
+string(REPLACE "force: force_N" "reaction_x: force_N}, on: pad, moved: pad, columns: {reaction_x: force_N, displacement: travel_mm" without "${one}")
+string(REPLACE "columns: {u_ind: travel_mm, reaction_x: force_N}, " "" without "${without}")
+expect_refused(2 "${without}${law}" pad)
+string(REPLACE "matrix.yeoh.a1" "matrix.gent.mu" stranger "${law}")
+expect_refused(2 "${one}${stranger}" "parameters[0].key")
+# a scene that cannot start: what holds it is not there
+string(REPLACE "on: bottom" "on: botom" loose "${small}")
+file(WRITE ${folder}/loose.yaml "${loose}")
+string(REPLACE small.yaml loose.yaml unheld "${one}")
+expect_refused(2 "${unheld}${law}" "loose.yaml:2:13: supports[0].on")
+# nor one whose indenter begins inside the body
+string(REPLACE "centre: [0, 6.5, 0]" "centre: [0, 3.5, 0]" deep "${small}")
+file(WRITE ${folder}/deep.yaml "${deep}")
+string(REPLACE small.yaml deep.yaml inside "${one}")
+expect_refused(2 "${inside}${law}" "deep.yaml:4:21: contacts.sphere.rigid: starts")
