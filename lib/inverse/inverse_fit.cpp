@@ -131,9 +131,9 @@ std::string parameters_csv(const FitRecord& record) {
   std::string text = "parameter,true,found,standard_error,lower_95,upper_95\n";
   const auto cell = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
   for (const FittedParameter& p : record.parameters) {
-    const double half = p.factor * p.standard_error;
-    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(p.name), cell(p.truth), cell(p.value), cell(p.standard_error),
-                        cell(p.value - half), cell(p.value + half));
+    const auto [low, high] = interval_95(p);
+    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(p.name), cell(p.truth), cell(p.value), cell(p.standard_error), cell(low),
+                        cell(high));
   }
   return text;
 }

@@ -65,6 +65,7 @@ void write_parameters(const h5::Group& group, const std::vector<FittedParameter>
     one.write_scalar("upper", p.upper, p.unit);
     one.write_scalar("standard_error", p.standard_error, p.unit);
     one.write_scalar("interval_factor", p.factor);
+    if (!std::isnan(p.low)) one.write_scalar("interval_low", p.low, p.unit), one.write_scalar("interval_high", p.high, p.unit);
     if (std::isfinite(p.truth)) one.write_scalar("truth", p.truth, p.unit);
     if (!p.key.empty()) one.attribute("key", p.key);
     order += (order.empty() ? "" : " ") + p.name;
@@ -158,6 +159,11 @@ std::vector<Summary> summary_of(const FitRecord& fit) {
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   if (!fit.curves.empty())
     for (const FittedParameter& p : fit.parameters) summary.push_back({p.name + "_standard_error", p.standard_error, p.unit});
+  for (const FittedCurve& c : fit.curves) {  // root mean square of what is missed
+    double square = 0;
+    for (std::size_t i = 0; i < c.model.size(); ++i) square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
+    summary.push_back({c.name + "_rms", std::sqrt(square / static_cast<double>(std::max<std::size_t>(c.model.size(), 1))), c.unit});
+  }
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
   summary.push_back({"max_error", fit.max_error_percent, "percent"});
   summary.push_back({"r2", fit.r2, "-"});
@@ -230,6 +236,8 @@ FitRecord read_fit(const h5::Group& root) {
                               one.read_scalar("standard_error")});
     if (one.has("truth")) fit.parameters.back().truth = one.read_scalar("truth");
     if (one.has("interval_factor")) fit.parameters.back().factor = one.read_scalar("interval_factor");
+    if (one.has("interval_low"))
+      fit.parameters.back().low = one.read_scalar("interval_low"), fit.parameters.back().high = one.read_scalar("interval_high");
     if (one.has_attribute("key")) fit.parameters.back().key = one.text_attribute("key");
   }
   const std::size_t p = fit.parameters.size();
@@ -245,6 +253,8 @@ FitRecord read_fit(const h5::Group& root) {
   fit.stress = curve.read_finite("stress", {fit.strain.size()});
   fit.model = curve.read_finite("model", {fit.strain.size()});
   fit.curves = read_curves_of_scenes(root);
+  if (root.has("identifiability") && root.group("identifiability").has("bootstrap"))
+    fit.sets = read_matrix(root.group("identifiability").group("bootstrap"), "samples", {h5::any, p});
   fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"), fit.bic = group.read_scalar("bic");
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));
@@ -278,6 +288,12 @@ FitRecord read_fit(const h5::Group& root) {
 }
 
 }  // namespace
+
+std::array<double, 2> interval_95(const FittedParameter& p) {
+  if (!std::isnan(p.low)) return {p.low, p.high};
+  const double half = p.factor * p.standard_error;
+  return {p.value - half, p.value + half};
+}
 
 MatX correlation(const MatX& covariance) {
   const VecX deviation = covariance.diagonal().cwiseSqrt();

@@ -1,6 +1,7 @@
 // material.h5: a material, and where it comes from a fit the record of that fit.                  docs/schema.md
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -24,7 +25,10 @@ struct FittedParameter {
   double truth = std::numeric_limits<double>::quiet_NaN();  // of synthetic data; NaN where nobody knows
   double factor = 1.959963984540054;                        // standard errors to each end of a 95 % interval
   std::string key = "";                                     // its path in the config
+  // a 95 % interval that a bound of this or of another parameter cuts (study/within_bounds.hpp); NaN: by standard error and factor
+  double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 };
+std::array<double, 2> interval_95(const FittedParameter& parameter);  // NaN where it is not known
 
 // One of the tests of a fit. n points; x and z are the axes of the specimen.
 struct FittedTest {
@@ -63,6 +67,7 @@ struct FitRecord {
   double residual_correlation = 0, effective_values = 0;
   std::vector<Tie> ties;  // numbers of the law that follow others
   StudyRecord study;      // read back: fitted range, verdict and safe radius
+  MatX sets;              // (n, p) read back: sets of parameters of the study's bootstrap; empty without one
 };
 
 // cov_ij / (s_i s_j); NaN where a parameter is not determined or the fit leaves it no variance (exact data)

@@ -8,6 +8,7 @@
 #include "material/at_rest.hpp"
 #include "material/ellipticity.hpp"
 #include "store/curves_file.hpp"
+#include "study/within_bounds.hpp"
 
 namespace langer {
 
@@ -23,6 +24,18 @@ void set_intervals(const FitResult& fit, FitRecord& record) {
     const double half = p.factor * factors[k] * std::sqrt(white(k, k));
     if (p.standard_error > 0 && std::isfinite(half)) p.factor = half / p.standard_error;
   }
+}
+
+// Beside a bound that a parameter rests on: what is on it keeps no standard error, the others get that of fits within the bounds.
+void set_bounded(const WithinBounds& bounded, FitRecord& record) {
+  for (std::size_t i = 0; i < record.parameters.size(); ++i) {
+    FittedParameter& p = record.parameters[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    p.low = bounded.low[i], p.high = bounded.high[i];
+    if (const double variance = bounded.moments(k, k); std::isfinite(variance) && std::isfinite(p.standard_error))
+      p.standard_error = std::sqrt(variance);
+  }
+  if (bounded.moments.array().isFinite().any()) record.covariance = bounded.moments;
 }
 
 }  // namespace
@@ -41,6 +54,7 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   }
   if (fit.columns.size() > 0) set_intervals(fit, record);
   record.covariance = fit.covariance;
+  if (const auto bounded = within_bounds(problem, fit)) set_bounded(*bounded, record);
   record.cost = fit.best.cost;
   record.kkt_residual = fit.best.kkt;
   record.mean_error_percent = fit.quality.mean_error_percent, record.max_error_percent = fit.quality.max_error_percent;
@@ -157,7 +171,7 @@ std::vector<std::string> fit_results(const FitRecord& record) {
     const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
     const std::string known =
-        on_bound                                              ? "on its bound"
+        on_bound ? std::isnan(p.low) ? "on its bound" : fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high)
         : std::isnan(p.standard_error) && p.unit == unit::deg ? "at an angle of symmetry, or not determined: see its profile"
         : std::isnan(p.standard_error)
             ? "not determined by this curve"
