@@ -93,8 +93,8 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
                compliance = measured_by(test, SceneNumber::Of::compliance, p);
   const auto rows = static_cast<Eigen::Index>(test.s.size());
   out = VecX::Zero(test.measured.size());
-  std::size_t piece = 0;
   for (Eigen::Index row = 0; row < rows; ++row) {
+    std::size_t piece = test.stretch[static_cast<std::size_t>(row)];
     const double read = compliance != 0 ? test.measured[test.force + row] - force : 0;
     const double s = test.s[static_cast<std::size_t>(row)] - touch - compliance * read;
     const auto t = test.over.find(s, piece, beyond_path);

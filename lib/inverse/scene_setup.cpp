@@ -33,12 +33,14 @@ Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item, const Sc
 std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const FitConfig& config, double largest) {
   std::set<double> places, kept;
   for (const SceneTest* test : tests) {
-    std::size_t piece = 0;
-    for (double s : test->s)
+    for (std::size_t row = 0; row < test->s.size(); ++row) {
+      const double s = test->s[row];
+      std::size_t piece = test->stretch[row];
       if (const auto t = test->over.find(s - (test->over.key == "u_ind" ? config.data[test->data].touch_offset : 0), piece,
                                          SceneTests::beyond_path);
           t && *t > 0 && *t < 1)
         places.insert(*t);
+    }
     kept.insert(test->kinks.begin(), test->kinks.end());
   }
   std::vector<double> stops;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "config/writer.hpp"
@@ -167,6 +168,43 @@ std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double s
   return std::nullopt;
 }
 
+// The cheapest way through rows and stretches: what goes against a stretch costs its length, what is left out at its end half of it.
+std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values, double slack) const {
+  const std::size_t n = values.size(), pieces = t.size() - 1;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const auto has = [&](std::size_t k, double value) {
+    std::size_t found = k;
+    return find(value, found, slack) && found == k;
+  };
+  std::vector<std::vector<std::size_t>> from(n, std::vector<std::size_t>(pieces, 0));
+  std::vector<double> cost(pieces, never);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> next(pieces, never);
+    for (std::size_t k = 0; k < pieces; ++k) {
+      if (!has(k, values[i])) continue;
+      double left_out = 0;
+      for (std::size_t j = k + 1; j-- > 0;) {
+        double so_far = i == 0 ? (j == 0 ? left_out : never) : cost[j] + left_out;
+        if (i == 0 && k > 0 && j == 0) so_far += 0.5 * std::abs(s[1] - s[0]);
+        if (i > 0 && j == k) so_far += std::max(0.0, (values[i - 1] - values[i]) * (s[k + 1] > s[k] ? 1 : -1));
+        if (i > 0 && j < k) so_far += 0.5 * std::abs(s[j + 1] - values[i - 1]);
+        if (so_far < next[k]) next[k] = so_far, from[i][k] = j;
+        if (j < k) left_out += 0.5 * std::abs(s[j + 1] - s[j]);
+      }
+    }
+    cost = std::move(next);
+    if (*std::min_element(cost.begin(), cost.end()) == never) {
+      std::vector<std::size_t> none(n, 0);
+      none[i] = pieces;
+      return none;
+    }
+  }
+  std::vector<std::size_t> out(n, 0);
+  std::size_t k = n == 0 ? 0 : static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  for (std::size_t i = n; i-- > 0; k = from[i][k]) out[i] = k;
+  return out;
+}
+
 Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& scene, const Find& where) {
   const FitColumns& c = *data.columns;
   const std::string at = fmt::format("data[{}].", item);
@@ -190,9 +228,11 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
   test.kinks = kinks_of(run.config());
   const SceneColumn* over = file.find(test.over.key);
   test.s = over ? over->values : std::vector<double>(file.rows.size(), 1);
-  std::size_t piece = 0;
+  std::vector<double> own;
+  for (std::size_t i = 0; i < test.s.size(); ++i) own.push_back(own_travel(data, file, i, test.s[i]));
+  test.stretch = test.over.stretches(own, slack);
   for (std::size_t i = 0; i < test.s.size(); ++i)
-    if (!test.over.find(own_travel(data, file, i, test.s[i]), piece, slack)) {
+    if (test.stretch[i] + 1 == test.over.t.size()) {
       const auto [low, high] = std::minmax_element(test.over.s.begin(), test.over.s.end());
       throw Failure(
           Exit::input,

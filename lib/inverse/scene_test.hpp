@@ -1,6 +1,6 @@
 // A measured file against the scene that it was measured in: which observation of which state each value is.
 //   s  what the file gives it over (travel of the indenter, imposed displacement, pressure, time, t), by which the state is found:
-//      first the state that the value before had, then forwards along the path; so histories that come back are followed
+//      on the stretch of the path that the order of the values tells; so histories that come back are followed
 #pragma once
 
 #include <string>
@@ -18,6 +18,9 @@ struct Abscissa {
   // Place of `s` at or behind the stretch `piece`, which is put where it lies; nothing where the path does not lead there. A little more
   // than its ends is taken, by `slack` of the whole.
   std::optional<double> find(double s, std::size_t& piece, double slack) const;
+  // The stretch of each of the values of a file, in their order, along a path that comes back: that in which they go least against its way
+  // and leave least of it out. A value that no stretch has gets the number of stretches.
+  std::vector<std::size_t> stretches(const std::vector<double>& values, double slack) const;
   double rate(std::size_t piece) const { return (t[piece + 1] - t[piece]) / (s[piece + 1] - s[piece]); }  // dt/ds
 };
 
@@ -32,8 +35,9 @@ struct SceneTest {
   std::string name;
   std::size_t data = 0, run = 0;  // item of `data`; which of the forward runs
   Abscissa over;
-  std::vector<double> s;     // of each row
-  std::vector<Vec3> places;  // of each row, where there are any
+  std::vector<double> s;             // of each row
+  std::vector<std::size_t> stretch;  // of each row
+  std::vector<Vec3> places;          // of each row, where there are any
   std::vector<SceneCurve> curves;
   VecX measured;           // of the curves one after the other
   Eigen::Index force = 0;  // where the force that moves the machine begins among them

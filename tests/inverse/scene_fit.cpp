@@ -143,6 +143,19 @@ TEST_CASE("A history that comes back is followed in its order") {
   CHECK_FALSE(over.find(2.1, piece, 0.01));
 }
 
+TEST_CASE("The stretch of a path that a value lies on is told by the order of the values, through noise of what they are read by") {
+  Abscissa over;
+  over.t = {0, 0.5, 1}, over.s = {0, 2, 0};
+  using Stretches = std::vector<std::size_t>;
+  CHECK(over.stretches({0.5, 1, 1.5, 2, 1.5, 1, 0.5}, 0) == Stretches{0, 0, 0, 0, 1, 1, 1});
+  CHECK(over.stretches({0.5, 1, 0.99, 1.5, 1.9, 1.7, 1.71, 0.2}, 0) == Stretches{0, 0, 0, 0, 0, 1, 1, 1});  // the turn was not read
+  CHECK(over.stretches({2, 1.5, 0.5}, 0)[1] == 1);
+  CHECK(over.stretches({0.5, 1, 0.995}, 0) == Stretches{0, 0, 0});  // it does not turn by itself
+  over.t = {0, 0.25, 0.5, 0.75, 1}, over.s = {0, 2, 0.5, 2, 0};
+  CHECK(over.stretches({1, 2, 1, 0.6, 1, 1.9, 1, 0.2}, 0) == Stretches{0, 0, 1, 1, 2, 2, 3, 3});
+  CHECK(over.stretches({1, 2.1, 1}, 0.01)[1] == 4);
+}
+
 TEST_CASE("A place on the surface is found where its shape functions put it, on a block and on a section") {
   for (const char* yaml : {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
                            "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",
