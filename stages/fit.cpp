@@ -6,6 +6,7 @@
 #include "fit/doubts.hpp"
 #include "hdf5/seal.hpp"
 #include "inverse/inverse_fit.hpp"
+#include "inverse/scene_candidates.hpp"
 #include "stage.hpp"
 #include "store/curves_file.hpp"
 #include "study/fit_report.hpp"
@@ -72,8 +73,11 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   }
   if (!scenes) record.study.range = fitted_range(found.material, problem.tests);
   if (config.study) {
-    record.study =
-        study(problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); });
+    const SceneCandidates next = scene_candidates(config, problem, found, job.where);
+    for (const std::string& line : next.without) job.warn("{}", line);
+    record.study = study(
+        problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); },
+        next.candidates);
     for (const std::string& line : study_lines(record.study)) job.say("{}", line);
     for (const std::string& line : write_study_files(record.study, *config.study, config.figure_style, job.beside("")))
       job.say("{}", line);

@@ -1,12 +1,15 @@
 // langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv;
 // figures and maps of all members.
-#include "sweep/gather.hpp"
+#include <cstdlib>
+
 #include "hdf5/seal.hpp"
+#include "inverse/parameter_sample.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/pictures.hpp"
 #include "stage.hpp"
 #include "store/material_file.hpp"
 #include "sweep/design_tables.hpp"
+#include "sweep/gather.hpp"
 #include "sweep/gather_config.hpp"
 #include "sweep/sweep_file.hpp"
 
@@ -94,6 +97,34 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
   return effects;
 }
 
+// The spread of each column over sets of parameters, which stand as columns of the table then.
+std::vector<Spread> spreads_over(const Job<GatherConfig>& job, const std::vector<GatherInput>& members, Sweep& sweep) {
+  const auto refuse = [&](std::string found) {
+    throw Failure(Exit::config, Error{job.where("axes[0].samples"), "axes[0].samples", std::move(found),
+                                      "--material with the fit whose sets of parameters they are", ""});
+  };
+  if (!job.has("material")) refuse("samples without the fit");
+  const MaterialFile fitted = read_material(job.input("material"));
+  std::vector<std::vector<Summary>> sets;
+  for (const GatherInput& member : members) {
+    const int number = std::atoi(member.at.at(0).c_str());
+    if (const std::string lacks = number < 1 ? "no set of that number" : why_no_samples(fitted, number); !lacks.empty())
+      refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), lacks));
+    sets.push_back(sample_of(fitted, number).values);
+  }
+  const std::vector<SweepColumn> parameters = sampled_parameters(sets);
+  std::vector<Spread> spreads;
+  for (const SweepColumn& c : sweep.columns)
+    if (!c.name.starts_with("parameter_")) spreads.push_back(spread_of(c, parameters));
+  for (const Spread& one : spreads) job.say("{}", in_words(one));
+  for (std::size_t j = parameters.size(); j-- > 0;)
+    if (std::none_of(sweep.columns.begin(), sweep.columns.end(),
+                     [&](const SweepColumn& c) { return c.name == parameters[j].name; }))
+      sweep.columns.insert(sweep.columns.begin(), parameters[j]);
+  write_text_file(job.beside("spread.csv"), spread_csv(spreads));
+  return spreads;
+}
+
 // one row for each number that a fit found
 std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
@@ -109,7 +140,8 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   sweep.columns = {
       {"true", "-", {}}, {"found", "-", {}}, {"standard_error", "-", {}}, {"lower_95", "-", {}}, {"upper_95", "-", {}}};
   for (const FittedParameter& p : fit->parameters) {
-    const double half = p.factor * p.standard_error, row[] = {p.truth, p.value, p.standard_error, p.value - half, p.value + half};
+    const std::array<double, 2> interval = interval_95(p);
+    const double row[] = {p.truth, p.value, p.standard_error, interval[0], interval[1]};
     sweep.members.push_back(p.name), sweep.axes[0].values.push_back(p.name);
     for (std::size_t k = 0; k < 5; ++k) sweep.columns[k].values.push_back(row[k]);
   }
@@ -126,7 +158,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
                                       fmt::format("one for each of the {} files given", files.size()), ""});
   std::vector<SweepAxis> axes;
-  for (const GatherAxis& a : config.axes) axes.push_back({a.name, a.unit, {}});
+  for (const GatherAxis& a : config.axes) axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   std::vector<GatherInput> inputs;
   Members members;
   const bool drawn = !config.figures.empty() || !config.maps.empty();
@@ -148,6 +180,9 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   std::vector<QuantityEffects> effects;
   const Design* design = config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
   if (design) effects = effects_over(job, *design, sweep, pictures);
+  std::vector<Spread> spreads;
+  std::vector<Band> bands;
+  if (axes.size() == 1 && axes[0].samples) spreads = spreads_over(job, inputs, sweep);
   for (const auto& [name, map] : config.maps) {
     const auto maps = maps_of(job, sweep, members, name);
     if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
@@ -160,9 +195,10 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     const FigureData data = figure_over(figure, name, axes, members, where);
     write_text_file(job.beside(name + ".csv"), data.csv);
     pictures.draw(name, data.plot);
+    bands.insert(bands.end(), data.bands.begin(), data.bands.end());
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
-  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity);
+  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity, spreads, bands);
   job.say("{} rows, {} columns, {} figures", sweep.members.size(), sweep.axes.size() + sweep.columns.size(),
           config.figures.size() + config.maps.size());
   return {};

@@ -5,6 +5,7 @@
 #include "config/json_schema.hpp"
 #include "config/reader.hpp"
 #include "fit/doubts.hpp"
+#include "inverse/sample_config.hpp"
 #include "material/at_rest.hpp"
 #include "report/report_config.hpp"
 #include "run/post_config.hpp"
@@ -51,6 +52,7 @@ const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
       {"mesh", kind<MeshConfig>()},
       {"fit", kind<FitConfig>()},
+      {"sample", kind<SampleConfig>()},
       {"sensitivity", kind<SensitivityConfig>()},
       {"solve", kind<SolveConfig>()},
       {"post", kind<PostConfig>()},

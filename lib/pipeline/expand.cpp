@@ -261,6 +261,7 @@ class Expansion {
       one.kind = Tree::Kind::map;
       one.map = {{"name", text_tree(axis->name)}, {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
       if (axis->design.kind == Tree::Kind::map) one.map.push_back({"design", axis->design});
+      if (axis->samples > 0) one.map.push_back({"samples", plain_tree(std::to_string(axis->samples))});
       axis_list.list.push_back(one);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {

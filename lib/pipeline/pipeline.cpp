@@ -206,16 +206,20 @@ class Reading {
     } else if (const Tree* design = tree.find("design")) {
       known_keys(tree, path, {"design"});
       points_of(*design, path + ".design", a);
+    } else if (const Tree* samples = tree.find("samples")) {
+      known_keys(tree, path, {"samples"});
+      points_of_samples(*samples, path + ".samples", a);
     } else if (const Tree* grid = tree.find("grid")) {
       known_keys(tree, path, {"grid"});
       points_of_grid(*grid, path + ".grid", a);
     } else {
-      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design", "grid"});
+      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design", "grid", "samples"});
       if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
       std::vector<std::string> keys;
       for (const char* word : {"key", "keys"})
         if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
-      if (keys.empty()) f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, grid or design");
+      if (keys.empty())
+        f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, grid, design or samples");
       for (const std::string& key : keys)
         if (split_path(key).empty())
           f.say(tree.place, path, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
@@ -273,6 +277,20 @@ class Reading {
       }
       a.points.push_back(std::move(point));
     }
+  }
+
+  // sets of parameters that a fit leaves open, by their number
+  void points_of_samples(const Tree& tree, const std::string& path, Axis& a) {
+    Member rule;
+    rule.range = between(2, most);
+    read_value(tree, path, rule, a.samples, f);
+    a.numbers = true;
+    for (int i = 1; i <= a.samples; ++i) {
+      Tree number = plain_tree(std::to_string(i));
+      number.place = tree.place;
+      a.points.push_back({std::to_string(i), {}, {{"number", number}}});
+    }
+    if (a.points.empty()) a.points.push_back({"1", {}, {}});  // enough is said
   }
 
   void values(const Tree& tree, const std::string& path, const std::vector<std::string>& keys, Axis& a) {

@@ -12,7 +12,8 @@
 //
 // An axis may also be a grid: {grid: {<key>: [values], <key>: [values]}}, all combinations of them, labelled 0.25-10; or a design of
 // experiments: {design: {parameters: [{key, lower, upper}], morris: {trajectories: 6}}}; its
-// points are numbered, and the node that gathers over it tells effects (sweep/design.hpp).
+// points are numbered, and the node that gathers over it tells effects (sweep/design.hpp). {samples: 100} are sets of parameters that
+// the fit behind `material` leaves open (the stage sample), and the node that gathers over it tells the spread.
 // A variant is a map of settings, or the path of a config in place of the node's. A port takes a node's name, one member of it
 // ({node: fit, law: HGO-Yeoh}) or a file; one that takes several files also a list of those.
 // `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to the working directory. An axis
@@ -41,7 +42,8 @@ struct Axis {
   std::string name, unit;
   bool numbers = false;  // all labels are numbers
   std::vector<AxisPoint> points;
-  Tree design;  // canonical, where the axis is one
+  Tree design;      // canonical, where the axis is one
+  int samples = 0;  // of what a fit leaves open
   Place place;
 };
 

@@ -51,6 +51,10 @@ Tree axis(Definitions& definitions) {
                                                           object({{"type", word("array")}, {"items", texts()}})}}))}},
                           {"grid"}),
               keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}}, {"design"}),
+              keys_of_map({{"samples", described_by("how many sets of parameters that a fit leaves open, by their number: "
+                                                    "number of the stage sample",
+                                                    type("integer"))}},
+                          {"samples"}),
               keys_of_map(
                   {{"key", described_by("path of the key that varies, such as fibre_angles[0]", one_or_several(type("string")))},
                    {"keys", described_by("or several that get the same value", one_or_several(type("string")))},

@@ -13,6 +13,10 @@ const StageSpec fit_stage{"fit",
                             .required = false,
                             .several = true}},
                           "material.h5"};
+const StageSpec sample_stage{"sample",
+                             "Takes one of the sets of parameters that a fit leaves open.",
+                             {{.name = "material", .says = "the fit", .made_by = {"fit"}}},
+                             "material.h5"};
 const StageSpec sensitivity_stage{
     "sensitivity",
     "Ranks material parameters: one at a time, by Morris, by Sobol.",
@@ -28,7 +32,7 @@ const StageSpec solve_stage{
       .or_key = true},
      {.name = "material",
       .says = "energy terms and their parameters, unless the config has them",
-      .made_by = {"fit"},
+      .made_by = {"fit", "sample"},
       .required = false,
       .or_key = true,
       .takes_yaml = true},
@@ -46,14 +50,16 @@ const StageSpec post_stage{
     false,
     "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
     "and wants --solution only"};
-const StageSpec gather_stage{"gather",
-                             "Collects one quantity or several over a sweep.",
-                             {{.name = "curves",
-                               .says = "a member of the sweep: any file with a /summary",
-                               .made_by = {"post", "fit", "sensitivity", "mesh"},
-                               .several = true,
-                               .members = true}},
-                             "sweep.h5"};
+const StageSpec gather_stage{
+    "gather",
+    "Collects one quantity or several over a sweep.",
+    {{.name = "curves",
+      .says = "a member of the sweep: any file with a /summary",
+      .made_by = {"post", "fit", "sensitivity", "mesh"},
+      .several = true,
+      .members = true},
+     {.name = "material", .says = "of a sweep over {samples: 100} the fit that has them", .made_by = {"fit"}, .required = false}},
+    "sweep.h5"};
 const StageSpec report_stage{
     "report",
     "Writes a report on a run: one page that opens offline.",
@@ -77,8 +83,8 @@ const StageSpec tune_stage{
 }  // namespace
 
 const std::vector<StageSpec>& stages() {
-  static const std::vector<StageSpec> table{mesh_stage, fit_stage,    sensitivity_stage, solve_stage,
-                                            post_stage, gather_stage, report_stage,      tune_stage};
+  static const std::vector<StageSpec> table{mesh_stage, fit_stage,    sample_stage, sensitivity_stage, solve_stage,
+                                            post_stage, gather_stage, report_stage, tune_stage};
   return table;
 }
 

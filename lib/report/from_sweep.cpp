@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "hdf5/h5.hpp"
@@ -81,6 +82,48 @@ void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& c
   }
 }
 
+// what a fit leaves open in each quantity, and in curves
+void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
+  if (!root.has("spread")) return;
+  const h5::Group spread = root.group("spread");
+  ReportTable table{"What the parameters leave open: " + source.label,
+                    {{"quantity", "-"},
+                     {"unit", "-"},
+                     {"mean", "-"},
+                     {"standard deviation", "-"},
+                     {"lower 95 %", "-"},
+                     {"upper 95 %", "-"},
+                     {"parameter that matters most", "-"},
+                     {"standard deviation if it were known", "-"}},
+                    {}};
+  for (const std::string& name : spread.groups()) {
+    const h5::Group one = spread.group(name);
+    const double mean = one.read_scalar("mean"), deviation = one.read_scalar("deviation");
+    const std::vector<double> interval = one.read<double>("interval", {1, 2}).values;
+    const std::vector<double> without = one.read<double>("without", {h5::any}).values;
+    std::istringstream order(one.text_attribute("order"));
+    std::string most;
+    order >> most;  // the one that would help most stands first
+    const double left = without.empty() ? std::nan("") : without[0];
+    table.rows.push_back({name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
+    if (std::isfinite(deviation) && mean != 0 && !most.empty())
+      page.verdicts.push_back(
+          {Level::note, source.label,
+           fmt::format("{} {:.4g} {} ± {:.2g} % by what the fit leaves open of the parameters; {:.2g} % if {} were known", name,
+                       mean, one.unit("mean"), 100 * deviation / std::abs(mean), 100 * left / std::abs(mean), most)});
+  }
+  page.tables.push_back(std::move(table));
+  const h5::Group bands = root.group("bands");
+  for (const std::string& name : bands.groups()) {
+    const h5::Group one = bands.group(name);
+    const auto values = [&](const char* of) { return one.read<double>(of, {h5::any}).values; };
+    const std::string x = one.text_attribute("x"), y = one.text_attribute("y");
+    Series mean{"mean of the samples, ± one standard deviation", values("x"), values("mean")};
+    mean.error = values("deviation");
+    page.charts.push_back({"sweep", in_words(y), in_words(x), one.unit("x"), in_words(y), one.unit("mean"), {mean}, false});
+  }
+}
+
 }  // namespace
 
 void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
@@ -114,9 +157,10 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       if (along && whole) columns.push_back({name, along->numbers, column, false}), units.push_back(values.unit(name));
     }
     page.tables.push_back(std::move(table));
+    add_spread(page, source, file.root());
     if (angle && n > 2)
       add_polars(page, *angle, columns, units);
-    else if (along && axes[0].name != "sample")  // samples of a design have no order
+    else if (along && axes[0].name != "sample" && !file.root().has("spread"))  // samples of a design have no order
       for (std::size_t c = 0; c < columns.size(); ++c)
         page.charts.push_back({"sweep",
                                in_words(columns[c].name),

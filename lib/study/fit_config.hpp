@@ -55,10 +55,6 @@ struct FitColumns {
   }
 };
 
-// What a test imposes: TestKind, in its order, or a whole scene.
-enum class DataKind { uniaxial, equibiaxial, biaxial, pure_shear, simple_shear, scene };
-constexpr auto names(DataKind) { return std::array{"uniaxial", "equibiaxial", "biaxial", "pure_shear", "simple_shear", "scene"}; }
-
 // Where the deformation and the stress of a test count from.
 enum class ZeroAt { reading, start };
 constexpr auto names(ZeroAt) { return std::array{"reading", "start"}; }

@@ -91,4 +91,29 @@ std::optional<SceneNumber> scene_number(const FitConfig& config, const std::stri
   return std::nullopt;
 }
 
+std::vector<Complaint> CandidateChoice::complaints() const {
+  std::vector<Complaint> all;
+  if (kind != DataKind::scene) {
+    for (const auto& [key, found] :
+         {std::pair("solve", !solve.path.empty()), {"vary", !vary.empty()}, {"places", !places.empty()}, {"on", !on.empty()}})
+      if (found) all.push_back({key, "found in a candidate that is no scene", "kind: scene", ""});
+    return all;
+  }
+  if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test would be", ""});
+  if (measured.empty()) all.push_back({"measured", "an empty list", "force, a reaction or a displacement", ""});
+  for (std::size_t i = 0; i < vary.size(); ++i)
+    if (vary[i].values.empty()) all.push_back({fmt::format("vary[{}].values", i), "an empty list", "a value at least", ""});
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const bool moves = measured[i] >= SceneQuantity::u_x;
+    const std::string word = names(measured[i])[static_cast<std::size_t>(measured[i])];
+    if (measured[i] != SceneQuantity::force && on.empty() && !(moves && !places.empty()))
+      all.push_back({moves ? "places" : "on", "missing beside " + word,
+                     moves ? "places on the top, or on: a set" : "the set that is held or moved", ""});
+    if (!moves && !places.empty())
+      all.push_back(
+          {fmt::format("measured[{}]", i), word + " beside places", "displacements, and a candidate of its own for the force", ""});
+  }
+  return all;
+}
+
 }  // namespace langer

@@ -8,6 +8,8 @@
 #include "fit/advice.hpp"
 #include "fit/identifiability.hpp"
 #include "store/curves_file.hpp"
+#include "store/material_file.hpp"
+#include "study/within_bounds.hpp"
 #include "tensor/kinematics.hpp"
 
 namespace langer {
@@ -19,19 +21,21 @@ std::string word(E e) {
   return names(e)[static_cast<std::size_t>(e)];
 }
 
+TestKind kind_of(const CandidateChoice& choice) { return static_cast<TestKind>(choice.kind); }  // of one that is no scene
+
 // The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as the largest test, whose weight it
 // has as well, for it is measured by the same device.
 Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, double reach) {
   const Test& largest =
       *std::max_element(tests.begin(), tests.end(), [](const Test& a, const Test& b) { return a.points() < b.points(); });
   Test t;
-  t.kind = choice.kind, t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
+  t.kind = kind_of(choice), t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
   for (std::size_t i = 1; i <= largest.points(); ++i) {
     const double x = reach * static_cast<double>(i) / static_cast<double>(largest.points());
-    t.first.push_back(choice.kind == TestKind::simple_shear ? x : 1 + x);
-    if (choice.kind == TestKind::biaxial) t.second.push_back(1 + x);
+    t.first.push_back(kind_of(choice) == TestKind::simple_shear ? x : 1 + x);
+    if (kind_of(choice) == TestKind::biaxial) t.second.push_back(1 + x);
     t.stress_x.push_back(0);
-    if (choice.kind == TestKind::equibiaxial || choice.kind == TestKind::biaxial) t.stress_z.push_back(0);
+    if (kind_of(choice) == TestKind::equibiaxial || kind_of(choice) == TestKind::biaxial) t.stress_z.push_back(0);
   }
   return t;
 }
@@ -57,8 +61,8 @@ double reach_of(const CandidateChoice& choice, const Material& material, const s
   }
   const auto stress_at = [&](double amount) {
     const std::vector<Vec3> a = specimen_fibres(material, choice.fibre_angle);
-    const double first = choice.kind == TestKind::simple_shear ? amount : 1 + amount;
-    const PlaneState s = plane_state(material, a, choice.kind, first, first);
+    const double first = kind_of(choice) == TestKind::simple_shear ? amount : 1 + amount;
+    const PlaneState s = plane_state(material, a, kind_of(choice), first, first);
     return s.converged ? s.sigma.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
   };
   // the first crossing: stress need not rise throughout
@@ -78,11 +82,11 @@ double reach_of(const CandidateChoice& choice, const Material& material, const s
 // Correlated residuals tell less than as many independent ones. Old tests and new ones alike count with the white noise that
 // would leave the worst known parameter the error that it has.
 std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
-                                    const Identifiability& s) {
-  if (problem.tests.empty()) return {};  // how far a candidate would go is not known
+                                    const Identifiability& s, const std::vector<Candidate>& scenes) {
+  // what rests on a bound is not known to be there
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
-    if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);
+    if (!fit.symmetric[static_cast<std::size_t>(i)]) free.push_back(i);
   if (free.empty()) return {};
   const MatX J = fit.best.J(Eigen::all, free);
   const VecX size = s.size(free), told = s.error(free).cwiseQuotient(size);
@@ -92,7 +96,10 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   if (told.allFinite() && told.maxCoeff(&worst) > 0) noise *= told[worst] * size[worst] / std::sqrt(white(worst, worst));
   const MatX known = information(J, size, noise);
   std::vector<Candidate> candidates;
+  for (const Candidate& scene : scenes)
+    candidates.push_back({scene.name, scene.J(Eigen::all, free), scene.noise * noise / s.noise});
   for (const CandidateChoice& choice : config.candidates) {
+    if (choice.kind == DataKind::scene || problem.tests.empty()) continue;  // without tests it is not known how far one would go
     const double reach = reach_of(choice, fit.material, problem.tests);
     if (!(reach > 0)) continue;
     FitProblem more = problem;
@@ -103,8 +110,8 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     MatX J_all;
     // no test where the law has no state
     if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J_all)) continue;
-    const bool shear = choice.kind == TestKind::simple_shear;
-    candidates.push_back({fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(choice.kind), choice.fibre_angle,
+    const bool shear = kind_of(choice) == TestKind::simple_shear;
+    candidates.push_back({fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)), choice.fibre_angle,
                                       shear ? "shear" : "stretch", shear ? reach : 1 + reach),
                           J_all(Eigen::all, free), noise});
   }
@@ -133,7 +140,7 @@ LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
 }
 
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
-                               const ProgressOf& progress) {
+                               const ProgressOf& progress, const std::vector<Candidate>& scenes) {
   const LeastSquares q = least_squares_problem(problem);
   const auto say = [&](const char* what) { return progress ? progress(what) : std::function<void(double)>(); };
   const VecX& p = fit.best.p;
@@ -150,6 +157,11 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective, record.error = s.error,
   record.singular = s.singular;
   record.correlation = s.correlation, record.combination = s.combination;
+  if (const auto bounded = within_bounds(problem, fit); bounded && bounded->moments.array().isFinite().any()) {
+    record.correlation = correlation(bounded->moments);
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!std::isnan(record.error[i])) record.error[i] = std::sqrt(bounded->moments(i, i));
+  }
   if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
   if (config.profiles.value_or(!problem.further)) {
     ProfileOptions options;
@@ -168,7 +180,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
     record.linearised = problem.further != nullptr;
     record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
   }
-  record.advice = advice_of(problem, fit, config, s);
+  record.advice = advice_of(problem, fit, config, s, scenes);
   return record;
 }
 
@@ -243,9 +255,10 @@ FittedRange fitted_range(const Material& material, const std::vector<Test>& test
   return range;
 }
 
-StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress) {
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress,
+                  const std::vector<Candidate>& scenes) {
   StudyRecord record;
-  record.identifiability = identify(problem, fit, config, progress);
+  record.identifiability = identify(problem, fit, config, progress, scenes);
   if (config.stability) record.stability = stability_of(fit.material, problem, config, progress);
   if (!problem.further) record.range = fitted_range(fit.material, problem.tests);
   return record;

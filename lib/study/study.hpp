@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/advice.hpp"
 #include "fit/fit.hpp"
 #include "store/study_record.hpp"
 #include "study/study_config.hpp"
@@ -18,7 +19,9 @@ using ProgressOf = std::function<std::function<void(double)>(const std::string& 
 std::vector<std::string> parameter_names(const FitProblem& problem);
 
 FittedRange fitted_range(const Material& material, const std::vector<Test>& tests);
-StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress = {});
+// scenes: candidates of the advice beside those of the config, with the columns of all free parameters (inverse/scene_candidates.hpp)
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress = {},
+                  const std::vector<Candidate>& scenes = {});
 
 std::vector<std::string> study_lines(const StudyRecord& study);
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "hdf5/seal.hpp"
+#include "plot/field_map.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/heat_map.hpp"
 #include "plot/pictures.hpp"
@@ -103,6 +105,33 @@ std::vector<std::string> draw_fit(const std::string& measured_column, const Figu
   return lines_of(pictures);
 }
 
+namespace {
+
+// of a field at the end of what it was measured over: measured, found and their difference at their places
+void draw_field(Pictures& pictures, const FittedCurve& curve) {
+  const double end =
+      *std::max_element(curve.x.begin(), curve.x.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  FieldMap map;
+  map.title = fmt::format("{} at {} = {:g} {}", curve.name, curve.x_name, end, curve.x_unit == "-" ? "" : curve.x_unit);
+  map.x_label = "x (mm)", map.y_label = "z (mm)", map.unit = curve.unit;
+  FieldPanel measured{"measured", {}, 0}, found{"found", {}, 0}, difference{"found less measured", {}, 0};
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (curve.x[i] != end) continue;
+    map.x.push_back(curve.places[i][0]), map.y.push_back(curve.places[i][2]);
+    measured.values.push_back(curve.measured[i]), found.values.push_back(curve.model[i]);
+    difference.values.push_back(curve.model[i] - curve.measured[i]);
+    measured.limit = std::max({measured.limit, std::abs(curve.measured[i]), std::abs(curve.model[i])});
+    difference.limit = std::max(difference.limit, std::abs(difference.values.back()));
+  }
+  for (FieldPanel* panel : {&measured, &difference})
+    if (panel->limit == 0) panel->limit = 1;
+  found.limit = measured.limit;
+  map.panels = {measured, found, difference};
+  pictures.draw("map_" + curve.name, field_map(map));
+}
+
+}  // namespace
+
 std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, const FigureStyle& style, const std::string& folder) {
   Pictures pictures(folder, style);
   for (const FittedCurve& curve : curves) {
@@ -120,6 +149,7 @@ std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, con
     plot.lines = {{file, over, "error_percent", "error"}};
     plot.lines[0].points = !curve.places.empty();
     pictures.draw("error_" + curve.name, plot);
+    if (!curve.places.empty()) draw_field(pictures, curve);
   }
   return lines_of(pictures);
 }

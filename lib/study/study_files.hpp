@@ -17,7 +17,8 @@ std::vector<std::string> write_study_files(const StudyRecord& study, const Study
                                            const std::string& folder);
 // of fit.csv of one uniaxial test: figs 4 and 5 of [A23]
 std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style, const std::string& folder);
-// of fit_<name>.csv of each curve and field that was measured in scenes: measured and found over what it was measured over, errors
+// of fit_<name>.csv of each curve and field that was measured in scenes: measured and found over what it was measured over, errors; of fields
+// maps at the end, map_<name>
 std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, const FigureStyle& style, const std::string& folder);
 std::vector<std::string> draw_sensitivity(const SensitivityRecord& record, const FigureStyle& style, const std::string& folder);
 

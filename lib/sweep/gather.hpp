@@ -20,6 +20,7 @@ struct GatherInput {
 struct SweepAxis {
   std::string name, unit;
   std::vector<std::string> values;  // one per member
+  bool samples = false;             // of what a fit leaves open (sweep/spread.hpp)
 };
 
 struct SweepColumn {

@@ -15,10 +15,15 @@ namespace langer {
 struct GatherAxis {
   std::string name, unit = "-";
   std::optional<Design> design;
+  std::optional<int> samples;
   static void fields(auto& v) {
     v(&GatherAxis::name, "name", unit::none, "name of the column", required);
     v(&GatherAxis::unit, "unit", unit::none, "unit of the values; - for words and pure numbers");
     v(&GatherAxis::design, "design", unit::none, "the values number the points of this design: effects are told");
+    v(&GatherAxis::samples, "samples", unit::none,
+      "the values number so many sets of parameters that a fit leaves open: spread of each quantity, parameters that matter, bands of "
+      "figures",
+      at_least(2));
   }
 };
 
@@ -68,6 +73,10 @@ struct GatherConfig {
       if (axes[i].design && axes.size() > 1)
         all.push_back({"axes[" + std::to_string(i) + "].design", "a design beside other axes", "the design as the only axis",
                        "gather it alone: name one member of the other axes, or give each its own pipeline"});
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      if (axes[i].samples && axes.size() > 1)
+        all.push_back({"axes[" + std::to_string(i) + "].samples", "samples beside other axes", "the samples as the only axis",
+                       "gather them alone: name one member of the other axes"});
     for (const auto& [name, figure] : figures)
       if (maps.count(name) || name == "table" || !is_column_name(name))
         all.push_back({"figures." + name, "the name " + name, "another name: letters, digits, _, + and - only",

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "config/writer.hpp"
 #include "post/figure.hpp"
+#include "sweep/spread.hpp"
 
 namespace langer {
 
@@ -85,14 +86,16 @@ class Drawer {
  public:
   Drawer(const SweepFigure& figure, const std::string& name, const std::vector<SweepAxis>& axes,
          const std::vector<SweepMember>& members, const std::function<Place(const std::string&)>& where)
-      : figure_(figure), file_(name + ".csv"), axes_(axes), members_(members), where_(where) {}
+      : figure_(figure), name_(name), file_(name + ".csv"), axes_(axes), members_(members), where_(where) {}
 
   FigureData data() {
     data_.plot.title = figure_.title;
     data_.plot.scale = figure_.scale;
     if (figure_.points) add_points(*figure_.points);
     const auto axis = std::find_if(axes_.begin(), axes_.end(), [&](const SweepAxis& a) { return a.name == figure_.x; });
-    if (axis == axes_.end())
+    if (axis == axes_.end() && axes_.size() == 1 && axes_[0].samples)
+      over_samples();
+    else if (axis == axes_.end())
       over_curves();
     else
       over_axis(static_cast<std::size_t>(axis - axes_.begin()));
@@ -104,7 +107,7 @@ class Drawer {
 
  private:
   const SweepFigure& figure_;
-  const std::string file_;
+  const std::string name_, file_;
   const std::vector<SweepAxis>& axes_;
   const std::vector<SweepMember>& members_;
   const std::function<Place(const std::string&)>& where_;
@@ -198,6 +201,28 @@ class Drawer {
         const std::string name = m.at.empty() ? ending.substr(1) : literal(member_text(figure_.member, axes_, m.at));
         add_line(x_head, y_head, i, k, once ? "" : name);
       }
+    }
+  }
+
+  void over_samples() {
+    std::vector<const Column*> x;
+    for (const SweepMember& m : members_) x.push_back(&column(m, "x", figure_.x));
+    const std::string x_head = table_.add(csv_name(x[0]->name, x[0]->unit), x[0]->values);
+    data_.plot.x_label = with_unit(figure_.x_label.value_or(literal(figure_.x)), x[0]->unit);
+    data_.plot.rows = static_cast<int>(x[0]->values.size());
+    for (std::size_t i = 0; i < figure_.y.size(); ++i) {
+      std::vector<const Column*> y;
+      for (const SweepMember& m : members_) y.push_back(&column(m, fmt::format("y[{}]", i), figure_.y[i]));
+      take_unit(i, y[0]->unit);
+      const Band band = band_of(name_, x, y);
+      const std::string unit = y[0]->unit;
+      const std::string mean = table_.add(csv_name(figure_.y[i] + "_mean", unit), band.mean.values),
+                        deviation = table_.add(csv_name(figure_.y[i] + "_deviation", unit), band.deviation.values);
+      table_.add(csv_name(figure_.y[i] + "_lower_95", unit), band.low.values);
+      table_.add(csv_name(figure_.y[i] + "_upper_95", unit), band.high.values);
+      PlotLine line{file_, x_head, mean, legend(i, "")};
+      line.error = deviation;
+      data_.plot.lines.push_back(line), data_.bands.push_back(band);
     }
   }
 

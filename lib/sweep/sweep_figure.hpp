@@ -1,6 +1,7 @@
 // Figures over the members of a sweep.
 //   x is an axis of the sweep   a point per member, from its summary; a line for each y, and for each value of other axes
-//   x is a column               a line for each y and member, from the members' curves
+//   x is a column               a line for each y and member, from the members' curves; of samples of what a fit leaves open one line for
+//                               each y, their mean, with a band of one standard deviation
 // The numbers drawn stand beside the figure, in <name>.csv.
 #pragma once
 
@@ -78,9 +79,15 @@ struct SweepMember {
 
 std::string member_text(const std::string& pattern, const std::vector<SweepAxis>& axes, const std::vector<std::string>& at);
 
+// Of the curves of samples (sweep/spread.hpp): their mean, standard deviation, percentiles 2.5 and 97.5.
+struct Band {
+  std::string figure;
+  Column x, mean, deviation, low, high;
+};
 struct FigureData {
   Plot plot;
   std::string csv;
+  std::vector<Band> bands = {};  // of samples: in place of a line for each member
 };
 // throws Failure(config) at `where`(x), (y[0]) ... for names that no member has
 FigureData figure_over(const SweepFigure& figure, const std::string& name, const std::vector<SweepAxis>& axes,

@@ -63,7 +63,8 @@ void write_effects(const h5::Group& root, const Design& design, const std::vecto
 }  // namespace
 
 void write_sweep(const std::string& path, const std::string& csv_path, const Sweep& sweep, const Design* design,
-                 const std::vector<QuantityEffects>& effects, const Identity& identity) {
+                 const std::vector<QuantityEffects>& effects, const Identity& identity, const std::vector<Spread>& spreads,
+                 const std::vector<Band>& bands) {
   write_text_file(csv_path, csv(sweep));
   h5::File file = h5::File::create(path);
   write_identity(file.root(), sweep_schema, identity);
@@ -72,6 +73,7 @@ void write_sweep(const std::string& path, const std::string& csv_path, const Swe
   for (const SweepAxis& axis : sweep.axes) write_axis(axes, axis);
   for (const SweepColumn& c : sweep.columns) values.write<double>(c.name, {c.values.size()}, c.values, c.unit);
   if (design) write_effects(file.root(), *design, effects);
+  if (!spreads.empty()) write_spread(file.root(), spreads, bands);
   file.commit();
 }
 

@@ -102,3 +102,43 @@ string(REPLACE "centre: [0, 6.5, 0]" "centre: [0, 3.5, 0]" deep "${small}")
 file(WRITE ${folder}/deep.yaml "${deep}")
 string(REPLACE small.yaml deep.yaml inside "${one}")
 expect_refused(2 "${inside}${law}" "deep.yaml:4:21: contacts.sphere.rigid: starts")
+
+# what a fit leaves open, by derivatives and by sets of its parameters that an ordinary sweep runs: the same deviation, the same parameter first
+file(COPY ${ROOT}/data/synthetic_yeoh.csv DESTINATION ${folder})
+file(WRITE ${folder}/tension.yaml "data: [{file: synthetic_yeoh.csv, strain_to: 0.5}]\n${law}study: {bootstrap: 60, profiles: false, stability: false}\n")
+string(REGEX REPLACE "\nmaterial: [^\n]*" "" without_law "${small}")
+file(WRITE ${folder}/press.yaml "${without_law}")
+file(WRITE ${folder}/press_linear.yaml "${without_law}uncertainty: linear\n")
+file(WRITE ${folder}/open.yaml "pipeline: open
+nodes:
+  fit: {stage: fit, config: tension.yaml}
+  solve: {stage: solve, config: press_linear.yaml, material: fit}
+  post: {stage: post, config: post.yaml, solution: solve}
+  table: {stage: gather, config: {columns: [force, force_deviation, force_deviation_without_a1, force_deviation_without_a2]}, curves: post}
+  set: {stage: sample, material: fit, sweep: {sample: {samples: 60}}}
+  solve_set: {stage: solve, config: press.yaml, material: set}
+  post_set: {stage: post, config: post.yaml, solution: solve_set}
+  spread:
+    stage: gather
+    config: {columns: [force], figures: {band: {x: u_ind, y: [force]}}}
+    curves: post_set
+    material: fit
+    over: sample
+")
+run(0 ${BIN}/langer-plan open.yaml -o open --slurm)
+file(STRINGS ${folder}/open/slurm/set.steps steps)
+list(LENGTH steps n)
+expect_equal(${n} 60 "steps of the node set that Slurm gets")
+run(0 make -C open)
+file(STRINGS ${folder}/open/spread/spread.csv rows)
+execute_process(COMMAND awk -F, "NR==FNR {if (FNR==2) {f=$1; d=$2; a1=$3; a2=$4}; next} FNR==2 {
+    printf \"%d %d %d\", ($3/f > 0.95 && $3/f < 1.05), ($4/d > 0.75 && $4/d < 1.33), (a1 < a2) == ($7 < $8)}"
+  open/table/table.csv open/spread/spread.csv WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE agree)
+expect_equal("${agree}" "1 1 1" "force, deviation, order of the parameters, by samples beside those by derivatives; ${rows}")
+file(STRINGS ${folder}/open/spread/band.csv rows)
+list(GET rows 0 heads)
+expect_equal("${heads}" "u_ind_mm,force_mean_N,force_deviation_N,force_lower_95_N,force_upper_95_N" "columns of the band")
+# a set that the fit does not have
+file(WRITE ${folder}/sample.yaml "number: 1\n")
+run(2 ${BIN}/langer-sample sample.yaml --material open/fit/material.h5 --set number=61 -o none.h5)
+expect_said("number: 61, and open/fit/material.h5 has 60 sets")
