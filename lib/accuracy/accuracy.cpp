@@ -21,6 +21,7 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 
 // where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
 constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr double enough_for_coarsest = 2;  // [%]
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
 constexpr double finest_of_block = 0.04, finest_of_disc = 0.01, shortest_step = 0.01;  // finer ones were never tried
 constexpr double most_hex8 = 6e4;  // of meshes whose cells are no lengths in contact radii
@@ -71,12 +72,14 @@ AccuracyLevel the_configs_own(const SolveConfig& config) {
 }
 
 // in thin layers with cells that are short enough for some layers of them
-AccuracyLevel where_to_begin(const SolveConfig& config, double finest) {
+AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wanted) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyLevel level = is_section(geometry) ? of_disc : has_friction(config) ? coarsest_with_friction : coarsest;
+  AccuracyLevel level = is_section(geometry)                                   ? of_disc
+                        : has_friction(config) && wanted < enough_for_coarsest ? coarsest_with_friction
+                                                                               : coarsest;
   *edge = level.edge;
   while (*edge > finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
   level.edge = *edge;
@@ -119,7 +122,7 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
 
 // as it would be on cells longer by the factor `edge`, in increments longer by `step` [%]
 double percent_with(ErrorEstimate e, double edge, double step) {
-  e.cells *= std::pow(edge, e.order), e.increments *= step * step, e.scatter *= edge;
+  e.cells *= std::pow(edge, e.order), e.increments *= step * step, e.scatter *= edge * edge;
   return e.in_percent(e.total());
 }
 
@@ -148,15 +151,17 @@ std::optional<double> percent_of(const std::string& text) {
 }
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
-  // make trade; force_error of <scene>/trade.csv: q50-4steps, q35-4steps and q25-5steps in the isotropic scene, rounded up;
-  // the first is better there than its neighbours and its estimate: by chance
-  static const std::vector<AccuracyLevel> smooth{
-      {CellType::hex27, 0.5, 0.25, 2}, {CellType::hex27, 0.3536, 0.25, 0.5}, {CellType::hex27, 0.25, 0.2, 0.2}};
+  // make trade; force_error of <scene>/trade.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
+  // neighbours add: with few nodes in contact one of them or another touches by chance
+  static const std::vector<AccuracyLevel> smooth{{CellType::hex8, 0.175, 0.25, 2},
+                                                 {CellType::hex8, 0.15, 0.25, 1},
+                                                 {CellType::hex27, 0.3536, 0.25, 0.5},
+                                                 {CellType::hex27, 0.25, 0.2, 0.2}};
   // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and a quarter
   // more for scenes unlike them (pipelines/accuracy.yaml). Shorter increments cost more and are no nearer: what cells add, longer
   // increments take away. At 1 % five of them, since with four the estimate is just above it and cells would be made shorter
   static const std::vector<AccuracyLevel> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
-                                                 {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.1125, 0.2, 1},
+                                                 {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.11, 0.2, 1},
                                                  {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
   return plain ? smooth : others;
 }
@@ -185,7 +190,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   const auto& levels = accuracy_levels(plain);
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
-  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest) : chosen.met ? *level : levels.back();
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest, chosen.wanted) : chosen.met ? *level : levels.back();
   if (!plain && !has_friction(config)) chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
   if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))

@@ -77,6 +77,29 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
+// What nodes that come into contact one by one make of a force, relative to it (make work-precision; sections: docs/work_precision.md).
+double one_by_one(double touching, bool section) {
+  if (touching < 1) return 0;
+  return std::min(0.5, section ? 0.25 / (touching * touching) : 3.1 * std::pow(touching, -1.5));
+}
+
+// What nodes that stick where they touch add to a force, relative to it: 0.7 times the square of their distance in contact radii.
+double too_early(double touching) { return touching < 1 ? 0 : std::min(0.5, 1.6 / touching); }
+constexpr double rough = 0.2;  // friction from which on that is so
+
+// The greatest stress below an indenter lies between points of the cells, wherever these are: by how much it may be missed, relative to
+// it, is a share of the cells' length in contact radii.
+double between_points(double touching, bool section) {
+  if (touching < 1) return 0;
+  return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
+}
+
+double greatest_friction(const SolveConfig& config) {
+  double most = 0;
+  for (const auto& [name, contact] : config.contacts) most = std::max(most, contact.friction);
+  return most;
+}
+
 // Whether a face of the body is held or moved in its plane, too: at its edges stresses are singular.
 bool is_clamped(const SolveConfig& config) {
   std::map<std::string, std::set<Axis>> given;
@@ -241,24 +264,34 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                        [&](const Run& run) { return listener ? listener(run, begun, refined.n_scenes()) : RunListener{}; });
   });
   PathErrors out;
-  const auto judged = [&](const Valued& q, const std::vector<double>& on_meshes, const std::vector<double>& in_increments) {
+  const bool section = config.mesh && is_section(config.mesh->geometry);
+  const double sticks = refined.sticks_far_apart ? std::min(1.0, greatest_friction(config) / rough) : 0;
+  const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
+                          const std::vector<double>& in_increments) {
     const double order = q.of_force() ? order_of_force(config) : q.name == "von_mises_max" ? 1 : 2;
     const auto limit = limit_of(all.telling(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
     const double increments = in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
-    return std::optional(ErrorEstimate{q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order});
+    ErrorEstimate e{q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
+    const double touching = touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
+    if (q.name == "von_mises_max") e.scatter = std::max(e.scatter, 0.5 * between_points(touching, section) * std::abs(q.value));
+    if (q.of_force()) {
+      e.scatter = std::max(e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value));
+      if (sticks > 0) e.cells = std::max(e.cells, sticks * too_early(touching) * std::abs(q.value));
+    }
+    return std::optional(e);
   };
   Family increments;
   if (!all.other.empty()) increments.of = {all.family.of.back(), all.other[0]};
   for (const Valued& q : itself.found) {
-    auto at_end = judged(q, all.telling(q).ends(q.name), increments.ends(q.name));
+    auto at_end = judged(q, 1, all.telling(q).ends(q.name), increments.ends(q.name));
     if (!at_end) continue;
     if (q.of_force()) at_end->left_out = all.left_out(q);
     out.at_end.push_back(*at_end);
     if (!q.of_force()) continue;
     for (const StepForces& step : itself.path) {
       const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
-      const auto e = judged(there, all.telling(q).forces(q.name, step.t), increments.forces(q.name, step.t));
+      const auto e = judged(there, step.t, all.telling(q).forces(q.name, step.t), increments.forces(q.name, step.t));
       out.along[q.name].push_back(e->total());
     }
     if (!itself.path.empty()) out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);

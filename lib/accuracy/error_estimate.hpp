@@ -3,16 +3,20 @@
 // clamped face passes on, p = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the side have
 // errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
-//               radii (with friction 0.14, of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much
+//               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much
 //               longer, whatever that costs
 //   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
 //               hex27 longer by sqrt 2 and by 2, reactions without indenters, too
 // Errors have a sign: what is found lies above its limit by
-//   cells       q - f
+//   cells       q - f; of hex8 with friction and nodes further apart than 0.14 contact radii at least 1.6 / n of the force: they stick
+//               too early, and three such meshes do not tell it
 //   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order (Statics::slip_from_touch), r = 2 or more, so that dt / r <= 1/8;
 //               of increments below 0.1 what twice their length changes; on the longest of these cells; nothing where no friction
 //               and no time makes the path matter
-//   scatter     root mean square of what the fit leaves
+//   scatter     root mean square of what the fit leaves, or what no fit to three meshes shows: nodes come into contact one by one (of a
+//               section a ring of them), and go up and down with the length of the cells: half of 3.1 n^(-3/2) of the force, n nodes
+//               that touch on the finest mesh of those above, and of a section half of 0.25 n^(-2); the greatest stress lies
+//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n                              docs/work_precision.md
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
 //   limit       found - cells - increments

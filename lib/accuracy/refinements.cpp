@@ -18,8 +18,9 @@ struct Lengths {
   double fine_enough;  // up to which errors follow the law (pipelines/estimates.yaml)
   double finest;       // of the meshes for coarser ones
 };
-constexpr Lengths of_block{0.18, 0.125}, with_friction{0.14, 0.125};
-constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
+constexpr Lengths of_block{0.18, 0.125};
+constexpr double sticks_by_the_law = 0.14;  // above this length what is fitted to nodes that stick was a third of the error
+constexpr Lengths of_disc{0.07, 0.0442};    // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 constexpr std::array cheap{1.4, 1.75};       // for estimate: auto, together about a fifth of the solve
 constexpr double close_enough = 1e-5;        // residual, relative to the reactions: errors are asked to two digits
@@ -99,8 +100,9 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   refined.own = !quadratic && !locks;
   const auto& factors = config.estimate == EstimateBy::automatic ? cheap : longer;
   if (const double* edge = edge_in_contact_radii(geometry)) {
-    const Lengths lengths = is_section(geometry) ? of_disc : has_friction(config) ? with_friction : of_block;
+    const Lengths lengths = is_section(geometry) ? of_disc : of_block;
     refined.own = refined.own && *edge * factors.back() <= lengths.fine_enough * longer.back();
+    refined.sticks_far_apart = refined.own && !is_section(geometry) && has_friction(config) && *edge > sticks_by_the_law;
     if (!refined.own) *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * *edge : *edge, lengths.finest);
   } else {
     if (quadratic) scale_cells(geometry, 0.5);  // as many nodes

@@ -1,5 +1,8 @@
 #include "run/step_forces.hpp"
 
+#include <algorithm>
+
+#include "mesh/section.hpp"
 #include "scene/torque.hpp"
 
 namespace langer {
@@ -20,6 +23,36 @@ double force_of(const StepRecord& state, const std::string& contact) {
   return force.norm();
 }
 
+void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whole, StepForces& forces) {
+  const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
+  for (const RigidContact& contact : scene.contacts) {
+    const std::vector<Vec3>& r = whole.contacts.at(contact.name).r;
+    double n = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) n += contact.nodes[i] < front && !r[i].isZero(0) ? 1 : 0;
+    if (n == 0) continue;
+    if (scene.contacts.size() > 1) forces.touching["force_" + contact.name] = n;
+    const auto [fewest, first] = forces.touching.try_emplace("force", n);
+    fewest->second = std::min(fewest->second, n);
+  }
+}
+
+// Between two steps linear, 0 at t = 0 and for a name that is not there.
+template <class Values>
+double between(const std::vector<StepForces>& path, const std::string& name, double t, const Values& values) {
+  const auto value = [&](const StepForces& step) {
+    const auto& of = values(step);
+    const auto found = of.find(name);
+    return found == of.end() ? 0 : found->second;
+  };
+  double t0 = 0, f0 = 0;
+  for (const StepForces& step : path) {
+    const double f = value(step);
+    if (t <= step.t) return f0 + (t - t0) / (step.t - t0) * (f - f0);
+    t0 = step.t, f0 = f;
+  }
+  return f0;
+}
+
 }  // namespace
 
 StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& whole) {
@@ -27,6 +60,7 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
   if (!scene.contacts.empty()) forces.of["force"] = whole.force_ind.norm();
   if (scene.contacts.size() > 1)
     for (const RigidContact& contact : scene.contacts) forces.of["force_" + contact.name] = force_of(whole, contact.name);
+  count_touching(scene, mesh, whole, forces);
   forces.of.merge(torques_of(whole, scene));
   for (const std::string& set : moved_sets(config)) {
     Vec3 reaction = Vec3::Zero();
@@ -37,17 +71,13 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
 }
 
 double force_at(const std::vector<StepForces>& path, const std::string& name, double t) {
-  const auto value = [&](const StepForces& step) {
-    const auto found = step.of.find(name);
-    return found == step.of.end() ? 0 : found->second;
-  };
-  double t0 = 0, f0 = 0;
-  for (const StepForces& step : path) {
-    const double f = value(step);
-    if (t <= step.t) return f0 + (t - t0) / (step.t - t0) * (f - f0);
-    t0 = step.t, f0 = f;
-  }
-  return f0;
+  return between(
+      path, name, t, [](const StepForces& step) -> const auto& { return step.of; });
+}
+
+double touching_at(const std::vector<StepForces>& path, const std::string& name, double t) {
+  return between(
+      path, name, t, [](const StepForces& step) -> const auto& { return step.touching; });
 }
 
 RunListener collecting(RunListener listener, const SolveConfig& config, const Run& run, std::vector<StepForces>& path) {

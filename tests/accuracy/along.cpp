@@ -42,6 +42,33 @@ TEST_CASE("a force between two steps lies on the line between theirs, before the
   CHECK(force_at(path, "reaction_top", 1) == 0);
 }
 
+TEST_CASE("nodes that touch are counted, of the whole body, and those of a section once") {
+  const SolveConfig config = disc(0.1, 0);
+  const auto counted = [](const SolveConfig& scene) {
+    const std::vector<StepForces> path = solved_path(scene, scene.material, nowhere).path;
+    return std::pair{touching_at(path, "force", 0.25), touching_at(path, "force", 1)};
+  };
+  const auto [early, late] = counted(config);
+  CHECK(early > 3);
+  CHECK(late > early);
+  CHECK(late < 2.2 / 0.1);  // from the axis to the edge of the contact, two for each of the hex27
+  SolveConfig block =
+      read_config<SolveConfig>(
+          parse_yaml(
+              "mesh: {geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: [16, 4, 16]}}}\n"
+              "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 0.01}}}\nsupports: [{on: bottom, hold: [x, y, z]}]\n"
+              "contacts: {ball: {rigid: {sphere: {radius: 3, centre: [0, 6, 0]}}, motion: [{t: 1, to: [0, -0.5, 0]}]}}\npath: {steps: 2}\n",
+              "scene.yaml"))
+          .config;
+  block.symmetry = SymmetryChoice::none;
+  const auto whole = counted(block);
+  block.symmetry = SymmetryChoice::quarter;
+  CHECK(counted(block) == whole);
+  CHECK(whole.second >= 9);
+  block.contacts.at("ball").rigid = Plane{{0, 3, 0}, {0, -1, 0}};
+  CHECK(counted(block).second == 17 * 17);
+}
+
 TEST_CASE("every step has an error bar, the last one that of the end, and bars hold the forces of much finer cells") {
   for (double friction : {0.0, 0.4}) {
     CAPTURE(friction);

@@ -45,7 +45,7 @@ stop_by(INT 130)
 stop_by(TERM 143)
 
 # while errors are estimated: no scene is waited for, the steps are kept, and the next run makes the estimate or ends without it
-set(estimated ${BIN}/langer-solve configs/solve/accuracy_isotropic.yaml --set accuracy=1% -v -o)
+set(estimated ${BIN}/langer-solve configs/solve/accuracy_isotropic.yaml --set accuracy=0.5% -v -o)
 file(WRITE ${WORK}/estimate.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
 \"$@\" 2> said & p=$!
 said $p 'errors: scene 2 of 5'; freeze $p; before=$(grep -c iteration said)
