@@ -222,6 +222,27 @@ std::vector<Tie> read_ties(const std::string& text) {
   return ties;
 }
 
+FittedTest read_test(const h5::Group& one, const std::string& name) {
+  FittedTest test{name, one.text_attribute("kind"), one.text_attribute("measure"), 0, 1, {}, {}, {}, {}, {}, {}, 0, 0, 0};
+  check_units(one, {{"fibre_angle", "deg"},
+                    {"first", "-"},
+                    {"second", "-"},
+                    {"stress_x", "MPa"},
+                    {"stress_z", "MPa"},
+                    {"model_x", "MPa"},
+                    {"model_z", "MPa"},
+                    {"mean_error", "percent"},
+                    {"max_error", "percent"}});
+  test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
+  test.first = one.read_finite("first", {h5::any}), test.second = one.read_finite("second", {h5::any});
+  test.stress_x = one.read_finite("stress_x", {test.first.size()}), test.stress_z = one.read_finite("stress_z", {h5::any});
+  test.model_x = one.read_finite("model_x", {test.first.size()});
+  test.model_z = one.read_finite("model_z", {test.stress_z.size()});
+  test.r2 = one.read_scalar("r2"), test.mean_error_percent = one.read_scalar("mean_error");
+  test.max_error_percent = one.read_scalar("max_error");
+  return test;
+}
+
 FitRecord read_fit(const h5::Group& root) {
   const h5::Group group = root.group("fit"), parameters = group.group("parameters"), curve = root.group("curve");
   check_units(group, {{"cost", "MPa^2"}, {"mean_error", "percent"}, {"max_error", "percent"}, {"strain_range", "-"}});
@@ -259,25 +280,7 @@ FitRecord read_fit(const h5::Group& root) {
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));
   for (std::string name; names >> name;) {
-    const h5::Group one = tests.group(name);
-    FittedTest test{name, one.text_attribute("kind"), one.text_attribute("measure"), 0, 1, {}, {}, {}, {}, {}, {}, 0, 0, 0};
-    check_units(one, {{"fibre_angle", "deg"},
-                      {"first", "-"},
-                      {"second", "-"},
-                      {"stress_x", "MPa"},
-                      {"stress_z", "MPa"},
-                      {"model_x", "MPa"},
-                      {"model_z", "MPa"},
-                      {"mean_error", "percent"},
-                      {"max_error", "percent"}});
-    test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
-    test.first = one.read_finite("first", {h5::any}), test.second = one.read_finite("second", {h5::any});
-    test.stress_x = one.read_finite("stress_x", {test.first.size()}), test.stress_z = one.read_finite("stress_z", {h5::any});
-    test.model_x = one.read_finite("model_x", {test.first.size()});
-    test.model_z = one.read_finite("model_z", {test.stress_z.size()});
-    test.r2 = one.read_scalar("r2"), test.mean_error_percent = one.read_scalar("mean_error");
-    test.max_error_percent = one.read_scalar("max_error");
-    fit.tests.push_back(std::move(test));
+    fit.tests.push_back(read_test(tests.group(name), name));
   }
   if (group.has("at_rest")) fit.at_rest = read_at_rest(group.group("at_rest"));
   if (group.has("residual_correlation")) fit.residual_correlation = group.read_scalar("residual_correlation");
