@@ -35,33 +35,6 @@ double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::
   return normal.isZero(0) ? 0 : std::max(0.0, -force.dot(normal.normalized()));
 }
 
-// A candidate at an end of a step: its reaction, and where it is as the indenter sees it.
-struct NodeEnd {
-  Vec3 r, x;
-};
-
-// What slips by v in a step: the work that friction takes of it, and the powers of r over the slip at both ends, which the work of the
-// indenter has in it. What slips bears what its cone allows, against the slip: also where the node stuck or slipped the other way when the
-// step began, so that the reaction there tells the pressure and not the direction. A mean of both ends would lose half of such a step.
-// The slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip.
-struct Slipped {
-  double dissipated = 0, begin = 0, end = 0;
-};
-Slipped slipped(const RigidContact& contact, const NodeEnd& begin, const NodeEnd& end, const Vec3& v) {
-  Slipped out;
-  if (contact.mu == 0) return out;
-  const auto power = [&](const NodeEnd& at, double& r_n) {
-    if (at.r.isZero(0)) return 0.;
-    const Vec3 n = shape_at(contact.shape, at.x).normal;
-    r_n = std::max(0.0, at.r.dot(n));
-    return at.r.dot(v - v.dot(n) * n);
-  };
-  double at_begin = 0, at_end = 0;  // pressures
-  out.begin = power(begin, at_begin), out.end = power(end, at_end);
-  out.dissipated = at_end > 0 ? -0.5 * (1 + at_begin / at_end) * out.end : -0.5 * out.begin;
-  return out;
-}
-
 }  // namespace
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks,
@@ -106,12 +79,13 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
       v -= carried(contact, angle, x0, c0);
       v = 0.5 * angle / std::sin(0.5 * angle) * (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
     }
-    // over the slip the reaction goes from stick to its cone within the step: there friction's own work tells what the indenter does
-    const Vec3 x1 = mesh_.X[node] + now.u[node] - c;
-    const Slipped slip = slipped(contact, {r0, x0 - c0}, {r1, x1}, v);
-    step.dissipated += slip.dissipated, step.begin += slip.begin, step.end += slip.end;
+    for (const auto& [r, x] : {std::pair{r0, Vec3(x0 - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
+      if (r.isZero(0)) continue;
+      const Vec3 n = shape_at(contact.shape, x).normal;
+      step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
+    }
     if (r0.isZero(0) || r1.isZero(0)) continue;
-    const Vec3 n = shape_at(contact.shape, x1).normal;
+    const Vec3 n = shape_at(contact.shape, Vec3(mesh_.X[node] + now.u[node] - c)).normal;
     slips_[k][i] += (v - v.dot(n) * n).norm();
   }
 }
@@ -169,12 +143,6 @@ std::vector<PathSums> EnergyPath::sums() const {
   std::vector<PathSums> all(stored_.size());
   double largest = 0, most_force = 0, work_at_begin = 0;
   bool came_back = false;
-  // no parabola where the power jumps, as where what stuck begins to slip
-  const auto goes_on = [&](std::size_t k) {
-    if (k == 0 || k >= intervals_.size() || !intervals_[k].goes_on) return false;
-    const double before = intervals_[k - 1].end, after = intervals_[k].begin;
-    return std::abs(after - before) <= 0.25 * std::max(std::abs(after), std::abs(before));
-  };
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
     const Interval& here = intervals_[k];
     const double goes = here.travel - (k > 0 ? intervals_[k - 1].travel : 0);
@@ -184,18 +152,18 @@ std::vector<PathSums> EnergyPath::sums() const {
     // second divided differences with the states before and after
     double curvature = 0;
     int neighbours = 0;
-    if (goes_on(k)) {
+    if (here.goes_on) {
       const Interval& before = intervals_[k - 1];
       curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
     }
-    if (goes_on(k + 1)) {
+    if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
       const Interval& after = intervals_[k + 1];
       curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
     }
     if (neighbours > 0) curvature /= neighbours;
     PathSums& sum = all[k + 1];
     sum.path = all[k].path + here.way;
-    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature + here.dissipated;
+    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature;
     sum.dissipated = all[k].dissipated + here.dissipated;
     sum.hysteresis = sum.work - work_at_begin;
     most_force = std::max(most_force, here.force);

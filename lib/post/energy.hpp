@@ -2,8 +2,8 @@
 //   work        of the indenters (force along their way and torque over their angle), of imposed displacements and of forces on the surface, the integral of force over movement
 //               [N mm]: a parabola through each three neighbouring states of a straight piece of the path (trapezoids would err by
 //               the step squared)
-//   dissipated  sum over steps and contact nodes of -r_t . x_t, x_t the slip in it [N mm], r_t that of the end of the step with the mean
-//               of the pressures at both ends; of an indenter that turns the slip seen from half of its angle on, as long as the arc
+//   dissipated  sum over steps and contact nodes of -r_t . x_t, the mean of both ends of the step, x_t the slip in it [N mm]; of
+//               an indenter that turns the slip seen from half of its angle on, as long as the arc
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
 //   hysteresis  work since the first indenter last began to go on after it had come back: at the end of a cycle what that has cost [N mm]
@@ -47,7 +47,7 @@ class EnergyPath {
 
  private:
   struct Interval {
-    double dt, begin, end;  // power per t at its two ends, less what friction takes [N mm]
+    double dt, begin, end;  // power per t at its two ends [N mm]
     bool goes_on;           // in the direction of the interval before
     double way, dissipated;
     double travel, force;  // of the first indenter at the end: distance from its start, length of the force
