@@ -128,6 +128,25 @@ TEST_CASE("what the advice foretells of an indentation is what a fit with it ach
   }
 }
 
+TEST_CASE("tests that are made together tell at least what each tells, and observed places add to a force") {
+  write("solve.yaml", solve_yaml);
+  write_tension();
+  const std::string begin = std::string("data: [{file: tension.csv}]\n") + law + two_numbers +
+                            "study: {profiles: false, bootstrap: 0, stability: false, candidates: [";
+  const std::string scene = "{kind: scene, solve: solve.yaml, points: 10, ";
+  const Fitted found =
+      fitted(begin + scene + "name: one, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " + scene +
+             "name: two, together: true, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " + scene +
+             "name: places, measured: [u_x, u_y], places: [[2, 0], [3, 0], [4, 0]], standard_deviation: 0.01}, " + scene +
+             "name: point, measured: [u_y], on: beside, standard_deviation: 0.01}]}\n");
+  const double small = named(found.study, "one, contacts.sphere.motion[0].to[1] -0.6").worst,
+               large = named(found.study, "one, contacts.sphere.motion[0].to[1] -1").worst,
+               both = named(found.study, "two, contacts.sphere.motion[0].to[1] -0.6 and contacts.sphere.motion[0].to[1] -1").worst;
+  CHECK(both < std::min(small, large));
+  CHECK(named(found.study, "places").worst < named(found.study, "point").worst);
+  CHECK(named(found.study, "point").gain > 0);
+}
+
 TEST_CASE("candidates that do not fit their scene are named at their key") {
   write("solve.yaml", solve_yaml);
   write_tension();

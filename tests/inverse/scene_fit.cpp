@@ -156,6 +156,29 @@ TEST_CASE("The stretch of a path that a value lies on is told by the order of th
   CHECK(over.stretches({1, 2.1, 1}, 0.01)[1] == 4);
 }
 
+TEST_CASE("A law is found from loading and unloading with friction, whose forces differ at the same travel") {
+  write("solve.yaml", solve_yaml);
+  std::string scene = solve_yaml;
+  scene.replace(scene.find("motion: [{t: 1, to: [0, -1, 0]}]"), 32,
+                "friction: 0.4\n    motion: [{t: 0.5, to: [0, -0.8, 0]}, {t: 1, to: [0, 0, 0]}]");
+  scene.replace(scene.find("steps: 5"), 8, "first: 0.05, largest: 0.05");
+  write("there_and_back.yaml", scene);
+  auto loaded = read_config<SolveConfig>(load_yaml(folder + "/there_and_back.yaml"));
+  ForwardRun run(loaded.config, loaded.where, 0);
+  run.observe({Observation{}}, {});
+  const ForwardPath path = run.solve({*loaded.config.material});
+  std::string text = "travel_mm,force_N\n";
+  for (std::size_t i = 0; i < path.t.size(); ++i)
+    text += fmt::format("{},{}\n", path.t[i] < 0.5 ? 1.6 * path.t[i] : 1.6 * (1 - path.t[i]),
+                        path.values(static_cast<Eigen::Index>(i), 0));
+  write("cycle.csv", text);
+  const Found found = fitted(
+      "data: [{kind: scene, solve: there_and_back.yaml, file: cycle.csv, columns: {u_ind: travel_mm, force: force_N}}]\n" +
+      std::string(law) + "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\ndraft: false\n");
+  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
+  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
+}
+
 TEST_CASE("A place on the surface is found where its shape functions put it, on a block and on a section") {
   for (const char* yaml : {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
                            "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",
