@@ -282,7 +282,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     return std::optional(e);
   };
   Family increments;
-  if (!all.other.empty()) increments.of = {all.family.of.back(), all.other[0]};
+  if (!all.other.empty()) increments.of = {refined.sticks_far_apart ? all.family.of[1] : all.family.of.back(), all.other[0]};
   for (const Valued& q : itself.found) {
     auto at_end = judged(q, 1, all.telling(q).ends(q.name), increments.ends(q.name));
     if (!at_end) continue;

@@ -124,7 +124,8 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   const bool shorter = increment >= 0.1;
   const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment, ratio = increment / another;
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
-  refined.other_increments = coarsest;
+  // on cells so long that nodes stick by chance their increments do, too
+  refined.other_increments = refined.sticks_far_apart ? refined.hex8.front() : coarsest;
   refined.other_increments.path.use_increment(another);
   refined.other_increments.path.time_error /= ratio * ratio * ratio;  // it grows with the third power of an increment
   return refined;
