@@ -151,10 +151,10 @@ TEST_CASE("a column has the dimension that its unit says") {
   const std::map<std::string, double> factor{
       {"-", 1},     {"mm", length},  {"mm^2", length * length}, {"mm^3", length * length * length},
       {"N", force}, {"MPa", stress}, {"N mm", length * force},  {"s", 1}};
-  for (auto& [name, value] : scaled.state.histories) {
+  for (auto& history : scaled.state.histories) {
     const auto column =
-        std::find_if(quantity_lines().begin(), quantity_lines().end(), [&](const auto& q) { return q.word == name; });
-    value *= factor.at(column == quantity_lines().end() ? solution::unit_of(name) : column->unit);
+        std::find_if(quantity_lines().begin(), quantity_lines().end(), [&](const auto& q) { return q.word == history.first; });
+    history.second *= factor.at(column == quantity_lines().end() ? solution::unit_of(history.first) : column->unit);
   }
   Material law = test::table1(30, 1e-2), stiffer = law;
   std::get<QuadraticVolume>(stiffer.volume).d /= stress;
