@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/in_order.hpp"
+#include "base/quantile.hpp"
 #include "base/random.hpp"
 #include "fit/periodic.hpp"
 
@@ -263,16 +264,6 @@ VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out,
   known.freedom = inf;
   return interval_factors(columns, left_out, noise).cwiseQuotient(interval_factors(columns, left_out, known));
 }
-
-namespace {
-
-double quantile(const std::vector<double>& sorted, double part) {
-  const double place = part * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(place);
-  return sorted[i] + (place - static_cast<double>(i)) * (sorted[std::min(i + 1, sorted.size() - 1)] - sorted[i]);
-}
-
-}  // namespace
 
 Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options) {
   Bootstrap result;

@@ -2,22 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/quantile.hpp"
 
 namespace langer {
-
-namespace {
-
-// of sorted values, linear between neighbours
-double percentile(const std::vector<double>& sorted, double part) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double at = part * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  const double next = sorted[std::min(i + 1, sorted.size() - 1)];
-  return sorted[i] + (at - static_cast<double>(i)) * (next - sorted[i]);
-}
-
-}  // namespace
 
 std::vector<std::vector<int>> points_in(const std::vector<double>& x, const std::vector<Zone>& zones) {
   std::vector<std::vector<int>> groups;
@@ -38,7 +26,7 @@ Estimate Resamples::around(const MatX& value) const {
       for (const MatX& one : all_)
         if (std::isfinite(one(i, j))) sorted.push_back(one(i, j));
       std::sort(sorted.begin(), sorted.end());
-      e.low(i, j) = percentile(sorted, 0.025), e.high(i, j) = percentile(sorted, 0.975);
+      e.low(i, j) = quantile(sorted, 0.025), e.high(i, j) = quantile(sorted, 0.975);
     }
   return e;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/quantile.hpp"
 #include "config/writer.hpp"
 
 namespace langer {
@@ -26,9 +27,7 @@ double covariance_of(const std::vector<double>& a, const std::vector<double>& b)
 
 double percentile(std::vector<double> v, double part) {
   std::sort(v.begin(), v.end());
-  const double at = part * static_cast<double>(v.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  return v[i] + (at - static_cast<double>(i)) * (v[std::min(i + 1, v.size() - 1)] - v[i]);
+  return quantile(v, part);
 }
 
 // of a curve at a place between its rows; beyond them their nearest end
