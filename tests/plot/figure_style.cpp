@@ -13,6 +13,7 @@
 #include "plot/heat_map.hpp"
 #include "plot/map_drawing.hpp"
 #include "plot/pictures.hpp"
+#include "support/marks.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -31,14 +32,6 @@ std::string text_of(const std::string& path) {
   return s.str();
 }
 bool has_gnuplot() { return std::system("command -v gnuplot > /dev/null 2>&1") == 0; }
-
-template <class Mark>
-std::vector<Mark> marks_of(const Drawing& drawing) {
-  std::vector<Mark> marks;
-  for (const auto& mark : drawing.marks)
-    if (const Mark* m = std::get_if<Mark>(&mark)) marks.push_back(*m);
-  return marks;
-}
 
 FigureStyle column(double width) {
   FigureStyle style;
@@ -116,7 +109,7 @@ TEST_CASE("letters are as large on paper as they were asked to be, whatever the 
       style.font_size = points;
       const Drawing d = heat_map(correlations(3, "a"), style.look());
       CHECK(d.width * style.drawing_unit() == doctest::Approx(width / 25.4 * 72));
-      for (const Label& label : marks_of<Label>(d))
+      for (const Label& label : test::marks_of<Label>(d))
         if (label.text == "a1") CHECK(label.size * style.drawing_unit() == doctest::Approx(points));
       const std::string script = gnuplot_script(Plot{"", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style);
       CHECK(script.find("set terminal pdfcairo") != std::string::npos);
@@ -132,7 +125,7 @@ TEST_CASE("names of parameters in a correlation lie on the page and not on each 
         if (width > 0) style = column(width);
         const Drawing d = heat_map(correlations(n, name), style.look());
         std::vector<Box> boxes;
-        for (const Label& label : marks_of<Label>(d)) {
+        for (const Label& label : test::marks_of<Label>(d)) {
           const Box b = box_of(label);
           INFO(width << " mm, " << n << " of " << name << ": " << label.text);
           CHECK(b.left > -2);
@@ -156,14 +149,14 @@ TEST_CASE("a stability map has no two values far apart in one colour, and its sc
   HeatMap map;
   map.values = (MatX(1, 6) << -20, -0.2, 0.02, 0.2, 20, 2000).finished();
   map.middle = 0.5, map.limit = 2000, map.swap_colours = true;
-  const auto cells = marks_of<Patch>(heat_map(map));
+  const auto cells = test::marks_of<Patch>(heat_map(map));
   for (int i = 0; i < 6; ++i)
     for (int k = 0; k < i; ++k) {
       const Colour &a = cells[static_cast<std::size_t>(i)].fill, &b = cells[static_cast<std::size_t>(k)].fill;
       CHECK(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 0.03);
     }
   bool below = false, most = false;
-  for (const Label& label : marks_of<Label>(heat_map(map)))
+  for (const Label& label : test::marks_of<Label>(heat_map(map)))
     below = below || label.text == "-10", most = most || label.text == "1000";
   CHECK(below);
   CHECK(most);
@@ -207,7 +200,7 @@ TEST_CASE("titles go into the caption where a journal wants them there") {
   FigureStyle style;
   style.titles = false;
   const Drawing d = heat_map(correlations(3, "a"), style.look());
-  for (const Label& label : marks_of<Label>(d)) CHECK(label.text != "correlation of the parameters");
+  for (const Label& label : test::marks_of<Label>(d)) CHECK(label.text != "correlation of the parameters");
   CHECK(gnuplot_script(Plot{"a title", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style).find("set title") ==
         std::string::npos);
   CHECK(d.height < heat_map(correlations(3, "a")).height);

@@ -15,6 +15,7 @@
 #include "post/map.hpp"
 #include "post/render.hpp"
 #include "support/block.hpp"
+#include "support/marks.hpp"
 
 using namespace langer;
 
@@ -46,14 +47,6 @@ RenderScene scene_of(const Mesh& mesh) {
   RenderScene scene{mesh, mesh.X, {}, "height (mm)", {}};
   for (const Vec3& x : mesh.X) scene.values.push_back(x[1]);
   return scene;
-}
-
-template <class Mark>
-std::vector<Mark> marks_of(const Drawing& drawing) {
-  std::vector<Mark> marks;
-  for (const auto& mark : drawing.marks)
-    if (const Mark* m = std::get_if<Mark>(&mark)) marks.push_back(*m);
-  return marks;
 }
 
 }  // namespace
@@ -94,9 +87,9 @@ TEST_CASE("a block seen from a corner shows three of its sides, what is near ove
   const Drawing drawing = render(scene_of(mesh), choice);
   // the outlines of quads are closed lines of five points, as is the frame of the colour bar
   int outlines = 0;
-  for (const Stroke& s : marks_of<Stroke>(drawing)) outlines += s.points.size() == 5;
+  for (const Stroke& s : test::marks_of<Stroke>(drawing)) outlines += s.points.size() == 5;
   CHECK(outlines == 3 * 4 + 1);
-  for (const Patch& p : marks_of<Patch>(drawing))
+  for (const Patch& p : test::marks_of<Patch>(drawing))
     for (const PagePoint& c : p.corners) {
       CHECK((c[0] >= 0 && c[0] <= drawing.width));
       CHECK((c[1] >= 0 && c[1] <= drawing.height));
@@ -109,7 +102,7 @@ TEST_CASE("along z the picture is the x-y plane to scale, coloured by the nodes'
   choice.view = {0, 0};
   choice.range = {0, 1};
   const Drawing drawing = render(scene_of(mesh), choice);
-  const auto patches = marks_of<Patch>(drawing);
+  const auto patches = test::marks_of<Patch>(drawing);
   const Patch& whole = patches[0];
   REQUIRE(whole.corners.size() == 4);
   double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
@@ -136,7 +129,7 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   choice.view = {20, 20};
   const auto discs = [](const Drawing& d) {
     int n = 0;
-    for (const Patch& p : marks_of<Patch>(d)) n += p.corners.size() > 12;
+    for (const Patch& p : test::marks_of<Patch>(d)) n += p.corners.size() > 12;
     return n;
   };
   CHECK(discs(render(scene, choice)) == 0);
@@ -150,9 +143,9 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   choice.range = std::nullopt;
   scene.values.assign(scene.x.size(), 1), scene.indenters.clear();
   const Drawing bare = render(scene, choice);
-  for (const Stroke& s : marks_of<Stroke>(bare))
+  for (const Stroke& s : test::marks_of<Stroke>(bare))
     for (const PagePoint& c : s.points) CHECK((std::isfinite(c[0]) && std::isfinite(c[1])));
-  CHECK(marks_of<Patch>(bare).empty());
+  CHECK(test::marks_of<Patch>(bare).empty());
 }
 
 TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth") {
@@ -307,22 +300,23 @@ TEST_CASE("a body without a field is drawn plain, with its points, the edges at 
   for (Vec3& x : scene.x) x[0] *= 1.5;
   RenderChoice choice;
   CHECK(choice.complaints().empty());
-  const std::size_t plain_strokes = marks_of<Stroke>(render(scene, choice)).size();
-  for (const Patch& patch : marks_of<Patch>(render(scene, choice))) {  // shades of one paper: no colour of the scale
+  const std::size_t plain_strokes = test::marks_of<Stroke>(render(scene, choice)).size();
+  for (const Patch& patch : test::marks_of<Patch>(render(scene, choice))) {  // shades of one paper: no colour of the scale
     CHECK(patch.fill.r >= patch.fill.b);
     CHECK(patch.fill.r < 1.1 * patch.fill.b);
   }
   choice.outline = true;
-  CHECK(marks_of<Stroke>(render(scene, choice)).size() == plain_strokes + 4 * (3 + 2 + 1));  // the box's twelve edges, cell by cell
+  CHECK(test::marks_of<Stroke>(render(scene, choice)).size() ==
+        plain_strokes + 4 * (3 + 2 + 1));  // the box's twelve edges, cell by cell
   scene.points = {{"B", scene.x.back()}};
   scene.actions = {{{Vec3(4.5, 1, 0.5)}, Vec3::UnitX(), true, "u_x = 1 mm"}, {{Vec3(0, 1, 0.5)}, Vec3::UnitX(), false, "u_x = 0"}};
   const Drawing drawing = render(scene, choice);
   std::map<std::string, PagePoint> labels;
-  for (const Label& label : marks_of<Label>(drawing)) labels[label.text] = label.at;
+  for (const Label& label : test::marks_of<Label>(drawing)) labels[label.text] = label.at;
   REQUIRE(labels.count("B"));
   REQUIRE(labels.count("u_x = 1 mm"));
   CHECK(labels.at("u_x = 1 mm")[0] > labels.at("u_x = 0")[0]);  // x goes to the right in this view
-  CHECK(marks_of<Stroke>(drawing).size() == plain_strokes + 24 + 2);
+  CHECK(test::marks_of<Stroke>(drawing).size() == plain_strokes + 24 + 2);
 }
 
 TEST_CASE("no label of a map's axes stands on another, whatever the reach") {
@@ -333,7 +327,7 @@ TEST_CASE("no label of a map's axes stands on another, whatever the reach") {
   for (const double reach : {1.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.5, 10.0}) {
     MapStyle style;
     style.reach = reach;
-    std::vector<Label> labels = marks_of<Label>(map_drawing({{"", &map}}, style));
+    std::vector<Label> labels = test::marks_of<Label>(map_drawing({{"", &map}}, style));
     for (std::size_t i = 0; i < labels.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         if (labels[i].anchor == Label::Anchor::end && labels[k].at[0] == labels[i].at[0]) {  // those of the z axis
