@@ -30,7 +30,10 @@ void LinearSolver::State::analyse() {
   const NoNestedThreads guard;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
-  L = cholmod_analyze(A, &common);
+  {
+    const auto alone = one_ordering_at_a_time();
+    L = cholmod_analyze(A, &common);
+  }
   if (L && !last.empty()) order_last();
   if (!L) throw std::bad_alloc();
 }

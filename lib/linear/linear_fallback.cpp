@@ -87,9 +87,11 @@ bool LinearSolver::State::factorize_indefinite() {
     if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
     return status == UMFPACK_OK;
   };
-  if (!symbolic &&
-      !worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
-    return false;
+  if (!symbolic) {
+    const auto alone = one_ordering_at_a_time();
+    if (!worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
+      return false;
+  }
   if (numeric) umfpack_di_free_numeric(&numeric);
   return worked(umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
 }

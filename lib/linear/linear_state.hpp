@@ -6,6 +6,7 @@
 #include <umfpack.h>
 
 #include <Eigen/Dense>
+#include <mutex>
 #include <vector>
 
 #include "linear/blas/blas.hpp"
@@ -26,6 +27,13 @@ class NoNestedThreads {
  private:
   int levels_;
 };
+
+// METIS draws from the C library's one rand(), which it seeds anew for each ordering. Two threads that order at once draw from
+// one another's numbers, and find another ordering in every run.
+inline std::lock_guard<std::mutex> one_ordering_at_a_time() {
+  static std::mutex mutex;
+  return std::lock_guard(mutex);
+}
 
 struct LinearSolver::State {
   cholmod_common common;

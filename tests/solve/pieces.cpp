@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/in_order.hpp"
 #include "linear/linear.hpp"
 #include "nonlinear/load_path.hpp"
 #include "nonlinear/newton.hpp"
@@ -212,6 +213,35 @@ TEST_CASE("a fixed number of steps lands on equal fractions") {
       });
   REQUIRE(reached.size() == 100);
   for (int i = 0; i < 100; ++i) CHECK(reached[i] == (i + 1) / 100.0);
+}
+
+TEST_CASE("solvers that are made side by side order their unknowns as one alone does") {
+  const int n = 40;  // an n x n grid
+  Pattern p;
+  p.n = n * n, p.column_start = {0};
+  for (int c = 0; c < p.n; ++c) {
+    p.row.push_back(c);
+    if (c % n + 1 < n) p.row.push_back(c + 1);
+    if (c + n < p.n) p.row.push_back(c + n);
+    p.column_start.push_back(static_cast<int>(p.row.size()));
+  }
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0.5, 1);
+  std::vector<double> values(p.nnz());
+  for (double& v : values) v = -u(random);
+  for (int c = 0; c < p.n; ++c) values[p.column_start[c]] = 5;
+  VecX b(p.n);
+  for (double& v : b) v = u(random);
+  const auto solution = [&] {
+    LinearSolver linear(p, {});
+    return linear.factorize(values) ? linear.solve(b) : VecX();
+  };
+  const VecX alone = solution();
+  REQUIRE(alone.size() == p.n);
+  std::vector<VecX> beside(40);
+  in_order(
+      4, 40, [&](int, int i) { beside[i] = solution(); }, [](int, int) {});
+  for (const VecX& x : beside) CHECK(x == alone);  // to the last bit: the same ordering
 }
 
 TEST_CASE("the linear solver handles definite, indefinite and singular matrices and says which") {

@@ -1,6 +1,11 @@
 # Words for the scripts of tests/stages.   ROOT the project, BIN its programs, WORK a folder of the test's own
 cmake_minimum_required(VERSION 3.25)
 
+# as from a terminal: what a `make test` hands down is not the tests' own, and a make beneath it would say more
+foreach(inherited MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES)
+  unset(ENV{${inherited}})
+endforeach()
+
 # run(<exit code> <command>...): runs it in ${folder} (default ${WORK}/project) and leaves what it said in ${said}
 macro(run expected)
   if(NOT folder)
