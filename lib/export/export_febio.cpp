@@ -24,8 +24,6 @@ std::string escaped(const std::string& text) {
   return s;
 }
 
-std::string triple(const Vec3& x) { return fmt::format("{:.16g},{:.16g},{:.16g}", x[0], x[1], x[2]); }
-
 // letters that a file's name may have anywhere
 std::string file_name(std::string name) {
   for (char& c : name)

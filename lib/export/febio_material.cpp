@@ -25,7 +25,6 @@ struct Lacking {
 };
 
 std::string tag(const std::string& name, double value) { return fmt::format("<{0}>{1}</{0}>", name, value); }
-std::string triple(const Vec3& x) { return fmt::format("{:.16g},{:.16g},{:.16g}", x[0], x[1], x[2]); }
 std::string axes(const Vec3& a, const Vec3& d) {
   return fmt::format("<mat_axis type=\"vector\"><a>{}</a><d>{}</d></mat_axis>", triple(a), triple(d));
 }
@@ -155,5 +154,7 @@ ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& dir
   for (const Solid& s : solids) body += fmt::format("  <solid type=\"{}\">{}</solid>\n", s.type, s.parameters);
   return {whole("uncoupled solid mixture", body), "", ""};
 }
+
+std::string triple(const Vec3& x) { return fmt::format("{:.16g},{:.16g},{:.16g}", x[0], x[1], x[2]); }
 
 }  // namespace langer

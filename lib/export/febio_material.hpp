@@ -13,6 +13,9 @@
 
 namespace langer {
 
+// a vector as its files write one: "x,y,z"
+std::string triple(const Vec3& x);
+
 // fibres: unit direction of each family [-]
 ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& fibres, int id, const std::string& name);
 

@@ -16,7 +16,7 @@ using Mat2 = Eigen::Matrix2d;
 
 // Energy at ln lambda = (x, y, z), y = ln J - x - z, with derivatives in (ln J, z); tau is the Kirchhoff stress.
 //   dW/dlnJ = tau_y    dW/dz = tau_z - tau_y
-struct Sample {
+struct Pulled {
   double W;
   double tau_x_minus_y;
   Vec2 g;
@@ -30,14 +30,14 @@ struct Pull {
   double x;  // ln lambda
   bool incompressible;
 
-  std::optional<Sample> at(double ln_J, double z) const {
+  std::optional<Pulled> at(double ln_J, double z) const {
     const double y = ln_J - x - z;
     const Vec3 c = Vec3(std::exp(2 * x), std::exp(2 * y), std::exp(2 * z));
     const Response r = isochoric(material, c.asDiagonal(), a);
     const Vec3 tau = c.cwiseProduct(r.S.head<3>());
     //   dtau_i/dln lambda_j = 2 tau_i [i = j] + c_i D_ij c_j
     const Mat3 M = c.asDiagonal() * r.D.topLeftCorner<3, 3>() * c.asDiagonal() + Mat3((2 * tau).asDiagonal());
-    Sample s;
+    Pulled s;
     s.W = r.W;
     s.tau_x_minus_y = tau[0] - tau[1];
     s.g = {tau[1], tau[2] - tau[1]};
@@ -63,7 +63,7 @@ struct Pull {
 bool small(const Vec2& g, const Vec2& scale, double relative) { return (g.cwiseAbs().array() <= relative * scale.array()).all(); }
 
 // Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of the stretches by a fifth
-Vec2 step(const Sample& s) {
+Vec2 step(const Pulled& s) {
   Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.H);
   const Vec2 along = eigen.eigenvectors().transpose() * s.g;
   const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
@@ -80,7 +80,7 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
   if (!possible_stretch(lambda)) return u;
   const Pull pull{material, fibre_directions(material), std::log(lambda), incompressible};
   double ln_J = 0, z = -0.5 * pull.x;
-  std::optional<Sample> s = pull.at(ln_J, z);
+  std::optional<Pulled> s = pull.at(ln_J, z);
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !small(s->g, s->scale, enough); ++iteration) {
     Vec2 d = step(*s);

@@ -30,7 +30,7 @@ std::vector<Mat3> cube_rotations() {
   return rotations;
 }
 
-int node_at(const ReferenceCell& cell, const Vec3& xi) {
+int node_near(const ReferenceCell& cell, const Vec3& xi) {
   for (int a = 0; a < cell.n_nodes; ++a)
     if ((cell.node[a] - xi).norm() < 0.5) return a;
   return -1;
@@ -61,7 +61,7 @@ namespace {
 void turn_cell(Mesh& mesh, int e, const Mat3& R) {
   const ReferenceCell& cell = mesh.cell();
   std::vector<int> nodes;
-  for (const Vec3& xi : cell.node) nodes.push_back(mesh.cell(e)[node_at(cell, R * xi)]);
+  for (const Vec3& xi : cell.node) nodes.push_back(mesh.cell(e)[node_near(cell, R * xi)]);
   std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + cell.n_nodes * e);
 }
 

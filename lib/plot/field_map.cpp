@@ -4,19 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "plot/map_parts.hpp"
+
 namespace langer {
 
 namespace {
 
-constexpr Colour ink{0.15, 0.15, 0.15}, grey{0.8, 0.8, 0.8};
-
-Label label(double x, double y, const std::string& text, double size = 13, Label::Anchor anchor = Label::Anchor::middle) {
-  return {{x, y}, text, size, anchor};
-}
-
-Patch box(double x, double y, double w, double h, const Colour& colour) {
-  return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, colour, 0};
-}
+using namespace map_parts;
 
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;

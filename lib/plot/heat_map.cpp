@@ -5,19 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plot/map_parts.hpp"
+
 namespace langer {
 
 namespace {
 
-constexpr Colour ink{0.15, 0.15, 0.15}, grey{0.8, 0.8, 0.8}, pale{0.87, 0.87, 0.87};
+using namespace map_parts;
 
-Patch box(double x, double y, double w, double h, const Colour& colour, double hem = 0) {
-  return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, colour, hem};
-}
-
-Label label(double x, double y, const std::string& text, double size = 13, Label::Anchor anchor = Label::Anchor::middle) {
-  return {{x, y}, text, size, anchor};
-}
+constexpr Colour pale{0.87, 0.87, 0.87};
 
 // Where the cells of a map are drawn.
 struct Grid {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "plot/gnuplot.hpp"
 #include "post/quantity.hpp"
 #include "store/solution_layout.hpp"
 
@@ -14,12 +15,6 @@ const char* where(const QuantityLine& line) {
   if (is<OfSet>(line)) return "of a node set (`at:`)";
   if (is<OfBody>(line)) return "extreme over the whole body";
   return line.needs.contact ? "of the indenter; needs a contact" : "of the whole state";
-}
-
-// labels are gnuplot's: x_{y} for an index
-std::string plain(std::string label) {
-  std::erase_if(label, [](char c) { return c == '{' || c == '}'; });
-  return label;
 }
 
 std::string line(const std::string& name, const std::string& unit, const std::string& meaning) {

@@ -4,29 +4,20 @@
 #include <limits>
 #include <sstream>
 
+#include "store/grid.hpp"
 #include "store/listing.hpp"
+#include "store/matrices.hpp"
 #include "store/provenance.hpp"
 
 namespace langer {
 
 namespace {
 
-std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
-
-void write_matrix(const h5::Group& group, const std::string& name, const MatX& A, const std::string& unit = "") {
-  const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = A;
-  group.write<double>(name, {size(A.rows()), size(A.cols())}, std::span(rows.data(), size(rows.size())), unit);
-}
-
 MatX read_matrix(const h5::Group& group, const std::string& name, const h5::Shape& shape) {
   const auto array = group.read<double>(name, shape);
   using Rows = Eigen::Matrix<double, -1, -1, Eigen::RowMajor>;
   return Eigen::Map<const Rows>(array.values.data(), static_cast<Eigen::Index>(array.shape[0]),
                                 static_cast<Eigen::Index>(array.shape[1]));
-}
-
-void write_vector(const h5::Group& group, const std::string& name, const std::vector<double>& values, const std::string& unit) {
-  group.write<double>(name, {values.size()}, values, unit);
 }
 
 void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
@@ -94,12 +85,6 @@ void write_tests(const h5::Group& root, const std::vector<FittedTest>& fitted) {
     names += (names.empty() ? "" : " ") + test.name;
   }
   tests.attribute("order", names);
-}
-
-std::vector<double> flat(const std::vector<Vec3>& places) {
-  std::vector<double> all;
-  for (const Vec3& x : places) all.insert(all.end(), x.data(), x.data() + 3);
-  return all;
 }
 
 void write_curves_of_scenes(const h5::Group& root, const std::vector<FittedCurve>& fitted) {
@@ -177,9 +162,9 @@ std::vector<Summary> summary_of(const FitRecord& fit) {
 void write_fit(const h5::Group& root, const FitRecord& fit) {
   const h5::Group group = root.make_group("fit");
   write_parameters(group, fit.parameters);
-  write_matrix(group, "covariance", fit.covariance);
+  write_matrix(group, "covariance", fit.covariance, "");
   write_matrix(group, "correlation", correlation(fit.covariance), "-");
-  write_matrix(group, "starts", fit.starts);
+  write_matrix(group, "starts", fit.starts, "");
   group.write_scalar("cost", fit.cost, "MPa^2");
   group.write_scalar("kkt_residual", fit.kkt_residual);
   group.write_scalar("mean_error", fit.mean_error_percent, "percent");

@@ -2,24 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "store/matrices.hpp"
+
 namespace langer {
 
 namespace {
-
-std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
-
-void write_matrix(const h5::Group& group, const std::string& name, const MatX& A, const std::string& unit = "-") {
-  const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = A;
-  group.write<double>(name, {size(A.rows()), size(A.cols())}, std::span(rows.data(), size(rows.size())), unit);
-}
-
-void write_vector(const h5::Group& group, const std::string& name, const std::vector<double>& x, const std::string& unit = "-") {
-  group.write<double>(name, {x.size()}, x, unit);
-}
-
-void write_vector(const h5::Group& group, const std::string& name, const VecX& x, const std::string& unit = "-") {
-  group.write<double>(name, {size(x.size())}, std::span(x.data(), size(x.size())), unit);
-}
 
 void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& r) {
   group.attribute("order", fmt::format("{}", fmt::join(r.names, " ")));
@@ -29,16 +16,16 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
   group.write_scalar("effective_values", r.effective, "-");
   write_vector(group, "error", r.error, "");
   write_vector(group, "size", r.size, "");
-  write_vector(group, "singular", r.singular);
-  write_matrix(group, "correlation", r.correlation);
-  write_matrix(group, "combination", r.combination);
+  write_vector(group, "singular", r.singular, "-");
+  write_matrix(group, "correlation", r.correlation, "-");
+  write_matrix(group, "combination", r.combination, "-");
   if (!r.profiles.empty()) {
     const h5::Group profiles = group.make_group("profiles");
     for (std::size_t i = 0; i < r.profiles.size(); ++i) {
       const ProfileRecord& p = r.profiles[i];
       const h5::Group one = profiles.make_group(r.names[i]);
       write_vector(one, "value", p.value, "");
-      write_vector(one, "rise", p.rise);
+      write_vector(one, "rise", p.rise, "-");
       write_vector(one, "interval", std::vector{p.low, p.high}, "");
       one.attribute("low_open", std::int64_t{p.low_open});
       one.attribute("high_open", std::int64_t{p.high_open});
@@ -62,9 +49,9 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
       tests.push_back(a.test), worst.push_back(a.worst), gain.push_back(a.gain);
     }
     advice.attribute("tests", fmt::format("{}", fmt::join(tests, "; ")));
-    write_vector(advice, "worst", worst);
-    write_vector(advice, "gain", gain);
-    write_matrix(advice, "relative", relative);
+    write_vector(advice, "worst", worst, "-");
+    write_vector(advice, "gain", gain, "-");
+    write_matrix(advice, "relative", relative, "-");
   }
 }
 
@@ -74,9 +61,9 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   std::string order;
   for (Path path : all_paths) order += (order.empty() ? "" : " ") + std::string(names(path)[static_cast<std::size_t>(path)]);
   group.attribute("paths", order);
-  write_vector(group, "amount", map.amount);
+  write_vector(group, "amount", map.amount, "-");
   write_vector(group, "angle", map.angle, "deg");
-  write_vector(group, "stretch", map.stretch);
+  write_vector(group, "stretch", map.stretch, "-");
   write_matrix(group, "plane", map.plane, "MPa");
   group.write_scalar("safe_hencky", map.safe_hencky, "-");
   group.write_scalar("hencky_end", map.hencky_end, "-");
@@ -104,7 +91,7 @@ void write_study(const h5::Group& root, const StudyRecord& study) {
   if (study.range) {
     const h5::Group range = root.make_group("fitted_range");
     range.write_scalar("I1_bar", study.range->I1_bar, "-");
-    write_vector(range, "I4_bar", study.range->I4_bar);
+    write_vector(range, "I4_bar", study.range->I4_bar, "-");
   }
 }
 

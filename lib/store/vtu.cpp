@@ -9,6 +9,7 @@
 #include "hdf5/seal.hpp"
 #include "mesh/reference.hpp"
 #include "store/grid.hpp"
+#include "store/xml.hpp"
 
 namespace langer {
 
@@ -17,12 +18,6 @@ namespace {
 const char* const first_line = "<!-- made by langer-post -->\n";
 static_assert(std::endian::native == std::endian::little);
 
-std::string attribute(const std::string& text) {
-  std::string s;
-  for (char c : text) c == '&' ? s += "&amp;" : c == '<' ? s += "&lt;" : c == '"' ? s += "&quot;" : s += c;
-  return s;
-}
-
 // The file as it grows: text with arrays whose bytes follow behind it.
 struct Vtu {
   std::string text, bytes;
@@ -30,7 +25,7 @@ struct Vtu {
   template <class T>
   void array(const char* type, const std::string& name, int components, const std::vector<T>& values) {
     text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-                        attribute(name), components, bytes.size());
+                        xml_attribute(name), components, bytes.size());
     const std::uint64_t size = values.size() * sizeof(T);
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
     bytes.append(reinterpret_cast<const char*>(values.data()), size);
@@ -40,7 +35,7 @@ struct Vtu {
     const ActiveFields active = active_fields(fields);
     text += fmt::format("<{}", tag);
     for (const auto& [key, name] : {std::pair{"Scalars", active.scalars}, {"Vectors", active.vectors}, {"Tensors", active.tensors}})
-      if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, attribute(name));
+      if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, xml_attribute(name));
     text += ">\n";
     for (const Field& f : fields) array("Float64", f.name, f.components, f.values);
     text += fmt::format("</{}>\n", tag);
@@ -90,7 +85,7 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
   std::string text =
       fmt::format("{}<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n", first_line);
   for (const auto& [time, file] : files)
-    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, attribute(file));
+    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, xml_attribute(file));
   write_text_file(path, text + "</Collection>\n</VTKFile>\n");
 }
 

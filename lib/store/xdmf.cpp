@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include "mesh/reference.hpp"
+#include "store/xml.hpp"
 
 namespace langer {
 
 namespace {
 
 constexpr int vtk_hexahedron = 12, vtk_triquadratic = 29;
-
-std::string attribute_text(const std::string& text) {
-  std::string s;
-  for (char c : text) c == '&' ? s += "&amp;" : c == '<' ? s += "&lt;" : c == '"' ? s += "&quot;" : s += c;
-  return s;
-}
 
 // an array of the file, or the rows of it that belong to a step
 std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t rows, std::size_t step, std::size_t n_steps) {
@@ -43,7 +38,7 @@ std::string without_xdmf(const Mesh& mesh) {
 std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<double>& times,
                  const std::vector<XdmfArray>& arrays) {
   const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()), per_cell = nodes_per_cell(mesh.type);
-  const std::string name = attribute_text(file);
+  const std::string name = xml_attribute(file);
   std::string s =
       "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -58,7 +53,7 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
         "Dimensions=\"{} 3\">{}:/VTKHDF/Points</DataItem></Geometry>\n",
         n, name);
     for (const XdmfArray& array : arrays)
-      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", attribute_text(array.name),
+      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_attribute(array.name),
                        array.components == 1   ? "Scalar"
                        : array.components == 3 ? "Vector"
                                                : "Matrix",

@@ -2,25 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "store/matrices.hpp"
 #include "study/sensitivity_tables.hpp"
-
-#include "hdf5/h5.hpp"
 
 namespace langer {
 
 namespace {
 
-void write_matrix(const h5::Group& group, const char* name, const MatX& A, const std::string& unit, const std::string& units) {
-  const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = A;
-  group.write<double>(name, {static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols())},
-                      std::span(rows.data(), static_cast<std::size_t>(rows.size())), unit);
-  if (!units.empty()) group.annotate(name, "units", units);
+void write_rates(const h5::Group& group, const std::string& name, const MatX& A, const std::string& units) {
+  write_matrix(group, name, A, "");
+  group.annotate(name, "units", units);
 }
 
 void write_estimate(const h5::Group& group, const std::string& name, const Estimate& e, const std::string& unit) {
-  write_matrix(group, name.c_str(), e.value, unit, "");
-  write_matrix(group, (name + "_low").c_str(), e.low, unit, "");
-  write_matrix(group, (name + "_high").c_str(), e.high, unit, "");
+  write_matrix(group, name, e.value, unit);
+  write_matrix(group, name + "_low", e.low, unit);
+  write_matrix(group, name + "_high", e.high, unit);
 }
 
 void write_morris(const h5::Group& group, const Morris& m) {
@@ -93,10 +90,10 @@ void write_sensitivity(const std::string& path, const SensitivityRecord& r, cons
   }
   parameters.attribute("order", order);
   const auto write_effects = [&](const h5::Group& group, auto&& part) {
-    write_matrix(group, "mu_star", part(r.effects.mu_star), "", units);
-    write_matrix(group, "s", part(r.effects.s), "", units);
-    write_matrix(group, "spread", part(r.effects.spread), "", units);
-    write_matrix(group, "mu_star_range", over_range(r, part(r.effects.mu_star)), "MPa", "");
+    write_rates(group, "mu_star", part(r.effects.mu_star), units);
+    write_rates(group, "s", part(r.effects.s), units);
+    write_rates(group, "spread", part(r.effects.spread), units);
+    write_matrix(group, "mu_star_range", over_range(r, part(r.effects.mu_star)), "MPa");
   };
   write_effects(root, [](const MatX& A) { return A; });
   const h5::Group zones = root.make_group("zones");

@@ -7,6 +7,7 @@
 
 #include "post/fields.hpp"
 #include "tensor/kinematics.hpp"
+#include "watch/place_text.hpp"
 
 namespace langer {
 
@@ -26,8 +27,6 @@ double rounded_up(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)));
   return std::ceil(x / power - 1e-9) * power;
 }
-
-std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
 
 }  // namespace
 
@@ -119,7 +118,7 @@ std::vector<std::string> ResultWatch::warnings() const {
     lines.push_back(
         fmt::format("formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
                     names(body_.formulation())[static_cast<int>(body_.formulation())], names(type)[static_cast<int>(type)],
-                    soft ? "the volume changes within cells, which nothing opposes" : "the cells lock", text(locking_.place),
+                    soft ? "the volume changes within cells, which nothing opposes" : "the cells lock", place_text(locking_.place),
                     soft ? "small" : "large", share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
                     names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
   }
@@ -132,12 +131,12 @@ std::vector<std::string> ResultWatch::warnings() const {
     lines.push_back(fmt::format(
         "the dissipation is negative in {:.2g} % of the volume at t = {:.4g}, most near {}: along such paths the linear "
         "evolution of the viscous branches gives work for nothing, and its stresses mean little",
-        100 * given_, given_at_, text(given_place_)));
+        100 * given_, given_at_, place_text(given_place_)));
   if (chains_ > 0)
     lines.push_back(
         fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
                     "series of five terms that the law is goes on there, the chains do not",
-                    chains_, text(chains_place_), locking_stretch_));
+                    chains_, place_text(chains_place_), locking_stretch_));
   return lines;
 }
 

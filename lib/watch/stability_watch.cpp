@@ -10,6 +10,7 @@
 #include "material/ellipticity.hpp"
 #include "post/fields.hpp"
 #include "store/material_file.hpp"
+#include "watch/place_text.hpp"
 
 namespace langer {
 
@@ -44,7 +45,6 @@ void keep_lowest(std::vector<Low>& lowest, const Low& one) {
 // its volume should not change visibly at stresses of the order of its shear modulus
 bool nearly_incompressible(const Material& material) { return bulk_modulus(material) > 1000 * std::abs(shear_modulus(material)); }
 
-std::string text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 }  // namespace
@@ -63,11 +63,11 @@ std::string in_words(const StabilityReport& r) {
                         r.signature.negative > 1 ? "s" : "");
   if (r.signature.negative < 0) words = "the constrained tangent is singular";
   if (std::isnan(r.stiffness))
-    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, text(r.place));
+    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, place_text(r.place));
   else if (r.material_unstable())
     words +=
         fmt::format("{}strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue {:.3g} MPa in cell {} at {})",
-                    words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, text(r.place));
+                    words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, place_text(r.place));
   return words;
 }
 
@@ -180,24 +180,24 @@ std::vector<std::string> StabilityWatch::warnings() const {
     lines.push_back(
         fmt::format("{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
                     "as far near {}; first at t = {:.4g}",
-                    percent(last_.outside), last_.farthest, text(last_.farthest_place), outside_.of[0][0]));
+                    percent(last_.outside), last_.farthest, place_text(last_.farthest_place), outside_.of[0][0]));
   if (!equilibrium_.of.empty())
     lines.push_back(
         fmt::format("unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
                     "leave these states",
                     equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : ""));
   if (!material_.of.empty() && std::isnan(last_.stiffness))
-    lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), text(last_.place)));
+    lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), place_text(last_.place)));
   else if (!material_.of.empty())
     lines.push_back(
         fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
                     "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
-                    material_.text(), percent(last_.lost), last_.stiffness, text(last_.place)));
+                    material_.text(), percent(last_.lost), last_.stiffness, place_text(last_.place)));
   if (volume_change_ > 0.02)
     lines.push_back(
         fmt::format("a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
                     "come near the bulk modulus; look at c2 and at the strains there",
-                    text(volume_place_), percent(volume_change_)));
+                    place_text(volume_place_), percent(volume_change_)));
   if (!falling_.of.empty())
     lines.push_back(
         fmt::format("the driving force falls at {}: held by displacements these states may be stable, under the same "
