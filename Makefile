@@ -3,6 +3,10 @@
 #   make test                 set up, build, run every test
 #   make help                 the other targets
 PIPELINE ?= pipelines/indentation.yaml
+ifneq ($(filter trade pipelines/trade.yaml,$(PIPELINE)),)
+$(info $(PIPELINE) is called refinement_study now)
+override PIPELINE := refinement_study
+endif
 # a bare name is one of pipelines/
 ifneq ($(wildcard pipelines/$(PIPELINE).yaml),)
 override PIPELINE := pipelines/$(PIPELINE).yaml

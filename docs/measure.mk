@@ -54,12 +54,12 @@ extremes ladder:
 # work-precision diagrams of three indentations, alone on the machine, and docs/work_precision.md from them; about 20 minutes.
 # `trade` is its former name
 work-precision trade:
-	@$(MAKE) --no-print-directory run PIPELINE=pipelines/trade.yaml JOBS=1
+	@$(MAKE) --no-print-directory run PIPELINE=pipelines/refinement_study.yaml JOBS=1
 	@for scene in isotropic table1 positive; do \
-	  awk -v what=front -f docs/work_precision.awk runs/trade/$$scene/trade.csv > runs/trade/front.md && \
-	  tests/soak/page docs/work_precision.md $$scene runs/trade/front.md && cp runs/trade/$$scene/error_force.svg docs/work_precision_$$scene.svg || exit 1; done
-	@awk -v what=levels -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/trade/$(s)/trade.csv) > runs/trade/levels.md
-	@tests/soak/page docs/work_precision.md levels runs/trade/levels.md
+	  awk -v what=front -f docs/work_precision.awk runs/refinement_study/$$scene/levels.csv > runs/refinement_study/front.md && \
+	  tests/soak/page docs/work_precision.md $$scene runs/refinement_study/front.md && cp runs/refinement_study/$$scene/error_force.svg docs/work_precision_$$scene.svg || exit 1; done
+	@awk -v what=levels -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/refinement_study/$(s)/levels.csv) > runs/refinement_study/levels.md
+	@tests/soak/page docs/work_precision.md levels runs/refinement_study/levels.md
 
 # does `accuracy: 1%` keep its word on 24 random scenes; are errors as large as their estimates say, on the levels of `make work-precision`
 accuracy estimates:
@@ -93,7 +93,7 @@ accuracy-random: configure
 
 # the gallery of the site: every pipeline (those of a study by name, GALLERY=dual) with an estimate of errors where its scene takes one; what it
 # took, its errors and a picture go to docs/
-GALLERY ?= $(filter-out accuracy accuracy_elsewhere dual estimates extremes paper trade,$(basename $(notdir $(wildcard pipelines/*.yaml))))
+GALLERY ?= $(filter-out accuracy accuracy_elsewhere dual estimates extremes paper refinement_study,$(basename $(notdir $(wildcard pipelines/*.yaml))))
 gallery: build
 	@$(MAKE) --no-print-directory deps packages=python3-pil
 	@for one in $(GALLERY); do \

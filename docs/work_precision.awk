@@ -1,4 +1,4 @@
-# Tables of docs/work_precision.md.   awk -v what=front -f docs/work_precision.awk runs/trade/<scene>/trade.csv
+# Tables of docs/work_precision.md.   awk -v what=front -f docs/work_precision.awk runs/refinement_study/<scene>/levels.csv
 #   front     levels on the front of the force, by cost
 #   levels    one line per level: errors of the force in all scenes given, seconds and memory of the last one
 #   estimates  estimated errors against true ones, of runs/estimates/<scene>_table/table.csv

@@ -1,5 +1,5 @@
-// langer-tune trade.yaml --curves a/curves.h5 --curves b/curves.h5 -o trade.h5: errors against CPU seconds and memory of every
-// level, also as trade.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
+// langer-tune tune.yaml --curves a/curves.h5 --curves b/curves.h5 -o levels.h5: errors against CPU seconds and memory of every
+// level, also as levels.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
 // level for each error wanted that is not below that.
 #include <cmath>
 
@@ -187,7 +187,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   }
   for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
   write_text_file(job.beside("cheapest.csv"), choice);
-  write_sweep(job.output, job.beside("trade.csv"), sweep, nullptr, {}, job.identity);
+  write_sweep(job.output, job.beside("levels.csv"), sweep, nullptr, {}, job.identity);
   return summary;
 }
 

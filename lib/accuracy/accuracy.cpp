@@ -151,7 +151,7 @@ std::optional<double> percent_of(const std::string& text) {
 }
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
-  // make trade; force_error of <scene>/trade.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
+  // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
   // neighbours add: with few nodes in contact one of them or another touches by chance
   static const std::vector<AccuracyLevel> smooth{{CellType::hex8, 0.175, 0.25, 2},
                                                  {CellType::hex8, 0.15, 0.25, 1},

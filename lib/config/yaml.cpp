@@ -249,6 +249,20 @@ fs::path own_name(const fs::path& path) {
   return ec ? path.lexically_normal() : canonical;
 }
 
+// What a file that is not there may have been meant for: its present name, or the nearest one beside it.
+std::string meant_for(const fs::path& path) {
+  std::error_code ec;
+  std::vector<std::string> beside;
+  for (const auto& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ec))
+    if (entry.path().extension() == ".yaml") beside.push_back(entry.path().filename().string());
+  const std::string name = path.filename().string();
+  std::string now = name == "trade.yaml"         ? "refinement_study.yaml"
+                    : name.starts_with("trade_") ? "refinement" + name.substr(5)
+                                                 : "";
+  if (std::find(beside.begin(), beside.end(), now) == beside.end()) now = nearest(name, beside);
+  return now.empty() ? "" : fmt::format("did you mean \"{}\"?", now);
+}
+
 void resolve_includes(Tree& tree, Reading& reading) {
   for (Tree& item : tree.list) resolve_includes(item, reading);
   for (auto& e : tree.map)
@@ -269,7 +283,7 @@ void resolve_includes(Tree& tree, Reading& reading) {
     const fs::path path = (fs::path(file->base) / file->scalar).lexically_normal();
     std::error_code ec;
     if (!fs::is_regular_file(path, ec))
-      refuse(file->place, "include: there is no file " + path.string(), "a path relative to this file");
+      refuse(file->place, "include: there is no file " + path.string(), "a path relative to this file", meant_for(path));
     if (std::find(reading.files.begin(), reading.files.end(), own_name(path)) != reading.files.end())
       refuse(file->place, "include: " + path.string() + " includes itself");
     const Tree included = load(path.string(), reading);
@@ -287,7 +301,8 @@ Tree load(const std::string& path, Reading& reading) {
   if (fs::is_directory(path, ec)) throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw Failure(Exit::input, Error{{path, 0, 0}, "", fs::exists(path, ec) ? "cannot be read" : "there is no such file", "", ""});
+    throw Failure(Exit::input, fs::exists(path, ec) ? Error{{path, 0, 0}, "", "cannot be read", "", ""}
+                                                    : Error{{path, 0, 0}, "", "there is no such file", "", meant_for(path)});
   std::string text(largest_file + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));

@@ -14,7 +14,7 @@ constexpr double covered = 1.1;  // contact radii of even cells
 
 int bounded(double count) { return count < 1e6 ? static_cast<int>(count) : 1000000; }  // most_cells refuses such a block
 
-// cells in which a length grows out of cells of `edge`, evenly spread over its logarithm; measured in pipelines/trade.yaml
+// cells in which a length grows out of cells of `edge`, evenly spread over its logarithm; measured in pipelines/refinement_study.yaml
 int growing_cells(double per_edge, double edge, double span, double usual) {
   return bounded(std::ceil(per_edge / edge * std::log(span) / std::log(usual) - 1e-9));
 }

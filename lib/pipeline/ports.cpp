@@ -78,7 +78,7 @@ const StageSpec tune_stage{
       .made_by = {"post"},
       .several = true,
       .members = true}},
-    "trade.h5"};
+    "levels.h5"};
 
 }  // namespace
 

@@ -204,7 +204,7 @@ struct SolveConfig {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
       "wanted error of the force on an indenter, or of the reaction of what is moved, such as 1%: chooses the cells of mesh.geometry, the "
-      "increments and the symmetry, from what was measured (pipelines/trade.yaml) or from a coarse solution, and refines until the "
+      "increments and the symmetry, from what was measured (pipelines/refinement_study.yaml) or from a coarse solution, and refines until the "
       "estimate is within it; exit code 5 where it is not");
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,

@@ -21,7 +21,7 @@ const auto nowhere = [](const std::string&) { return Place{}; };
 
 SolveConfig level(const std::string& scene, CellType cells, double edge, double step) {
   const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
-  const std::string text = "include: trade_" + scene + ".yaml\nmesh: {include: ../mesh/trade.yaml}\n";
+  const std::string text = "include: refinement_" + scene + ".yaml\nmesh: {include: ../mesh/refinement_study.yaml}\n";
   SolveConfig config = read_config<SolveConfig>(parse_yaml(text, folder + "/level.yaml", folder)).config;
   config.mesh->cells = cells;
   std::get<IndentedBlock>(config.mesh->geometry).edge = edge;
@@ -35,7 +35,7 @@ std::vector<ErrorEstimate> estimates_of(const SolveConfig& config) {
 
 }  // namespace
 
-// right: make trade, the limit of meshes of either kind, 0.03 % and for the others 0.06 %
+// right: make work-precision, the limit of meshes of either kind, 0.03 % and for the others 0.06 %
 TEST_CASE("the estimated error of the force is within a factor of three of the true one, and has its sign") {
   struct Case {
     const char* scene;

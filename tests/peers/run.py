@@ -97,7 +97,7 @@ def said_json(cpu, code, said):
 
 # Langer: meshes and decks, and its own runs
 
-CONFIG = {"isotropic": "trade_isotropic", "positive": "trade_positive"}
+CONFIG = {"isotropic": "refinement_isotropic", "positive": "refinement_positive"}
 BLOCK = """geometry: {indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: %g}}
 sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.8}}}}
 cells: %s

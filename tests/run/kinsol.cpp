@@ -47,7 +47,7 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(configs + "solve")) {
     const std::string name = entry.path().stem();
-    if (name.starts_with("accuracy_")) continue;  // those of trade_ on meshes of their own
+    if (name.starts_with("accuracy_")) continue;  // those of refinement_ on meshes of their own
     if (name.starts_with("which_")) continue;     // the others' scenes on one skin
     CAPTURE(name);
     const SolveConfig config = read_config<SolveConfig>(load_yaml(entry.path().string())).config;

@@ -3,7 +3,7 @@ include(${ROOT}/tests/support/run.cmake)
 copy_project()
 set(folder ${WORK}/project)
 # a sphere near a corner of its block, beside the middle
-file(WRITE ${folder}/beside.yaml "include: configs/solve/trade_isotropic.yaml
+file(WRITE ${folder}/beside.yaml "include: configs/solve/refinement_isotropic.yaml
 mesh:
   geometry: {indented_block: {origin: [-8, 0, -8], size: [16, 4, 16], radius: 2.5, depth: 0.4}}
 contacts:
@@ -34,7 +34,7 @@ if(far)
 endif()
 
 # recovery knows no law of the cells' length: it judges the first level, which stays as the result, with what was reached
-file(WRITE ${folder}/coarse.yaml "include: configs/solve/trade_isotropic.yaml
+file(WRITE ${folder}/coarse.yaml "include: configs/solve/refinement_isotropic.yaml
 mesh:
   geometry: {indented_block: {origin: [-8, 0, -8], size: [16, 4, 16], radius: 2.5, depth: 1}}
 contacts:
@@ -46,7 +46,7 @@ expect_said("asked for 0.2 %")
 expect_said("short.h5")
 run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution short.h5 -o curves.h5 --quiet)
 # a mesh whose cells follow from no numbers is judged as it is
-file(WRITE ${folder}/graded.yaml "include: configs/solve/trade_isotropic.yaml
+file(WRITE ${folder}/graded.yaml "include: configs/solve/refinement_isotropic.yaml
 mesh: {include: configs/mesh/brick_graded.yaml}
 symmetry: none
 path: {first: 0.5, largest: 0.5}

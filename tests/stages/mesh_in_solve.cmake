@@ -5,7 +5,7 @@ set(folder ${WORK}/project)
 file(WRITE ${folder}/mesh.yaml "geometry: {indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.35}}
 sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.8}}}}
 ")
-file(WRITE ${folder}/apart.yaml "include: configs/solve/trade_table1.yaml
+file(WRITE ${folder}/apart.yaml "include: configs/solve/refinement_table1.yaml
 path: {first: 0.5, largest: 0.5}
 ")
 file(WRITE ${folder}/together.yaml "include: apart.yaml

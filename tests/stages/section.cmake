@@ -39,7 +39,7 @@ run(0 ${BIN}/langer-mesh configs/mesh/disc.yaml -o mesh.h5)
 expect_said("3600 mm^3")  # pi 16.93^2 4
 run(0 ${BIN}/langer show mesh.h5)
 expect_said("axisymmetric")
-file(WRITE ${folder}/solve.yaml "include: configs/solve/trade_isotropic.yaml\nsymmetry: none\npath: {first: 0.02, largest: 0.02}\n")
+file(WRITE ${folder}/solve.yaml "include: configs/solve/refinement_isotropic.yaml\nsymmetry: none\npath: {first: 0.02, largest: 0.02}\n")
 set(solve ${BIN}/langer-solve solve.yaml --mesh mesh.h5 --quiet -o)
 run(0 ${solve} whole/solution.h5)
 kill_until_done(killed/solution.h5 400 200 10 ${solve} killed/solution.h5)
