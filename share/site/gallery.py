@@ -57,13 +57,14 @@ def errors(run):
 
 
 def picture(run):
-    """A body before a table's figure before a solution's curve before a fit's."""
+    """A body before a table's figure before a solution's curve before a fit's; what a fit tells of itself only where nothing else is there."""
     found = []
     for file in run.rglob("*.png"):
         order = ["render", "map", "table", "post", "tune", "sensitivity", "fit"]
         path = file.relative_to(run).as_posix()
-        found.append((next((i for i, word in enumerate(order) if word in path), len(order)), path))
-    return run / min(found)[1] if found else page_of(run)
+        aside = file.name.startswith(("correlation", "stability", "error_"))
+        found.append((aside, next((i for i, word in enumerate(order) if word in path), len(order)), path))
+    return run / min(found)[2] if found else page_of(run)
 
 
 def page_of(run):
@@ -85,8 +86,8 @@ for file in sorted((project / "pipelines").glob("*.yaml")):
     took = cost(run) if (run / "Makefile").exists() else None
     if not took:
         continue
-    kept[file.stem] = dict(zip(columns, [file.stem, took[0], f"{took[1]:.3g}", errors(run)]))
     if source := picture(run):
+        kept[file.stem] = dict(zip(columns, [file.stem, took[0], f"{took[1]:.3g}", errors(run)]))
         image = Image.open(source).convert("RGB")
         image = image.resize((700, round(700 * image.height / image.width)), Image.LANCZOS)
         image.quantize(128, dither=Image.Dither.NONE).save(folder / f"{file.stem}.png", optimize=True)
