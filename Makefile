@@ -207,7 +207,7 @@ help:
 	@echo "make bench-forecasts          what --dry-run forecasts beside what it takes, docs/scenes.md from it"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
-	@echo "make extremes                 run the extreme cases, write their table into docs/reliability.md"
+	@echo "make extremes                 run the extreme cases, write their table into docs/tested.md"
 	@echo "make work-precision           error against cost of a refinement study, docs/work_precision.md from it"
 	@echo "make estimates                estimated errors against true ones, in the scenes of make work-precision"
 	@echo "make accuracy                 whether accuracy: 1% holds on random scenes"

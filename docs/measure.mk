@@ -2,8 +2,8 @@
 
 # both, and their tables into the page
 reliability: soak fuzz
-	@tests/soak/page docs/reliability.md kills $(build)/soak.md
-	@tests/soak/page docs/reliability.md inputs build-fuzz/fuzz.md
+	@tests/soak/page docs/tested.md kills $(build)/soak.md
+	@tests/soak/page docs/tested.md inputs build-fuzz/fuzz.md
 
 # what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/work_precision.md from it. A build of
 # its own: valgrind knows no AVX-512, and lines (-g1) tell whose code it is. Two minutes beside that
@@ -43,13 +43,13 @@ paper:
 	@! command -v mogrify > /dev/null || mogrify -strip -define png:exclude-chunks=date,time -resize '1200x>' -define png:compression-level=9 -colors 250 docs/paper/*.png  # imagemagick
 	@awk -v run=runs/paper -f docs/paper.awk docs/paper.csv > runs/paper/paper.md && cp runs/paper/paper.md docs/paper.md
 
-# the section "Extreme cases" of docs/reliability.md from a run of pipelines/extremes.yaml; `ladder` is its former name
+# the section "Extreme cases" of docs/tested.md from a run of pipelines/extremes.yaml; `ladder` is its former name
 extremes ladder:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/extremes.yaml
 	@awk -v run=runs/extremes -f docs/extremes.awk docs/extremes.csv > runs/extremes/cases.md; passed=$$?; \
 	awk 'FNR == NR { table = table $$0 "\n"; next } /<!-- extremes:/ { print; printf "\n%s\n", table; skip = 1 } \
-	  /<!-- end of extremes/ { skip = 0 } !skip' runs/extremes/cases.md docs/reliability.md > runs/extremes/reliability.md && \
-	cp runs/extremes/reliability.md docs/reliability.md; exit $$passed
+	  /<!-- end of extremes/ { skip = 0 } !skip' runs/extremes/cases.md docs/tested.md > runs/extremes/tested.md && \
+	cp runs/extremes/tested.md docs/tested.md; exit $$passed
 
 # work-precision diagrams of three indentations, alone on the machine, and docs/work_precision.md from them; about 20 minutes.
 # `trade` is its former name

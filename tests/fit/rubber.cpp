@@ -1,4 +1,4 @@
-// Rubber of Treloar and of Kawabata and others, where the measured tests are at hand: the table of docs/identification.md.
+// Rubber of Treloar and of Kawabata and others, where the measured tests are at hand: the table of docs/identification_results.md.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ const std::vector<FreeParameter> of_chains{{"matrix.arruda_boyce.mu", 0.3, 0, 10
 
 TEST_CASE("Neo-Hooke and Mooney-Rivlin fitted to single tests of Treloar are those published, where they can be") {
   if (!here("treloar1944.csv")) return;
-  // Steinmann, Hossain, Possart (2012), as quoted in a public example; docs/identification.md has those that differ, and why
+  // Steinmann, Hossain, Possart (2012), as quoted in a public example; docs/identification_results.md has those that differ, and why
   const auto neo_hooke = [](const char* mode) {
     return 2 *
            fit({{{NeoHooke{0.2}}, {}, volume}, {{"matrix.neo_hooke.a1", 0.2, 0, 10}}, treloar({mode})}, {.starts = 1}).best.p[0];
