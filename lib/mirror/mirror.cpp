@@ -12,6 +12,7 @@
 #include "run/continued.hpp"
 #include "run/step_record.hpp"
 #include "scene/image.hpp"
+#include "store/solution_layout.hpp"
 
 namespace langer {
 
@@ -103,7 +104,17 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g, const std::
   }
   for (auto& [name, values] : out.cell_fields) {
     const std::vector<double>& from = step.cell_fields.at(name);
-    for (std::size_t e = 0; e < from.size(); ++e) values[static_cast<std::size_t>(g.cell[e])] = from[e];
+    const auto width = static_cast<std::size_t>(solution::components_of(name));
+    for (std::size_t e = 0; e < g.cell.size(); ++e) {
+      const double* of = from.data() + width * e;
+      double* to = values.data() + width * static_cast<std::size_t>(g.cell[e]);
+      if (width == 9)
+        Eigen::Map<Mat3>{to} = g.turn * Eigen::Map<const Mat3>(of) * g.turn.transpose();
+      else if (width == 3)
+        Eigen::Map<Vec3>{to} = g.turn * Eigen::Map<const Vec3>(of);
+      else
+        *to = *of;
+    }
   }
   out.u_ind = g.turn * step.u_ind, out.force_ind = g.turn * step.force_ind;
   const auto turn = [&](const std::string& name, const auto& turned) {

@@ -35,6 +35,7 @@ std::string columns_text() {
   s +=
       "\nhistory: what the solver wrote for every step, /history of a solution (of those with three numbers: quantities), and fields of cells\n";
   for (const solution::HistoryLine& h : solution::history_lines) s += line(h.name, h.unit, h.meaning);
+  for (const solution::HistoryLine& h : solution::field_lines) s += line(h.name, h.unit, h.meaning);
   return s;
 }
 

@@ -176,6 +176,10 @@ constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
 enum class UncertaintyBy { none, linear };
 constexpr auto names(UncertaintyBy) { return std::array{"none", "linear"}; }
 
+// What of the stress of cells stands in the solution beside pressure and von Mises stress (run/cell_stress.hpp).
+enum class CellStress { tensor, principal };
+constexpr auto names(CellStress) { return std::array{"tensor", "principal"}; }
+
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
   std::optional<std::string> accuracy;  // "1%"
@@ -199,6 +203,7 @@ struct SolveConfig {
   Homogeneous homogeneous = Homogeneous::automatic;
   std::vector<std::string> sensitivity;
   std::optional<UncertaintyBy> uncertainty;
+  std::optional<CellStress> cell_stress;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
@@ -250,6 +255,9 @@ struct SolveConfig {
       "every increment the derivatives of displacements, reactions and forces with respect to each");
     v(&SolveConfig::uncertainty, "uncertainty", unit::none,
       "linear: what the fit behind --material does not know of its parameters is carried into the forces");
+    v(&SolveConfig::cell_stress, "cell_stress", unit::none,
+      "writes the Cauchy stress of each cell, its mean over the Gauss points, into the solution: tensor; principal: its principal stresses "
+      "and directions as well. Pressure and von Mises stress of cells are always there");
     v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",

@@ -81,23 +81,36 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"volume_change", "-", "greatest |V / V0 - 1| of a cell that is nearly incompressible; never negative"},
     {"d_*", "-",
      "of `sensitivity`: derivative of the quantity, in the unit of its name, with respect to the number behind _d_, per its unit"},
-    // fields
+});
+// and of cells
+inline constexpr auto field_lines = std::to_array<HistoryLine>({
     {"J", "-", "mean det F of a cell; 1 at rest"},
     {"pressure", "MPa", "tr(sigma)/3 of a cell, the mean stress: positive in tension"},
     {"von_mises", "MPa", "of a cell's mean Cauchy stress; never negative"},
+    {"stress", "MPa", "Cauchy stress of a cell, mean over its Gauss points: xx xy xz yx yy yz zx zy zz; positive in tension"},
+    {"principal_stress_*", "MPa", "of that stress: 1 the greatest, 3 the least; positive in tension"},
+    {"principal_direction_*", "-", "unit vector along that principal stress; its sign means nothing"},
     {"I4_bar", "-", "of a cell and its first fibre family, isochoric; 1 at rest, above 1 in tension"},
 });
 
+// numbers in a row of a field of cells
+constexpr int components_of(std::string_view name) {
+  return name == "stress" ? 9 : name.starts_with("principal_direction_") ? 3 : 1;
+}
+
 // the line of a name; none where nobody has written one
 constexpr const HistoryLine* line_of(std::string_view name) {
-  for (const HistoryLine& line : history_lines) {
+  const auto is_of = [name](const HistoryLine& line) {
     const std::string_view pattern = line.name;
     const std::size_t star = pattern.find('*');
-    if (star == pattern.npos ? name == pattern
-                             : name.size() >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
-                                   name.ends_with(pattern.substr(star + 1)))
-      return &line;
-  }
+    return star == pattern.npos ? name == pattern
+                                : name.size() >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
+                                      name.ends_with(pattern.substr(star + 1));
+  };
+  for (const HistoryLine& line : history_lines)
+    if (is_of(line)) return &line;
+  for (const HistoryLine& line : field_lines)
+    if (is_of(line)) return &line;
   return nullptr;
 }
 

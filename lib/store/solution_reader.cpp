@@ -142,7 +142,10 @@ StepRecord SolutionReader::step(int index) const {
   for (const std::string& name : points.datasets())
     if (name != "u" && name != "reaction") record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
   for (const std::string& name : cells.datasets())
-    if (!solution::is_static(name)) record.cell_fields[name] = finite_rows(cells, name, i * e, e, {});
+    if (!solution::is_static(name)) {
+      const auto components = static_cast<std::size_t>(solution::components_of(name));
+      record.cell_fields[name] = finite_rows(cells, name, i * e, e, components == 1 ? h5::Shape{} : h5::Shape{components});
+    }
 
   if (state_->header.contact_nodes.empty()) return record;
   record.u_ind = vectors(finite_rows(history, "u_ind", i, 1, {3}))[0];

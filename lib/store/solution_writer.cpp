@@ -150,7 +150,7 @@ void SolutionWriter::State::check(const StepRecord& record) const {
     check_finite(name, values);
   }
   for (const auto& [name, values] : record.cell_fields) {
-    check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells()));
+    check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells() * solution::components_of(name)));
     check_finite(name, values);
   }
   for (const auto& [name, value] : record.scalars) {
@@ -191,7 +191,9 @@ void SolutionWriter::State::append(const StepRecord& record) {
     add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
   }
   for (const auto& [name, values] : record.cell_fields) {
-    extend<double>(cells, name, {}, e, values, solution::unit_of(name));
+    const auto components = static_cast<std::size_t>(solution::components_of(name));
+    if (components == 9 && n_steps == 0) cells.attribute("Tensors", name);  // as VTK marks them
+    extend<double>(cells, name, components == 1 ? h5::Shape{} : h5::Shape{components}, e, values, solution::unit_of(name));
     add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
   }
   add(steps, "Values", record.t, "-");

@@ -56,6 +56,7 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
       s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_attribute(array.name),
                        array.components == 1   ? "Scalar"
                        : array.components == 3 ? "Vector"
+                       : array.components == 9 ? "Tensor"
                                                : "Matrix",
                        array.of_cells ? "Cell" : "Node", rows_of(name, array, array.of_cells ? e : n, i, times.size()));
     s += "</Grid>\n";

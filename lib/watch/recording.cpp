@@ -18,6 +18,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       output_(output),
       config_(identity.config),
       companion_(std::move(companion)),
+      stress_(run.mesh, run.scene, config.cell_stress),
       collect_(by_refinement(config)
                    ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
                    : std::function<void(const StepRecord&)>()),
@@ -27,6 +28,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
               if (collect_) collect_(step);
               watch.kept(step);
               run.replay(step);
+              stress_.kept(step);
               if (companion_.kept) companion_.kept(step);
               return true;
             }),
@@ -63,6 +65,7 @@ RunEnd Recording::along_the_path(Progress& progress) {
     }
     {
       const Stopwatch writing(seconds_);
+      stress_.add(record);
       file_.append(record);
     }
     if (collect_) collect_(record);

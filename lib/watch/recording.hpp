@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "run/cell_stress.hpp"
 #include "run/step_forces.hpp"
 #include "watch/progress.hpp"
 #include "watch/run_watch.hpp"
@@ -50,6 +51,7 @@ class Recording {
   RunWatch& watch_;
   std::string output_, config_;
   Companion companion_;
+  CellStressRecorder stress_;
   std::function<void(const StepRecord&)> collect_;
   std::vector<StepForces> forces_;
   SolutionWriter file_;

@@ -6,6 +6,8 @@ from paraview.simple import PVDReader, XDMFReader
 
 wrong = []
 for name, opened, point, cell in (("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("J", 1)),
+                                  ("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("reaction", 3), ("stress", 9)),
+                                  ("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("principal_direction_1", 3)),
                                   ("series.pvd", lambda f: PVDReader(FileName=f), ("sigma", 6), ("sigma", 6))):
     file = os.path.join(sys.argv[1], name)
     source = opened(file)

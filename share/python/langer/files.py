@@ -215,6 +215,19 @@ class Solution(Mesh):
         return self.field("u")
 
     @property
+    def stress(self) -> Array:
+        """Cauchy stress of the cells (steps, e, 3, 3), MPa, where the solve config has `cell_stress`; the mean over their Gauss points.
+
+        `field("principal_stress_1")` (steps, e) and `field("principal_direction_1")` (steps, e, 3) stand beside it with
+        `cell_stress: principal`: 1 is the greatest, 3 the least.
+        """
+        try:
+            flat = self.field("stress")
+        except KeyError:
+            raise KeyError(f"{self.path}: no stress tensors; the solve config asks for them with cell_stress: tensor") from None
+        return flat.reshape(flat.shape[:2] + (3, 3))
+
+    @property
     def indenters(self) -> list[str]:
         with self._open() as f:
             return list(f["contact"]) if "contact" in f else []

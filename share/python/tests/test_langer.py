@@ -24,9 +24,12 @@ def project():
 
 
 
+asked = {"fit.starts": 1, "solve.cell_stress": "principal"}
+
+
 @pytest.fixture(scope="session")
 def run(project):
-    return langer.run("pipelines/smoke.yaml", set={"fit.starts": 1}, folder="runs/python")
+    return langer.run("pipelines/smoke.yaml", set=asked, folder="runs/python")
 
 
 def test_a_part_keeps_the_unit_and_a_result_does_not():
@@ -74,7 +77,7 @@ def test_a_run_knows_its_files(run):
 
 def test_a_second_run_does_nothing(run, project):
     made = run.read("solve", alpha=0).path.stat().st_mtime_ns
-    again = langer.run("pipelines/smoke.yaml", set={"fit.starts": 1}, folder="runs/python", progress=False)
+    again = langer.run("pipelines/smoke.yaml", set=asked, folder="runs/python", progress=False)
     assert again.read("solve", alpha=0).path.stat().st_mtime_ns == made
 
 
@@ -96,6 +99,26 @@ def test_a_solution_is_in_equilibrium(run):
         solution.field("v")
     with pytest.raises(IndexError):
         solution.field("u", solution.steps)
+
+
+def test_stress_tensors_of_cells(run, project):
+    solution = run.read("solve", alpha=60)
+    stress = solution.stress
+    assert stress.unit == "MPa" and stress.shape == (solution.steps, len(solution.cells), 3, 3)
+    assert np.array_equal(stress, np.swapaxes(stress, 2, 3))
+    s = np.asarray(stress)
+    pressure = np.trace(s, axis1=2, axis2=3) / 3
+    assert np.allclose(pressure, solution.field("pressure"), atol=1e-9)
+    deviator = s - pressure[..., None, None] * np.eye(3)
+    assert np.allclose(np.sqrt(1.5 * (deviator**2).sum(axis=(2, 3))), solution.field("von_mises"), atol=1e-9)
+    values = np.linalg.eigvalsh(s)  # ascending
+    for k in (1, 2, 3):
+        value, along = np.asarray(solution.field(f"principal_stress_{k}")), np.asarray(solution.field(f"principal_direction_{k}"))
+        assert np.allclose(value, values[..., 3 - k], atol=1e-9)
+        assert np.allclose(s @ along[..., None], value[..., None, None] * along[..., None], atol=1e-9)
+    without = langer.run("pipelines/smoke.yaml", set={"fit.starts": 1}, folder="runs/without", progress=False)
+    with pytest.raises(KeyError, match="cell_stress"):
+        without.read("solve", alpha=60).stress
 
 
 def test_tables_agree_with_their_csv(run):
