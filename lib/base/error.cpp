@@ -44,6 +44,12 @@ std::string nearest(const std::string& name, const std::vector<std::string>& kno
   for (const std::string& k : known)  // something of the name must remain
     if (name.size() < k.size() + least && k.size() < name.size() + least)
       if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size())) least = d, best = k;
+  if (!best.empty() || name.size() < 3) return best;
+  for (const std::string& k : known) {  // begun and not ended: gauge for gauge_length, though there is gauge_length_z too
+    if (!k.starts_with(name) || (!best.empty() && k.starts_with(best))) continue;
+    if (!best.empty() && !best.starts_with(k)) return "";
+    best = k;
+  }
   return best;
 }
 

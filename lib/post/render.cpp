@@ -199,11 +199,13 @@ namespace {
 
 std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
   std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
-  for (const Cut& cut : cuts)
+  for (const Cut& cut : cuts) {
+    if (mesh.section && cut.axis == CutNormal::z) continue;  // it lies in such a plane: a cut beside it would leave nothing
     for (int e = 0; e < mesh.n_cells(); ++e) {
       const double centre = element_nodes(mesh, e).col(static_cast<int>(cut.axis)).mean();
       if ((centre > cut.at) != (cut.keep == Side::above)) kept[e] = false;
     }
+  }
   return kept;
 }
 

@@ -34,9 +34,11 @@ std::vector<Complaint> FitData::complaints() const {
       if (text->empty()) all.push_back({std::string("columns.") + key, "missing", says, ""});
   const bool biaxial = kind == DataKind::biaxial;
   if (!columns && (biaxial || kind == DataKind::simple_shear))
-    all.push_back({"kind", std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
-                   "the columns of deformation and stress",
-                   "columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, stress_z: P_z_MPa}"});
+    all.push_back(
+        {"kind", std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
+         "the columns of deformation and stress",
+         "which column is which, by the names in the file: columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, "
+         "stress_z: P_z_MPa}"});
   if (!columns && (!split.empty() || !where.empty()))
     all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
   if (columns && biaxial && columns->strain_z.empty())

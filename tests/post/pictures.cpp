@@ -148,6 +148,22 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   CHECK(test::marks_of<Patch>(bare).empty());
 }
 
+TEST_CASE("a cut along z, as of a block, leaves a section as it is: the section lies in that plane") {
+  Mesh mesh = test::cube(3);
+  mesh.section = Section{SectionOf::plane_strain};
+  RenderScene scene = scene_of(mesh);
+  RenderChoice choice;
+  const auto patches = [&] { return test::marks_of<Patch>(render(scene, choice)).size(); };
+  const std::size_t whole = patches();
+  REQUIRE(whole >= 9);
+  for (const Side side : {Side::below, Side::above}) {
+    choice.cuts = {{CutNormal::z, 0, side}};
+    CHECK(patches() == whole);
+  }
+  choice.cuts = {{CutNormal::x, 0.5, Side::below}};
+  CHECK(patches() < whole);
+}
+
 TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth") {
   const Mesh mesh = test::cube(2);
   RenderScene scene = scene_of(mesh);
