@@ -48,6 +48,9 @@ std::string size_of(const Mesh& mesh) {
   Vec3 low = mesh.X[0], high = mesh.X[0];
   for (const Vec3& x : mesh.X) low = low.cwiseMin(x), high = high.cwiseMax(x);
   const Vec3 size = high - low;
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric)
+    return low[0] > 0 ? fmt::format("revolution, {:.4g} to {:.4g} mm from its axis and {:.4g} mm high", low[0], high[0], size[1])
+                      : fmt::format("revolution, {:.4g} mm in radius and {:.4g} mm high", high[0], size[1]);
   return fmt::format("{:.4g} × {:.4g} × {:.4g} mm", size[0], size[1], size[2]);
 }
 

@@ -553,7 +553,8 @@ L.bodyView = (place, all) => {
   choose();
   state.value = body.states.length - 1;
   scale.value = 1;
-  if (body.punches.length && body.cells) {  // what matters lies under the first indenter
+  const flat = body.box[1][2] - body.box[0][2] < 0.01 * (body.box[1][0] - body.box[0][0]);  // a section is the cut itself
+  if (body.punches.length && body.cells && !flat) {  // what matters lies under the first indenter
     clip.value = 'z';
     const [a, b] = body.box.map(corner => corner[2]), box = punches.children[0].geometry.boundingBox;
     at.value = Math.max(-1, Math.min(1, (box.min.z + box.max.z - a - b) / (b - a)));
@@ -565,6 +566,6 @@ L.bodyView = (place, all) => {
   }
   resize();
   update();
-  look(Math.max(0, ['oblique', 'above', 'z', 'x'].indexOf(asked.get('view'))));
+  look(asked.has('view') ? Math.max(0, ['oblique', 'above', 'z', 'x'].indexOf(asked.get('view'))) : flat ? 2 : 0);
   document.documentElement.dataset.view = 'ready';
 };

@@ -141,6 +141,7 @@ L.chart = chart => {
   const positive = values => values.some(v => v > 0) && !values.some(v => v !== null && v < 0);
   const frame = () => {
     const { x, y } = state;
+    box.l = Math.max(70, 36 + 7.2 * Math.max(0, ...y.texts.map(text => String(text).length)));  // numbers stand clear of the axis' name
     const px = v => box.l + x.part(v) * (W - box.l - box.r), py = v => H - box.b - y.part(v) * (H - box.t - box.b);
     y.ticks.forEach((v, i) => svg.append(L.el('line', { x1: box.l, x2: W - box.r, y1: py(v), y2: py(v), class: v === 0 ? 'zero' : 'rule' }),
       L.el('text', { x: box.l - 8, y: py(v) + 4, 'text-anchor': 'end' }, y.texts[i])));
@@ -181,8 +182,8 @@ L.chart = chart => {
     state.x = L.axis(xs, state.logX, state.zoom && state.zoom.x, false);
     state.y = L.axis(ys, state.logY, state.zoom && state.zoom.y, true);
     // a drawing in the drawing ends at its own edges
-    const room = 5, left = box.l - room, top = box.t - room, width = W - box.l - box.r + 2 * room, height = H - box.t - box.b + 2 * room;
-    const to = frame(), within = L.el('svg', { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}`, style: `width:${width}px;height:${height}px` });
+    const to = frame(), room = 5, left = box.l - room, top = box.t - room, width = W - box.l - box.r + 2 * room, height = H - box.t - box.b + 2 * room;
+    const within = L.el('svg', { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}`, style: `width:${width}px;height:${height}px` });
     svg.append(within);
     chart.series.forEach((s, i) => shown[i] && line(s, L.look(chart, i), to, within));
     for (const at of chart.marks || []) {  // lines that the curves are compared with
