@@ -1,11 +1,13 @@
 #include "accuracy/dual_estimate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "accuracy/energy_error.hpp"
+#include "run/step_record.hpp"
 #include "solve/state_tangent.hpp"
 
 namespace langer {
@@ -102,8 +104,19 @@ class Questions {
     const Vec3 u = last_.u[static_cast<std::size_t>(n)];
     const auto found = place_.find(key(n));
     if (!(u.norm() > 0) || found == place_.end()) return std::nullopt;
-    asked.by.f = VecX::Zero(run_.body.dofs().n);
-    asked.by.f.segment<3>(3 * run_.body.dofs().node(found->second)) = -u.normalized();
+    const Dofs& dofs = run_.body.dofs();
+    asked.by.f = VecX::Zero(dofs.n);
+    const auto& hanging = run_.reduction.mesh().hanging;
+    const auto hangs = std::find_if(hanging.begin(), hanging.end(), [&](const HangingNode& h) { return h.node == found->second; });
+    const auto act = [&](int node, double share) {
+      Vec3 force = -share * u.normalized();
+      if (!dofs.tie.empty()) force = dofs.tie[static_cast<std::size_t>(node)].T.transpose() * force;
+      asked.by.f.segment<3>(3 * dofs.node(node)) += force;
+    };
+    if (hangs == hanging.end())
+      act(found->second, 1);
+    else
+      for (int node : hangs->of) act(node, 0.25);
     asked.sign = -1;
     return asked;
   }
@@ -120,6 +133,7 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, c
   StepRecord record;
   record.t = last.t;
   for (int i = 0; i < run.reduction.mesh().n_nodes(); ++i) record.u.push_back(part.u.segment<3>(3 * i));
+  hang(run.body, part.u, record.u);
   record.reaction.assign(record.u.size(), Vec3::Zero());
   const auto& contacts = run.reduction.scene().contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "element/dilatation.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/section.hpp"
 #include "mesh/select.hpp"
 #include "run/step_record.hpp"
@@ -179,11 +180,16 @@ class ContactFacets {
       : contact_(contact), mesh_(mesh), state_(state), c_(indenter_at(contact, state)) {
     front_ = mesh.section ? n_front(mesh) : mesh.n_nodes();
     share_ = mesh.section ? cell_share(*mesh.section) : 1;
-    facets_ = facets_within(mesh, boundary(mesh), mesh.section ? through_layers(mesh, contact.nodes) : contact.nodes);
+    facets_ =
+        facets_within(mesh, boundary(mesh), with_hanging(mesh, mesh.section ? through_layers(mesh, contact.nodes) : contact.nodes));
     area_ = VecX::Zero(mesh.n_nodes());
     each([&](const Facet&, const std::vector<int>& nodes, const VecX& N, double dA) {
       for (std::size_t a = 0; a < nodes.size(); ++a) area_[nodes[a] % front_] += N[static_cast<Eigen::Index>(a)] * dA;
     });
+    for (const HangingNode& h : mesh.hanging) {
+      for (int n : h.of) area_[n] += 0.25 * area_[h.node];
+      area_[h.node] = 0;
+    }
     normal_.assign(static_cast<std::size_t>(mesh.n_nodes()), Vec3::Zero());
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int n = contact.nodes[i];
@@ -196,6 +202,8 @@ class ContactFacets {
     VecX out = VecX::Zero(mesh_.n_nodes());
     for (std::size_t i = 0; i < r.size(); ++i)
       if (const int n = contact_.nodes[i]; area_[n] > 0) out[n] = r[i].dot(normal_[n]) / area_[n];
+    for (const HangingNode& h : mesh_.hanging)
+      for (int n : h.of) out[h.node] += 0.25 * out[n];
     return out;
   }
 

@@ -43,7 +43,7 @@ VecX Equilibrium::loads_times(const VecX& u, const VecX& v) const {
   loads_.each(t_loads_, displacements, true, [&](int e, const ElementNodes&, const MatX* stiffness) {
     if (!stiffness) return;
     const ElementNodes q = element_displacements(v, e);
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     for (int a = 0; a < n_nodes_; ++a) {
       Vec3 f = Vec3::Zero();
       for (int b = 0; b < n_nodes_; ++b) f += stiffness->block<3, 3>(3 * a, 3 * b) * q.row(b).transpose();
@@ -93,7 +93,7 @@ std::vector<VecX> Equilibrium::on_prescribed(const VecX& u, const std::vector<Ve
   for (const Prescribed& p : dofs_.prescribed) prescribed[static_cast<std::size_t>(p.dof)] = 1;
   const auto concerned = [&](const Block& block) {
     for (int l = 0; l < block.n; ++l)
-      for (int node : mesh_.cell(block.cells[l]))
+      for (int node : moving_.of(block.cells[l]))
         for (int k = 0; k < 3; ++k)
           if (prescribed[static_cast<std::size_t>(3 * dofs_.node(node) + k)]) return true;
     return false;
@@ -104,7 +104,7 @@ std::vector<VecX> Equilibrium::on_prescribed(const VecX& u, const std::vector<Ve
     compute(block, u, true, element);
     for (int l = 0; l < block.n; ++l) {
       const int e = block.cells[l];
-      const auto nodes = mesh_.cell(e);
+      const auto nodes = moving_.of(e);
       const bool tied = !tied_.empty() && tied_[e];
       for (std::size_t j = 0; j < v.size(); ++j) {
         const ElementNodes q = element_displacements(v[j], e);

@@ -10,8 +10,20 @@ bool Prescribed::goes_on(double before, double now, double next) const {
   return steady({value, factor}) && (!turn || steady(turn->angle));
 }
 
-DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie) {
+Vec3 displacement(const Dofs& dofs, const VecX& u, int node) {
+  if (dofs.tie.empty()) return u.segment<3>(3 * node);
+  return dofs.tie[node].T * u.segment<3>(3 * dofs.tie[node].of);
+}
+
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie,
+                       const std::vector<HangingNode>& hanging) {
   DofsResult result;
+  const auto hangs = [&](const Prescribed& p) {
+    const auto at =
+        std::lower_bound(hanging.begin(), hanging.end(), p.dof / 3, [](const HangingNode& h, int node) { return h.node < node; });
+    return at != hanging.end() && at->node == p.dof / 3;
+  };
+  if (!hanging.empty()) std::erase_if(prescribed, hangs);
   Dofs& dofs = result.dofs;
   dofs.n = 3 * n_nodes;
   std::sort(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) { return a.dof < b.dof; });
@@ -30,6 +42,8 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vec
       if (dofs.tie[i].of != static_cast<int>(i) || dofs.tie[i].T(k, k) == 0)
         dofs.equation[3 * i + static_cast<std::size_t>(k)] = -1;
   for (const Prescribed& p : dofs.prescribed) dofs.equation[p.dof] = -1;
+  for (const HangingNode& h : hanging)
+    for (int k = 0; k < 3; ++k) dofs.equation[3 * h.node + k] = -1;
   for (int i = 0; i < dofs.n; ++i)
     if (dofs.equation[i] == 0) {
       dofs.equation[i] = dofs.n_free();

@@ -69,6 +69,11 @@ struct DofsResult {
   Dofs dofs;
   int conflict = -1;
 };
-DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie = {});
+// Hanging nodes have no dofs: what is prescribed for them is left out, and has to be what the nodes that they hang on ask for.
+DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie = {},
+                       const std::vector<HangingNode>& hanging = {});
+
+// of a node, whatever it moves with; u (n)
+Vec3 displacement(const Dofs& dofs, const VecX& u, int node);
 
 }  // namespace langer

@@ -20,6 +20,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
       n_dofs_(3 * n_nodes_),
       n_p_(n_pressures(formulation, n_nodes_)),
       dofs_(std::move(dofs)),
+      moving_(mesh),
       pattern_(make_pattern(mesh, dofs_)),
       threads_(threads),
       asked_(kernel),
@@ -28,6 +29,8 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
   geometry_.reserve(n);
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
+    if (const MatX* C = moving_.weights(e))
+      for (Gradients& dN : geometry_[e].dN_dX) dN = C->transpose() * dN;
     if (!cell_share.empty()) {
       for (double& w : geometry_[e].w) w *= cell_share[e];
       geometry_[e].V *= cell_share[e];
@@ -38,7 +41,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
   if (!dofs_.tie.empty()) {
     tied_.assign(n, 0);
     for (int e = 0; e < n; ++e)
-      for (int a : mesh.cell(e))
+      for (int a : moving_.of(e))
         if (dofs_.tie[a].of != a || !dofs_.tie[a].T.isDiagonal(0)) tied_[e] = 1;
   }
   make_blocks();
@@ -104,17 +107,17 @@ void Equilibrium::find_beginnings() {
 }
 
 ElementNodes Equilibrium::element_displacements(const VecX& u, int e) const {
-  if (tied_.empty() || !tied_[e]) return element_values(mesh_, e, u);
-  const auto nodes = mesh_.cell(e);
+  if ((tied_.empty() || !tied_[e]) && !moving_.weights(e)) return element_values(mesh_, e, u);
+  const auto nodes = moving_.of(e);
   ElementNodes q(n_nodes_, 3);
-  for (int a = 0; a < n_nodes_; ++a) q.row(a) = (dofs_.tie[nodes[a]].T * u.segment<3>(3 * dofs_.node(nodes[a]))).transpose();
+  for (int a = 0; a < n_nodes_; ++a) q.row(a) = displacement(dofs_, u, nodes[a]).transpose();
   return q;
 }
 
 void Equilibrium::load(const Block& block, const VecX& u, Packet* q) const {
   for (int l = 0; l < Packet::lanes; ++l) {
     const int e = block.cells[l];
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     if (!tied_.empty() && tied_[e]) {
       const ElementNodes q_e = element_displacements(u, e);
       for (int a = 0; a < n_nodes_; ++a)
@@ -170,7 +173,7 @@ void Equilibrium::add_force(VecX& forces, int node, bool tied, const Vec3& force
 
 // Forces and tangent of a cell with tied nodes, folded onto the nodes that move.
 void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_tangent) {
-  const auto nodes = mesh_.cell(e);
+  const auto nodes = moving_.of(e);
   const auto entry = [](int i, int j) { return i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j; };  // lower triangle, row by row
   for (int a = 0; a < n_nodes_; ++a)
     add_force(f_, nodes[a], true, Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]));
@@ -210,7 +213,7 @@ void Equilibrium::add_loads(const VecX& u, bool with_tangent, const VecX* du_pre
   f_ext_.setZero();
   const auto displacements = [&](int e) { return element_displacements(u, e); };
   loads_.each(t_loads_, displacements, with_tangent, [&](int e, const ElementNodes& force, const MatX* stiffness) {
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     const bool tied = !tied_.empty() && tied_[e];
     for (int a = 0; a < n_nodes_; ++a) add_force(f_ext_, nodes[a], tied, force.row(a).transpose());
     if (!stiffness) return;
@@ -239,7 +242,7 @@ VecX Equilibrium::skew_pressures(const VecX& u, const VecX& du) const {
   VecX out = VecX::Zero(dofs_.n);
   const auto at = [this](const VecX& values) { return [this, &values](int e) { return element_displacements(values, e); }; };
   loads_.each_skew(t_loads_, at(u), at(du), [&](int e, const ElementNodes& change) {
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], !tied_.empty() && tied_[e], change.row(a).transpose());
   });
   return out;
@@ -279,7 +282,7 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
   const double kappa = bulk_modulus(block.cells[0]);
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     const bool tied = !tied_.empty() && tied_[e];
     if (tied) add_tied(e, out, l, with_tangent);
     for (int a = 0; a < n_nodes_ && !tied; ++a)

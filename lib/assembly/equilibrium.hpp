@@ -15,6 +15,7 @@
 #include "assembly/pattern.hpp"
 #include "element/packet_solid.hpp"
 #include "mesh/directions.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
@@ -91,7 +92,7 @@ class Equilibrium {
   const Material& material(int e) const { return materials_[mesh_.body.empty() ? 0 : mesh_.body[e]]; }
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
-  ElementNodes element_displacements(const VecX& u, int e) const;
+  ElementNodes element_displacements(const VecX& u, int e) const;  // of the nodes that move the cell (MovingNodes)
 
  private:
   double bulk_modulus(int e) const { return langer::bulk_modulus(material(e)); }  // at rest [MPa]
@@ -124,6 +125,7 @@ class Equilibrium {
   Formulation formulation_;
   int n_nodes_, n_dofs_, n_p_;  // of a cell; dilatations
   Dofs dofs_;
+  MovingNodes moving_;
   Pattern pattern_;
   int threads_;
   Kernel asked_, kernel_;  // packets where they can

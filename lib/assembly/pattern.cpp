@@ -2,19 +2,21 @@
 
 #include <algorithm>
 
+#include "mesh/hanging.hpp"
+
 namespace langer {
 
 namespace {
 // neighbours of each node through cells, ascending, itself included; tied nodes are those they are tied to
-std::vector<std::vector<int>> node_graph(const Mesh& mesh, const Dofs& dofs) {
+std::vector<std::vector<int>> node_graph(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs) {
   std::vector<std::vector<int>> cells_of(mesh.n_nodes());
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int a : mesh.cell(e)) cells_of[dofs.node(a)].push_back(e);
+    for (int a : moving.of(e)) cells_of[dofs.node(a)].push_back(e);
   std::vector<std::vector<int>> graph(mesh.n_nodes());
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     auto& near = graph[i];
     for (int e : cells_of[i])
-      for (int b : mesh.cell(e)) near.push_back(dofs.node(b));
+      for (int b : moving.of(e)) near.push_back(dofs.node(b));
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
   }
@@ -41,7 +43,8 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
   Pattern pattern;
   pattern.n = dofs.n_free();
   pattern.column_start.assign(pattern.n + 1, 0);
-  const auto graph = node_graph(mesh, dofs);
+  const MovingNodes moving(mesh);
+  const auto graph = node_graph(mesh, moving, dofs);
   for (int c = 0; c < pattern.n; ++c) {  // rows are numbered by node, so neighbours in order give ascending rows
     const int dof = dofs.free[c];
     for (int b : graph[dof / 3])
@@ -55,7 +58,7 @@ Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
   pattern.slot_of.assign(mesh.n_cells(), Pattern::none);
   int n_scattered = 0;
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const auto nodes = mesh.cell(e);
+    const auto nodes = moving.of(e);
     const auto equation = [&](int i) { return dofs.equation[3 * dofs.node(nodes[i / 3]) + i % 3]; };
     if (!std::all_of(nodes.begin(), nodes.end(), [&](int node) { return even(dofs, node); })) {
       pattern.slot_of[e] = n_scattered++;

@@ -23,7 +23,7 @@ VecX Equilibrium::turned_dilatations() const {
     // what a linear pressure leaves to `local` follows the predicted dilatation, else it is the same in both
     const double share = linear_pressure(material(e).volume) ? 1 - local_[e] / bulk_modulus(e) : 1;
     pressures_of(e, &J_minus_1_[static_cast<std::size_t>(e) * n_p_], now.data());
-    const auto nodes = mesh_.cell(e);
+    const auto nodes = moving_.of(e);
     const bool tied = !tied_.empty() && tied_[e];
     for (int k = 0; k < n_p_; ++k) {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;

@@ -215,6 +215,7 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
     if (r.empty() || r[i].isZero(0)) continue;
     touches[contact.nodes[i]] = 1, ++found.touching, along += r[i];
   }
+  for (const HangingNode& h : mesh_.hanging) candidate[h.node] = 1;  // a point of a facet
   std::vector<double> gap(x.size(), std::numeric_limits<double>::infinity());
   for (int n : nodes_) {
     const double g = gap[n] = shape_at(contact.shape, x[n] - c).gap;

@@ -306,6 +306,8 @@ Deck deck_of(const SolutionReader& solution, const std::string& path) {
   if (header.mesh.section)
     refuse(path, "", "a section",
            "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
+  if (!header.mesh.hanging.empty())
+    refuse(path, "", "cells that are cut beside larger ones", "the same scene on a mesh without `cuts`: the decks have no ties");
   for (const Material& law : header.laws())
     if (is_viscous(law))
       refuse(path, "", "a viscous material, whose scene goes through time",

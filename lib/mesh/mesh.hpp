@@ -6,6 +6,7 @@
 //   node_sets     name -> nodes, ascending; observation points are sets of one node
 //   facet_sets    name -> (cell, local facet)
 //   section       the mesh is one layer of cells that stands for more (mesh/section.hpp)
+//   hanging       nodes in the middle of an edge or facet of a larger cell, ascending (mesh/cut.hpp)
 #pragma once
 
 #include <array>
@@ -39,6 +40,12 @@ struct Section {
   friend bool operator==(const Section&, const Section&) = default;
 };
 
+// Moves with the mean of four nodes: the corners of a facet, or twice the ends of an edge.
+struct HangingNode {
+  int node = 0;
+  std::array<int, 4> of{};
+};
+
 struct Mesh {
   CellType type = CellType::hex8;
   std::vector<Vec3> X;
@@ -49,6 +56,7 @@ struct Mesh {
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<Facet>> facet_sets;
   std::optional<Section> section;
+  std::vector<HangingNode> hanging;
 
   const ReferenceCell& cell() const { return reference(type); }
   int n_nodes() const { return static_cast<int>(X.size()); }

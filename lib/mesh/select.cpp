@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "mesh/bounding_box.hpp"
 #include "mesh/facets.hpp"
@@ -74,9 +75,18 @@ std::vector<Facet> boundary(const Mesh& mesh) {
   std::map<std::array<int, 4>, std::vector<Facet>> by_nodes;
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int f = 0; f < mesh.cell().n_facets(); ++f) by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
+  // a facet of a larger cell and the quarters beside it, around the node in its middle
+  std::set<int> middles;
+  for (const HangingNode& h : mesh.hanging) {
+    std::array<int, 4> of = h.of;
+    std::sort(of.begin(), of.end());
+    if (of[0] == of[1]) continue;  // of an edge
+    by_nodes.erase(of), middles.insert(h.node);
+  }
+  const auto inside = [&](int node) { return middles.count(node) > 0; };
   std::vector<Facet> outer;
   for (const auto& [nodes, facets] : by_nodes)
-    if (facets.size() == 1) outer.push_back(facets[0]);
+    if (facets.size() == 1 && (middles.empty() || std::none_of(nodes.begin(), nodes.end(), inside))) outer.push_back(facets[0]);
   std::sort(outer.begin(), outer.end(),
             [](const Facet& a, const Facet& b) { return std::pair(a.cell, a.local) < std::pair(b.cell, b.local); });
   return outer;

@@ -81,6 +81,9 @@ std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
     if (!mesh.frames.empty()) q.mesh.frames.push_back(mesh.frames[e]);
     for (int a : mesh.cell(e)) kept_node[a] = 0;
   }
+  for (const HangingNode& h : mesh.hanging)  // with those that they hang on
+    if (kept_node[h.node] == 0)
+      for (int n : h.of) kept_node[n] = 0;
   for (std::size_t i = 0; i < kept_node.size(); ++i)
     if (kept_node[i] == 0) {
       kept_node[i] = static_cast<int>(q.node.size());
@@ -90,6 +93,12 @@ std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
   q.mesh.connectivity.reserve(q.cell.size() * static_cast<std::size_t>(nodes_per_cell(mesh.type)));
   for (int e : q.cell)
     for (int a : mesh.cell(e)) q.mesh.connectivity.push_back(kept_node[a]);
+  for (const HangingNode& h : mesh.hanging) {
+    if (kept_node[h.node] < 0) continue;
+    HangingNode kept{kept_node[h.node], {}};
+    for (std::size_t k = 0; k < 4; ++k) kept.of[k] = kept_node[h.of[k]];
+    q.mesh.hanging.push_back(kept);
+  }
   return kept_node;
 }
 

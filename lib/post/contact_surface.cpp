@@ -6,15 +6,15 @@
 
 #include "element/surface.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/section.hpp"
 #include "mesh/select.hpp"
 
 namespace langer {
 
 ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates) : mesh_(mesh), candidates_(std::move(candidates)) {
-  std::vector<int> sorted = mesh.section ? through_layers(mesh, candidates_) : candidates_;
-  std::sort(sorted.begin(), sorted.end());
-  facets_ = facets_within(mesh, boundary(mesh), sorted);
+  const std::vector<int> nodes = with_hanging(mesh, mesh.section ? through_layers(mesh, candidates_) : candidates_);
+  facets_ = facets_within(mesh, boundary(mesh), nodes);
   if (!mesh.section) return;
   const int layer = n_front(mesh);  // those of the planes of the section are no surface of the body
   std::erase_if(facets_, [&](const Facet& facet) {
@@ -43,6 +43,10 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
       area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] += force.row(a).transpose();
   }
   if (mesh_.section) fold(area);
+  for (const HangingNode& h : mesh_.hanging) {
+    for (int n : h.of) area[static_cast<std::size_t>(n)] += 0.25 * area[static_cast<std::size_t>(h.node)];
+    area[static_cast<std::size_t>(h.node)].setZero();
+  }
   ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates_[i]);
@@ -53,6 +57,11 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
     state.area += size;
     state.pressure_max = std::max(state.pressure_max, state.pressure[node]);
   }
+  for (const HangingNode& h : mesh_.hanging)
+    for (int n : h.of) {
+      state.traction[static_cast<std::size_t>(h.node)] += 0.25 * state.traction[static_cast<std::size_t>(n)];
+      state.pressure[static_cast<std::size_t>(h.node)] += 0.25 * state.pressure[static_cast<std::size_t>(n)];
+    }
   state.radius = std::sqrt(state.area / std::numbers::pi);
   return state;
 }

@@ -72,6 +72,13 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
 
 }  // namespace
 
+void hang(const Equilibrium& body, const VecX& u, std::vector<Vec3>& nodal) {
+  for (const HangingNode& h : body.mesh().hanging) {
+    nodal[h.node].setZero();
+    for (int n : h.of) nodal[h.node] += 0.25 * displacement(body.dofs(), u, n);
+  }
+}
+
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
   return indenter_displacement(indenter, step.t, indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
 }
@@ -86,6 +93,7 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
     record.u.push_back(state.u.segment<3>(3 * i));
     record.reaction.push_back(reactions.segment<3>(3 * i));
   }
+  hang(body, state.u, record.u);
   add_cell_fields(record, body, state.u);
   record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
   record.scalars["J_min"] = body.J_min();

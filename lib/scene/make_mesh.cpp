@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "mesh/cut.hpp"
 #include "mesh/order.hpp"
 #include "mesh/raise.hpp"
 #include "mesh/section.hpp"
@@ -71,6 +72,26 @@ Geometry with_borders(const MeshConfig& config) {
   return geometry;
 }
 
+CutRegion region_of(const Selection& within) {
+  if (const auto* box = std::get_if<InBox>(&within)) return {Vec3(box->from.data()), Vec3(box->to.data())};
+  const auto& round = std::get<InCylinder>(within);
+  const Vec3 half(round.radius, 1e9, round.radius);
+  const Vec3 through(round.through.data());
+  return {through - half, through + half, true};
+}
+
+Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
+  CutMesh cells(std::move(mesh));
+  for (int time = 0; time < 8; ++time) {
+    std::vector<char> marked(static_cast<std::size_t>(cells.mesh().n_cells()), 0);
+    for (const CutConfig& cut : cuts)
+      for (int e = 0; e < cells.mesh().n_cells() && time < cut.times; ++e)
+        if (has_part_of(region_of(cut.within), cells.mesh(), e)) marked[static_cast<std::size_t>(e)] = 1;
+    cells.cut(std::move(marked));
+  }
+  return cells.mesh();
+}
+
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
@@ -91,6 +112,7 @@ MadeMesh made(const MeshConfig& config) {
     else
       number_in_order(mesh), make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
   }
+  if (!config.cuts.empty()) mesh = with_cuts(std::move(mesh), config.cuts);
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
   refuse_folded(result.quality, "geometry");

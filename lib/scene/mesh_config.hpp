@@ -47,11 +47,26 @@ struct LayerConfig {
   }
 };
 
+struct CutConfig {
+  Selection within;
+  int times = 1;
+  static void fields(auto& v) {
+    v(&CutConfig::within, "within", unit::none, "box, or cylinder along y: cells that have a part of it", required);
+    v(&CutConfig::times, "times", unit::none, "cuts, each into eight", between(1, 8));
+  }
+  std::vector<Complaint> complaints() const {
+    if (std::holds_alternative<InBox>(within)) return {};
+    if (const auto* round = std::get_if<InCylinder>(&within); round && round->axis == "y" && !round->beyond) return {};
+    return {{"within", "found another region", "a box, or a cylinder along y", ""}};
+  }
+};
+
 struct MeshConfig {
   std::string body = "skin";
   std::vector<LayerConfig> bodies;
   Geometry geometry;
   CellType cells = CellType::hex8;
+  std::vector<CutConfig> cuts;
   Frames frames = Frames::global;
   std::map<std::string, std::array<double, 3>> points;
   std::map<std::string, SetConfig> sets;
@@ -64,6 +79,8 @@ struct MeshConfig {
       "hex8, or hex27: quadratic displacements with nodes in the middles of edges, facets and cells too; about 8 times the work of "
       "a hex8, and far fewer are needed; tet15, where geometry is a file: tetrahedra with quadratic displacements and bubbles; of an "
       ".inp what it has: hex27 of 20 or 27 nodes, tet15 of 4 or 10");
+    v(&MeshConfig::cuts, "cuts", unit::none,
+      "regions whose hex8 are cut into eight; the nodes in the middles of larger cells beside them move with the corners of these");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
@@ -105,6 +122,10 @@ struct MeshConfig {
         found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
                          std::to_string(height) + " mm, the height of the geometry", ""});
     }
+    if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
+      found.push_back({"cuts", "found beside other cells than the hex8 of a body", "none", ""});
+    if (!cuts.empty() && !exports.empty())
+      found.push_back({"export", "found beside cuts", "none: other programs know no nodes that hang", ""});
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
     else if (!exports.empty() && !cell.names.abaqus.written)

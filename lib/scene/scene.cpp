@@ -15,6 +15,7 @@
 #include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 #include "scene/adhesion.hpp"
+#include "scene/hanging.hpp"
 #include "scene/loads.hpp"
 #include "scene/section.hpp"
 
@@ -311,6 +312,7 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
     if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
+    std::erase_if(rigid.nodes, [&](int node) { return hangs(mesh, node); });  // what they hang on touches
     if (rigid.nodes.empty() && contact.on.empty())
       nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
@@ -374,8 +376,9 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
   add_materials(scene, config, mesh, material, where, nodes.errors);
   if (mesh.section)
     for (Error& error : section_errors(config, mesh, scene, where)) nodes.errors.push_back(std::move(error));
+  for (Error& error : hanging_errors(config, mesh, nodes.prescribed, where)) nodes.errors.push_back(std::move(error));
   if (!nodes.errors.empty()) throw Failure(Exit::config, nodes.errors);
-  scene.dofs = number_dofs(mesh.n_nodes(), std::move(nodes.prescribed)).dofs;
+  scene.dofs = number_dofs(mesh.n_nodes(), std::move(nodes.prescribed), {}, mesh.hanging).dofs;
   return scene;
 }
 

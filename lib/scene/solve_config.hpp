@@ -299,6 +299,7 @@ struct SolveConfig {
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && estimate != EstimateBy::dual)
       found.push_back(
           {key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: dual beside it judges any mesh as it is"});
+    complain_of_cuts(found);
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : estimates ? "estimate" : nullptr) {
@@ -319,6 +320,17 @@ struct SolveConfig {
   }
 
  private:
+  void complain_of_cuts(std::vector<Complaint>& found) const {
+    if (!mesh || mesh->cuts.empty()) return;
+    const bool by_numbers = estimate == EstimateBy::refinement || estimate == EstimateBy::automatic;
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : by_numbers ? "estimate" : nullptr)
+      found.push_back({key, "found beside mesh.cuts", "a mesh without cuts",
+                       "cells of other lengths are made from the mesh's numbers; estimate: dual judges cut cells as they are"});
+    if (reduce == Reduce::automatic)
+      found.push_back({"reduce", "auto, beside mesh.cuts", "one of the two", "sections have no cuts"});
+    if (!truncation.empty())
+      found.push_back({"truncation", "found beside mesh.cuts", "none", "wider bodies are made without cuts"});
+  }
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
     const auto look_at = [&](const auto& points, const std::string& key) {

@@ -170,7 +170,7 @@ void ReducedScene::take_supports(const Scene& scene) {
     if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
       prescribed.push_back(p), prescribed.back().dof = 3 * image.of + p.dof % 3;
   }
-  scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
+  scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie, q.mesh.hanging).dofs;
 }
 
 // facets of kept cells: a cell's share counts theirs

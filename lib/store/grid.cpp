@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "hdf5/units.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 
@@ -105,7 +106,19 @@ void write_section(const h5::Group& root, const Mesh& mesh) {
   group.write_scalar("depth", mesh.section->depth, mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
 }
 
-Schema schema_of(const Schema& schema, const Mesh& mesh) { return mesh.section ? Schema{schema.name, schema.newest} : schema; }
+void write_hanging(const h5::Group& root, const Mesh& mesh) {
+  if (mesh.hanging.empty()) return;
+  const h5::Group group = root.make_group("hanging");
+  Integers nodes, of;
+  for (const HangingNode& h : mesh.hanging) nodes.push_back(h.node), of.insert(of.end(), h.of.begin(), h.of.end());
+  write_integers(group, "node", {nodes.size()}, nodes);
+  write_integers(group, "of", {nodes.size(), 4}, of);
+}
+
+Schema schema_of(const Schema& schema, const Mesh& mesh) {
+  if (!mesh.hanging.empty()) return {schema.name, 3};
+  return mesh.section ? Schema{schema.name, 2} : schema;
+}
 
 namespace {
 
@@ -118,6 +131,17 @@ void read_section(const h5::Group& root, Mesh& mesh) {
   if (kind == known.end()) group.refuse("of", "\"" + of + "\"", fmt::format("one of {}", fmt::join(known, ", ")));
   mesh.section = Section{static_cast<SectionOf>(kind - known.begin()), group.read_scalar("depth")};
   if (const std::string fault = section_fault(mesh); !fault.empty()) group.refuse("", fault, "one layer of cells behind z = 0");
+}
+
+void read_hanging(const h5::Group& root, Mesh& mesh) {
+  if (!root.has("hanging")) return;
+  const h5::Group group = root.group("hanging");
+  const auto below = static_cast<std::int64_t>(mesh.X.size());
+  const std::vector<int> nodes = indices(group, "node", {h5::any}, below), of = indices(group, "of", {nodes.size(), 4}, below);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    mesh.hanging.push_back({nodes[i], {of[4 * i], of[4 * i + 1], of[4 * i + 2], of[4 * i + 3]}});
+  if (const std::string fault = hanging_fault(mesh); !fault.empty())
+    group.refuse("node", fault, "nodes between those of larger hexahedra");
 }
 
 CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) {
@@ -169,6 +193,7 @@ Mesh read_grid(const h5::Group& root) {
     }
   }
   read_section(root, mesh);
+  read_hanging(root, mesh);
   return mesh;
 }
 

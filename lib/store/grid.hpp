@@ -16,7 +16,8 @@ namespace langer {
 h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const std::vector<std::int64_t>& version);
 void write_sets(const h5::Group& root, const Mesh& mesh);
 void write_section(const h5::Group& root, const Mesh& mesh);  // of a section only
-Schema schema_of(const Schema& schema, const Mesh& mesh);     // readers that know no sections refuse them by their version
+void write_hanging(const h5::Group& root, const Mesh& mesh);
+Schema schema_of(const Schema& schema, const Mesh& mesh);  // readers that know no sections refuse them by their version
 
 Mesh read_grid(const h5::Group& root);  // with sets and frames
 

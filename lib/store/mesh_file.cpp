@@ -9,6 +9,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const Identity& ident
   write_identity(file.root(), schema_of(mesh_schema, mesh), identity);
   write_grid(file.root(), mesh, {1, 0});
   write_section(file.root(), mesh);
+  write_hanging(file.root(), mesh);
   write_sets(file.root(), mesh);
   if (!summary.empty()) write_summary(file.root(), summary);
   file.commit();

@@ -14,7 +14,7 @@ struct Schema {
   int version;           // that files are written in
   int newest = version;  // that is read: of files with what the version before did not know
 };
-inline constexpr Schema mesh_schema{"mesh", 1, 2}, material_schema{"material", 1}, solution_schema{"solution", 1, 2},
+inline constexpr Schema mesh_schema{"mesh", 1, 3}, material_schema{"material", 1}, solution_schema{"solution", 1, 3},
     curves_schema{"curves", 1}, sweep_schema{"sweep", 1}, sensitivity_schema{"sensitivity", 1}, snapshot_schema{"snapshot", 1};
 
 std::string code_version();

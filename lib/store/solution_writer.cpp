@@ -107,6 +107,7 @@ void SolutionWriter::State::begin() {
   const h5::Group grid = write_grid(root, header.mesh, {2, 0});
   write_sets(root, header.mesh);
   write_section(root, header.mesh);
+  write_hanging(root, header.mesh);
   root.attribute("formulation", header.formulation);
   write_listing(root.make_group("material"), header.material);
   if (!header.materials.empty()) {

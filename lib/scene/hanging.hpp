@@ -1,0 +1,20 @@
+// What a scene may ask of a mesh some of whose cells are cut beside others that are not (mesh/cut.hpp).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "assembly/dofs.hpp"
+#include "base/error.hpp"
+#include "scene/solve_config.hpp"
+
+namespace langer {
+
+bool hangs(const Mesh& mesh, int node);
+
+// Supports that end in the middle of a facet, and what nobody has tried on such cells: forces on a surface, adhesion, derivatives with
+// respect to the config's numbers. Nothing where no node hangs.
+std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh, const std::vector<Prescribed>& prescribed,
+                                  const std::function<Place(const std::string&)>& where);
+
+}  // namespace langer
