@@ -61,14 +61,18 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
   }
 }
 
-// of geometries whose cells one number gives: nobody could lay them between the layers by hand
+// Lines of a grid go through the borders of layers: cells that one number gives, or that were made longer or shorter for an estimate, nobody
+// could lay between them by hand.
 Geometry with_borders(const MeshConfig& config) {
   Geometry geometry = config.geometry;
   std::vector<double> borders;
   double y = box(geometry).origin[1];
   for (std::size_t b = 0; b + 1 < config.bodies.size(); ++b) borders.push_back(y += config.bodies[b].thickness);
-  if (auto* block = std::get_if<IndentedBlock>(&geometry)) block->borders = borders;
-  if (auto* disc = std::get_if<IndentedDisc>(&geometry)) disc->borders = borders;
+  const auto put = [&](auto* with_lines) {
+    if (with_lines) with_lines->borders = borders;
+  };
+  put(std::get_if<Block>(&geometry)), put(std::get_if<SectionBox>(&geometry));
+  put(std::get_if<IndentedBlock>(&geometry)), put(std::get_if<IndentedDisc>(&geometry));
   return geometry;
 }
 
@@ -92,17 +96,45 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
   return cells.mesh();
 }
 
+// A section's lines go through the radii of its sets, too: a hole or a ring is then the same on all cells. Not in y: a set may be of
+// nodes inside.
+Points with_radii(const MeshConfig& config) {
+  Points points = config.positions();
+  const auto* section = std::get_if<SectionBox>(&config.geometry);
+  if (!section || section->of != SectionOf::axisymmetric) return points;
+  const auto [low, high] = std::pair(section->origin[0], section->origin[0] + section->size[0]);
+  for (const auto& [name, set] : config.sets) {
+    const auto* cylinder = std::get_if<InCylinder>(&set.within);
+    if (!cylinder || cylinder->axis != "y" || cylinder->through[0] != 0) continue;
+    for (double radius : {cylinder->radius, cylinder->beyond.value_or(0)})
+      if (radius > low && radius < high) points[fmt::format("{} {}", name, radius)] = {radius, section->origin[1], 0};
+  }
+  return points;
+}
+
+Mesh with_lines(const MeshConfig& config, std::vector<std::string>& notes) {
+  const auto through = [&](const Points& points) {
+    return std::visit(
+        [&](const auto& g) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
+            return mesh_of(g, config.cells, notes);
+          else
+            return mesh_of(g, points, notes);
+        },
+        with_borders(config));
+  };
+  if (const Points points = with_radii(config); points.size() > config.points.size()) try {
+      return through(points);
+    } catch (const Failure&) {  // cells too long for so many lines: sets take whole ones then
+      notes.clear();
+    }
+  return through(config.positions());
+}
+
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
-  mesh = std::visit(
-      [&](const auto& g) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
-          return mesh_of(g, config.cells, result.notes);
-        else
-          return mesh_of(g, config.positions(), result.notes);
-      },
-      with_borders(config));
+  mesh = with_lines(config, result.notes);
   if (config.cells != mesh.type) {
     const auto section = mesh.section;
     mesh = raised(mesh, config.cells);
