@@ -177,27 +177,81 @@ std::string section(Draw& draw) {
          contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
 }
 
+std::string soft_matrix(Draw& draw, double mu) {
+  const std::string matrices[]{
+      fmt::format("neo_hooke: {{a1: {:g}}}", mu),
+      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, rounded(mu * draw.uniform(0.3, 3)), 0.5 * mu),
+      fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
+  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}}}", matrices[draw.below(3)],
+                     rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu));
+}
+
+// Skin that is sucked into a hole, on its section: under a ring that is stuck to it, or a plate with a rounded edge that is pressed on,
+// without friction or with it. Layers: the upper one softer or stiffer. The rim of the hole is named or not.
+std::string sucked(Draw& draw, bool plate, bool layered) {
+  const double R = rounded(draw.logarithmic(0.5, 5)), H = rounded(R * draw.uniform(0.6, 3)),
+               width = rounded(R * draw.uniform(3, 6));
+  const double mu = rounded(draw.logarithmic(0.005, 0.2)), pressure = rounded(2 * mu * draw.uniform(0.2, 1.5));
+  const int across = 8 * static_cast<int>(std::lround(width / R)),
+            down = std::max(8, static_cast<int>(std::lround(H / width * across)));
+  const double top = H * static_cast<int>(std::max(2L, std::lround(down * draw.uniform(0.2, 0.7)))) / down;
+  const double contrast = layered ? draw.logarithmic(2, 20) : 1;
+  const bool soft_above = draw.coin(), rim = draw.coin();
+  std::string text = fmt::format(
+      "mesh:\n  geometry: {{section: {{of: axisymmetric, size: [{:g}, {:g}], divisions: [{}, {}]}}}}\n"
+      "  points: {{apex: [0, {:g}, 0]{}}}\n  sets:\n    hole: {{of: top, within: {{cylinder: {{axis: y, radius: {:g}}}}}}}\n",
+      width, H, across, down, H, rim ? fmt::format(", rim: [{:g}, {:g}, 0]", R, H) : "", R);
+  if (!plate)
+    text += fmt::format("    ring: {{of: top, within: {{cylinder: {{axis: y, radius: {:g}, beyond: {:g}}}}}}}\n", 3 * R, R);
+  if (layered)
+    text += fmt::format("  bodies: [{{name: below, thickness: {:.12g}}}, {{name: above, thickness: {:.12g}}}]\n", H - top, top);
+  text += fmt::format("supports: [{{on: bottom, hold: [x, y]}}{}]\n", plate ? "" : ", {on: ring, hold: [x, y]}");
+  if (layered)
+    text += fmt::format("materials: {{below: {{material: {}}}, above: {{material: {}}}}}\n",
+                        soft_matrix(draw, soft_above ? contrast * mu : mu / contrast), soft_matrix(draw, mu));
+  else
+    text += "material: " + soft_matrix(draw, mu) + "\n";
+  if (!plate) return text + fmt::format("loads: [{{on: hole, pressure: {:g}}}]\nstability: off\n", -pressure);
+  const double edge = rounded(R * draw.uniform(0.1, 0.4)), depth = rounded(H * draw.uniform(0.01, 0.05));
+  const double friction = draw.coin() ? 0 : rounded(draw.uniform(0.05, 1));
+  return text +
+         fmt::format(
+             "contacts:\n  plate: {{on: top, rigid: {{aperture: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0]}}}}, friction: "
+             "{:g}, motion: [{{t: 0.2, to: [0, {:g}, 0]}}, {{t: 1, to: [0, {:g}, 0]}}]}}\n"
+             "loads: [{{on: hole, pressure: [{{t: 0.2, to: 0}}, {{t: 1, to: {:g}}}]}}]\nstability: off\n",
+             R, edge, H, friction, -depth, -depth, -pressure);
+}
+
 using Maker = std::function<std::string(Draw&)>;
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> all{{"centred", centred},
-                                                              {"beside", beside},
-                                                              {"thin", thin},
-                                                              {"layered", layered},
-                                                              {"plane", plane},
-                                                              {"punch", punch},
-                                                              {"ellipsoid", ellipsoid},
-                                                              {"two_spheres", two_spheres},
-                                                              {"drawn_aside", drawn_aside},
-                                                              {"tension", [](Draw& draw) { return pulled(draw, false); }},
-                                                              {"shear", [](Draw& draw) { return pulled(draw, true); }},
-                                                              {"section", section}};
+using Makers = std::vector<std::pair<std::string, Maker>>;
+const Makers& of_suction() {
+  static const Makers all{{"ring", [](Draw& draw) { return sucked(draw, false, false); }},
+                          {"plate", [](Draw& draw) { return sucked(draw, true, false); }},
+                          {"ring_layers", [](Draw& draw) { return sucked(draw, false, true); }},
+                          {"plate_layers", [](Draw& draw) { return sucked(draw, true, true); }}};
+  return all;
+}
+const Makers& makers() {
+  static const Makers all{{"centred", centred},
+                          {"beside", beside},
+                          {"thin", thin},
+                          {"layered", layered},
+                          {"plane", plane},
+                          {"punch", punch},
+                          {"ellipsoid", ellipsoid},
+                          {"two_spheres", two_spheres},
+                          {"drawn_aside", drawn_aside},
+                          {"tension", [](Draw& draw) { return pulled(draw, false); }},
+                          {"shear", [](Draw& draw) { return pulled(draw, true); }},
+                          {"section", section}};
   return all;
 }
 
 }  // namespace
 
-DrawnScene drawn_scene(std::uint64_t seed, int number) {
-  const auto& [kind, make] = makers()[static_cast<std::size_t>(number) % makers().size()];
+DrawnScene drawn_scene(std::uint64_t seed, int number, bool suction) {
+  const Makers& all = suction ? of_suction() : makers();
+  const auto& [kind, make] = all[static_cast<std::size_t>(number) % all.size()];
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));
   return {fmt::format("{:03}_{}", number, kind), make(draw)};
 }
