@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "mesh/cut.hpp"
@@ -91,6 +92,13 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
     for (const CutConfig& cut : cuts)
       for (int e = 0; e < cells.mesh().n_cells() && time < cut.times; ++e)
         if (has_part_of(region_of(cut.within), cells.mesh(), e)) marked[static_cast<std::size_t>(e)] = 1;
+    const long long more = 7LL * std::count(marked.begin(), marked.end(), 1);
+    if (cells.mesh().n_cells() + more > most_cells)
+      throw Failure(Exit::config, Error{{},
+                                        "cuts",
+                                        fmt::format("found more than {} cells", cells.mesh().n_cells() + more),
+                                        fmt::format("at most {}", most_cells),
+                                        "smaller regions, or fewer times"});
     cells.cut(std::move(marked));
   }
   return cells.mesh();

@@ -252,6 +252,10 @@ TEST_CASE("what ends in the middle of a facet, or was never tried on cut cells, 
                 "supports: [{on: part, hold: [x, y, z]}]\n")
             .find("middle of an edge or a facet") != std::string::npos);
   const std::string held = "supports: [{on: bottom, hold: [x, y, z]}]\n";
+  CHECK(refused("mesh: {geometry: {block: {size: [4, 4, 4], divisions: [4, 4, 4]}}, cuts: [{within: {box: {from: [0, 0, 0], to: "
+                "[4, 4, 4]}}, times: 8}]" +
+                law + held)
+            .find("cells; expected at most 4000000") != std::string::npos);
   CHECK(refused(start + law + held + "sensitivity: [matrix.neo_hooke.a1]\n").find("derivatives, beside cells that are cut") !=
         std::string::npos);
   const std::string pressure = "loads: [{on: top, pressure: 0.01}]\n", alone = law.substr(0, law.find("loads"));
