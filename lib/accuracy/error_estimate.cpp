@@ -85,7 +85,7 @@ double one_by_one(double touching, bool section) {
 
 // What nodes that stick where they touch add to a force, relative to it: 0.7 times the square of their distance in contact radii.
 double too_early(double touching) { return touching < 1 ? 0 : std::min(0.5, 1.6 / touching); }
-constexpr double rough = 0.2;  // friction from which on that is so
+constexpr double all_stick = 0.2;  // friction from which on that is so
 
 // The greatest stress below an indenter lies between points of the cells, wherever these are: by how much it may be missed, relative to
 // it, is a share of the cells' length in contact radii.
@@ -294,7 +294,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   PathErrors out;
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config), beside_rim = beside_rims(config);
-  const double sticks = refined.sticks_far_apart ? std::min(1.0, greatest_friction(config) / rough) : 0;
+  const double sticks = refined.sticks_far_apart ? std::min(1.0, greatest_friction(config) / all_stick) : 0;
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     const double order = q.name == "von_mises_max" ? 1 : order_of_force(config);

@@ -73,17 +73,17 @@ Digits digits_of(const std::string& text) {
 }
 
 // The lines that count, with what a dialect makes of them.
-struct Line {
+struct CsvLine {
   int number = 0;
   std::string text;
   bool comment = false;
 };
 
-std::vector<Line> lines_of(const std::string& text, const std::string& name) {
+std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw Failure(Exit::input,
                   {{name, 1, 1}, "", "found text in UTF-16", "UTF-8", "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
-  std::vector<Line> lines;
+  std::vector<CsvLine> lines;
   const char end = text.find('\n') == std::string::npos && text.find('\r') != std::string::npos ? '\r' : '\n';
   std::istringstream in(text);
   int number = 0;
@@ -97,9 +97,9 @@ std::vector<Line> lines_of(const std::string& text, const std::string& name) {
   return lines;
 }
 
-CsvRow row_of(const Line& line, char separator) { return {line.number, csv_cells(line.text, separator)}; }
+CsvRow row_of(const CsvLine& line, char separator) { return {line.number, csv_cells(line.text, separator)}; }
 
-CsvRow commented_row(const Line& line, char separator) {  // what stands behind the #
+CsvRow commented_row(const CsvLine& line, char separator) {  // what stands behind the #
   const std::size_t first = line.text.find_first_not_of("# \t");
   if (first == std::string::npos) return {line.number, {}};
   CsvRow row{line.number, csv_cells(line.text.substr(first), separator)};
@@ -112,7 +112,7 @@ bool all_numbers(const CsvRow& row) {
          std::all_of(row.cells.begin(), row.cells.end(), [](const CsvCell& c) { return digits_of(c.text).number; });
 }
 
-std::optional<char> told_separator(const std::vector<Line>& lines) {
+std::optional<char> told_separator(const std::vector<CsvLine>& lines) {
   if (lines.empty() || lines[0].text.size() != 5) return std::nullopt;
   std::string word = lines[0].text.substr(0, 4);
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -126,7 +126,8 @@ struct Beginning {
 };
 
 // the names as the caller knows them, in any dialect
-std::optional<Beginning> known_beginning(const std::vector<Line>& lines, const std::string& separators, const CsvReading& reading) {
+std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines, const std::string& separators,
+                                         const CsvReading& reading) {
   if (!reading.is_header) return std::nullopt;
   for (char separator : separators)
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -143,12 +144,12 @@ std::optional<Beginning> known_beginning(const std::vector<Line>& lines, const s
   return std::nullopt;
 }
 
-Beginning first_beginning(const std::vector<Line>& lines, const std::string& separators, const std::string& name) {
+Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& separators, const std::string& name) {
   std::vector<std::size_t> plain;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].comment) plain.push_back(i);
   if (plain.empty()) return {};
-  const Line &first = lines[plain.front()], &last = lines[plain.back()];
+  const CsvLine &first = lines[plain.front()], &last = lines[plain.back()];
   char separator = ',';
   for (char c : separators)
     if (row_of(first, c).cells.size() > 1 && row_of(last, c).cells.size() > 1 && (c != ' ' || all_numbers(row_of(last, c)))) {
@@ -307,7 +308,7 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name, con
   constexpr std::size_t most_errors = 10;
   CsvTable table;
   table.name = shown_name;
-  std::vector<Line> lines = lines_of(text, shown_name);
+  std::vector<CsvLine> lines = lines_of(text, shown_name);
   std::string separators = "\t;, ";
   if (const auto told = told_separator(lines)) separators = *told, lines.erase(lines.begin());
   std::optional<Beginning> known = known_beginning(lines, separators, reading);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int side_of_facet[6] = {6, 4, 3, 5, 1, 2};  // S1 ... S6 by our local facet
 constexpr double usual_stiffness = 1000;              // of contact, in units of the softest law's 2 a1 per mm
-constexpr double with_fibres = 0.05;                  // longest increment of a scene with contact and fibres
+constexpr double increment_with_fibres = 0.05;        // longest increment of a scene with contact and fibres
 
 std::string name_of(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
@@ -54,7 +54,7 @@ Mesh with_middles(const Mesh& mesh) {
   return out;
 }
 
-std::vector<std::string> warnings_of(const Deck& deck) {
+std::vector<std::string> calculix_warnings(const Deck& deck) {
   std::vector<std::string> list;
   if (const auto stiff = too_stiff_for_contact(deck))
     list.push_back(
@@ -64,9 +64,9 @@ std::vector<std::string> warnings_of(const Deck& deck) {
   return list;
 }
 
-class Writer {
+class CalculixWriter {
  public:
-  explicit Writer(const Deck& deck) : deck_(deck), mesh_(with_middles(deck.mesh)) {}
+  explicit CalculixWriter(const Deck& deck) : deck_(deck), mesh_(with_middles(deck.mesh)) {}
 
   std::string text(const std::vector<std::string>& warnings) {
     for (const std::string& line : deck_.words) s_ += "** " + line + "\n";
@@ -84,7 +84,7 @@ class Writer {
       s_ += fmt::format(
           "** increments of {:g} at most: ELASTIC_FIBER ends the run where an iteration stretches a fibre too far, instead of "
           "cutting the increment\n",
-          with_fibres);
+          increment_with_fibres);
     body();
     for (std::size_t c = 0; c < deck_.contacts.size(); ++c) contact(deck_.contacts[c], static_cast<int>(c));
     steps();
@@ -193,7 +193,7 @@ class Writer {
   }
 
   void steps() {
-    const double most = fibres_touched() ? with_fibres : 1;
+    const double most = fibres_touched() ? increment_with_fibres : 1;
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
@@ -223,8 +223,8 @@ class Writer {
 }  // namespace
 
 DeckText calculix_deck(const Deck& deck) {
-  const std::vector<std::string> warnings = warnings_of(deck);
-  return {Writer(deck).text(warnings), warnings};
+  const std::vector<std::string> warnings = calculix_warnings(deck);
+  return {CalculixWriter(deck).text(warnings), warnings};
 }
 
 }  // namespace langer

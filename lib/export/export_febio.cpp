@@ -31,7 +31,7 @@ std::string file_name(std::string name) {
   return name;
 }
 
-std::vector<std::string> warnings_of(const Deck& deck) {
+std::vector<std::string> febio_warnings(const Deck& deck) {
   std::vector<std::string> list;
   if (deck.mesh.cell().second_order())
     list.push_back(
@@ -45,9 +45,9 @@ std::vector<std::string> warnings_of(const Deck& deck) {
   return list;
 }
 
-class Writer {
+class FebioWriter {
  public:
-  explicit Writer(const Deck& deck) : deck_(deck), mesh_(deck.mesh) {}
+  explicit FebioWriter(const Deck& deck) : deck_(deck), mesh_(deck.mesh) {}
 
   std::string text(const std::vector<std::string>& warnings) {
     materials();
@@ -259,8 +259,8 @@ class Writer {
 }  // namespace
 
 DeckText febio_deck(const Deck& deck) {
-  const std::vector<std::string> warnings = warnings_of(deck);
-  return {Writer(deck).text(warnings), warnings};
+  const std::vector<std::string> warnings = febio_warnings(deck);
+  return {FebioWriter(deck).text(warnings), warnings};
 }
 
 }  // namespace langer

@@ -5,9 +5,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/in_order.hpp"
+#include "base/no_number.hpp"
 #include "base/quantile.hpp"
 #include "base/random.hpp"
 #include "fit/periodic.hpp"
@@ -15,8 +15,6 @@
 namespace langer {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
 
 // The problem with parameter `held` fixed at x: the others remain.
 struct Held {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/no_number.hpp"
 #include "base/student.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
 using Curves = std::vector<Eigen::Index>;
 
 // innovations of columns: A_i - rho A_(i-1) within a curve, sqrt(1 - rho^2) A_0 at its beginning

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/no_number.hpp"
 #include "fit/identifiability.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double limit = 3.841458820694124;  // of chi-square, 95 %
 
 // d mu / d p_i of a number of the matrix, which mu is linear in; 0 for others

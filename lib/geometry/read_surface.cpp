@@ -69,9 +69,9 @@ std::vector<Vec3> corners_of_text(const std::string& text, auto refuse) {
 }
 
 // Points by their place: any two in a cell of the tolerance's length are one, further apart than twice that never.
-class Points {
+class MergedPoints {
  public:
-  explicit Points(double tolerance) : tolerance_(tolerance) {}
+  explicit MergedPoints(double tolerance) : tolerance_(tolerance) {}
   int at(const Vec3& x) {
     const Key key{std::floor(x[0] / tolerance_), std::floor(x[1] / tolerance_), std::floor(x[2] / tolerance_)};
     for (double i : {0., -1., 1.})
@@ -107,7 +107,7 @@ Triangles parse_surface(const std::string& bytes, const std::string& shown_name)
   }
   const double size = (high - low).norm();
   if (!(size > 1e-100)) refuse(0, "triangle 1 has no area");
-  Points unique(0.5e-8 * size);
+  MergedPoints unique(0.5e-8 * size);
   Triangles surface;
   for (std::size_t t = 0; 3 * t < corners.size(); ++t) {
     std::array<int, 3> c;

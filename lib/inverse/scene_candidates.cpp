@@ -13,17 +13,12 @@
 #include "config/reader.hpp"
 #include "config/writer.hpp"
 #include "inverse/forward_run.hpp"
+#include "inverse/refuse.hpp"
 #include "material/ties.hpp"
 
 namespace langer {
 
 namespace {
-
-using Find = std::function<Place(const std::string&)>;
-
-[[noreturn]] void refuse(const Find& where, const std::string& key, std::string found, std::string expected) {
-  throw Failure(Exit::config, Error{where(key), key, std::move(found), std::move(expected), ""});
-}
 
 // one scene of a candidate: its keys have values
 struct Setting {
@@ -56,7 +51,7 @@ struct Slopes {
 
 class SceneOf {
  public:
-  SceneOf(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const Find& where, std::size_t candidate)
+  SceneOf(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const FindPlace& where, std::size_t candidate)
       : config_(config),
         problem_(problem),
         fit_(fit),
@@ -101,10 +96,10 @@ class SceneOf {
       set_value(tree, key, number);
     }
     Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
-    if (!loaded.config.mesh) refuse(where_, at_ + "solve", choice_.solve.path + " has no mesh", "the key mesh there");
+    if (!loaded.config.mesh) refuse_scene(where_, at_ + "solve", choice_.solve.path + " has no mesh", "the key mesh there");
     if (!loaded.config.fibre_angles.empty())
-      refuse(where_, at_ + "solve", choice_.solve.path + " has fibre_angles, which would stand for those of the fit's law",
-             "the law's own angle, and fibre_angle");
+      refuse_scene(where_, at_ + "solve", choice_.solve.path + " has fibre_angles, which would stand for those of the fit's law",
+                   "the law's own angle, and fibre_angle");
     return loaded;
   }
 
@@ -115,16 +110,17 @@ class SceneOf {
       std::vector<std::string> known;
       for (const auto& [name, nodes] : run.mesh().node_sets) known.push_back(name);
       if (found == run.mesh().node_sets.end())
-        refuse(where_, at_ + "on", "the scene has no set \"" + choice_.on + "\"", "one of " + list_words(known));
+        refuse_scene(where_, at_ + "on", "the scene has no set \"" + choice_.on + "\"", "one of " + list_words(known));
       return found->second;
     };
     for (const SceneQuantity quantity : choice_.measured) {
       Observation one;
       if (quantity == SceneQuantity::force) {
-        if (run.config().contacts.empty()) refuse(where_, at_ + "measured", "force, of a scene without indenters", "a reaction");
+        if (run.config().contacts.empty())
+          refuse_scene(where_, at_ + "measured", "force, of a scene without indenters", "a reaction");
         if (run.config().contacts.size() > 1) {
           if (!run.config().contacts.count(choice_.on))
-            refuse(where_, at_ + "on", "a scene with several indenters", "the name of one");
+            refuse_scene(where_, at_ + "on", "a scene with several indenters", "the name of one");
           one.contact = choice_.on;
         }
         all.push_back(one);
@@ -136,8 +132,8 @@ class SceneOf {
       for (std::size_t i = 0; i < choice_.places.size(); ++i) {
         const auto& [x, z] = choice_.places[i];
         if (!find_place(run.mesh(), {x, std::nan(""), z}, one))
-          refuse(where_, at_ + fmt::format("places[{}]", i), fmt::format("no top of the scene at ({:g}, {:g})", x, z),
-                 "a place on it");
+          refuse_scene(where_, at_ + fmt::format("places[{}]", i), fmt::format("no top of the scene at ({:g}, {:g})", x, z),
+                       "a place on it");
         all.push_back(one);
       }
       if (!choice_.places.empty()) continue;
@@ -181,7 +177,7 @@ class SceneOf {
   const FitConfig& config_;
   const FitProblem& problem_;
   const FitResult& fit_;
-  const Find& where_;
+  const FindPlace& where_;
   const CandidateChoice& choice_;
   const std::string at_;
 };
@@ -206,7 +202,7 @@ std::vector<Wanted> wanted_of(const FitConfig& config) {
 
 }  // namespace
 
-SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const Find& where) {
+SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const FindPlace& where) {
   SceneCandidates out;
   if (!config.study) return out;
   const std::vector<Wanted> wanted = wanted_of(config);

@@ -8,17 +8,11 @@
 #include <set>
 
 #include "config/writer.hpp"
+#include "inverse/refuse.hpp"
 
 namespace langer {
 
 namespace {
-
-using Find = std::function<Place(const std::string&)>;
-
-[[noreturn]] void refuse(const Find& where, const std::string& key, std::string found, std::string expected,
-                         std::string hint = "") {
-  throw Failure(Exit::config, Error{where(key), key, std::move(found), std::move(expected), std::move(hint)});
-}
 
 // what is linear between the ends of its pieces
 Abscissa sampled(std::string key, const std::vector<double>& kinks, const std::function<double(double)>& s) {
@@ -38,12 +32,12 @@ std::vector<double> kinks_of(const SolveConfig& scene) {
   return {t.begin(), t.end()};
 }
 
-std::function<double(double)> travel_of(const SolveConfig& scene, const std::string& at, const Find& where) {
+std::function<double(double)> travel_of(const SolveConfig& scene, const std::string& at, const FindPlace& where) {
   const std::string key = at + "columns.u_ind";
-  if (scene.contacts.empty()) refuse(where, key, "a scene without indenters", "displacement, pressure, time or t");
+  if (scene.contacts.empty()) refuse_scene(where, key, "a scene without indenters", "displacement, pressure, time or t");
   const ContactConfig& contact = scene.contacts.begin()->second;
   if (contact.control || contact.motion.empty())
-    refuse(where, key, "an indenter that is pushed: its travel is an answer", "t, or time where the path has seconds");
+    refuse_scene(where, key, "an indenter that is pushed: its travel is an answer", "t, or time where the path has seconds");
   std::vector<HistoryPoint<Vec3>> motion;
   for (const WaypointConfig& point : contact.motion)
     motion.push_back({place(point, scene.path.seconds), Vec3(point.to[0], point.to[1], point.to[2])});
@@ -52,7 +46,7 @@ std::function<double(double)> travel_of(const SolveConfig& scene, const std::str
 
 // the one history of a set that is moved or pressed
 std::function<double(double)> load_of(const FitData& data, const std::string& at, const SolveConfig& scene, bool pressure,
-                                      const Find& where) {
+                                      const FindPlace& where) {
   std::vector<std::string> sets;
   for (const LoadConfig& load : scene.loads) {
     sets.push_back(load.on);
@@ -62,33 +56,35 @@ std::function<double(double)> load_of(const FitData& data, const std::string& at
     for (int axis = 0; axis < 3 && !pressure; ++axis)
       if (const auto one = load.imposed(axis); one && one->moves()) moving.push_back(*one);
     if (moving.empty()) continue;
-    if (moving.size() > 1) refuse(where, at + "moved", data.moved + " moves along several axes", "one that moves along one axis");
+    if (moving.size() > 1)
+      refuse_scene(where, at + "moved", data.moved + " moves along several axes", "one that moves along one axis");
     const History history = history_of(moving.front(), scene.path.seconds);
     return [history](double t) { return history.at(t); };
   }
-  refuse(where, at + "moved", fmt::format("no {} on \"{}\"", pressure ? "pressure" : "imposed displacement", data.moved),
-         sets.empty() ? "a scene with loads" : "one of " + list_words(sets));
+  refuse_scene(where, at + "moved", fmt::format("no {} on \"{}\"", pressure ? "pressure" : "imposed displacement", data.moved),
+               sets.empty() ? "a scene with loads" : "one of " + list_words(sets));
 }
 
-std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& mesh, const Find& where) {
+std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& mesh, const FindPlace& where) {
   const auto set = mesh.node_sets.find(data.on);
   if (set != mesh.node_sets.end()) return set->second;
   std::vector<std::string> known;
   for (const auto& [name, nodes] : mesh.node_sets) known.push_back(name);
   const std::string near = nearest(data.on, known);
-  refuse(where, at + "on", "the scene has no set \"" + data.on + "\"", "one of " + list_words(known),
-         near.empty() ? "" : "did you mean \"" + near + "\"?");
+  refuse_scene(where, at + "on", "the scene has no set \"" + data.on + "\"", "one of " + list_words(known),
+               near.empty() ? "" : "did you mean \"" + near + "\"?");
 }
 
-Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene, const Find& where) {
+Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene, const FindPlace& where) {
   if (scene.contacts.empty())
-    refuse(where, at + "columns.force", "a scene without indenters", "reaction_x, reaction_y or reaction_z of a set `on`");
+    refuse_scene(where, at + "columns.force", "a scene without indenters", "reaction_x, reaction_y or reaction_z of a set `on`");
   if (data.on.empty() && scene.contacts.size() == 1) return {};
   std::vector<std::string> known;
   for (const auto& [name, contact] : scene.contacts) known.push_back(name);
-  if (data.on.empty()) refuse(where, at + "columns.force", "a scene with several indenters", "on: one of " + list_words(known));
+  if (data.on.empty())
+    refuse_scene(where, at + "columns.force", "a scene with several indenters", "on: one of " + list_words(known));
   if (!scene.contacts.count(data.on))
-    refuse(where, at + "on", "the scene has no contact \"" + data.on + "\"", "one of " + list_words(known));
+    refuse_scene(where, at + "on", "the scene has no contact \"" + data.on + "\"", "one of " + list_words(known));
   Observation one;
   if (scene.contacts.size() > 1) one.contact = data.on;
   return one;
@@ -115,7 +111,7 @@ std::size_t added(std::vector<Observation>& observations, Observation one) {
 
 // one observation, or one of each row
 std::vector<std::size_t> observed(const FitData& data, const std::string& at, const SceneColumn& column, const SceneData& file,
-                                  const std::vector<Vec3>& places, const ForwardRun& run, const Find& where,
+                                  const std::vector<Vec3>& places, const ForwardRun& run, const FindPlace& where,
                                   std::vector<Observation>& observations) {
   Observation one;
   if (column.key == "force") {
@@ -205,7 +201,7 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values, 
   return out;
 }
 
-Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& scene, const Find& where) {
+Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& scene, const FindPlace& where) {
   const FitColumns& c = *data.columns;
   const std::string at = fmt::format("data[{}].", item);
   const std::vector<double> kinks = kinks_of(scene);
@@ -214,14 +210,14 @@ Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& s
   if (!c.pressure.empty()) return sampled("pressure", kinks, load_of(data, at, scene, true, where));
   if (!c.time.empty()) {
     if (!scene.path.seconds)
-      refuse(where, at + "columns.time", "a scene whose path has no seconds", "t, u_ind, displacement or pressure");
+      refuse_scene(where, at + "columns.time", "a scene whose path has no seconds", "t, u_ind, displacement or pressure");
     return sampled("time", kinks, [seconds = *scene.path.seconds](double t) { return seconds * t; });
   }
   return sampled("t", kinks, [](double t) { return t; });
 }
 
 SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& file, const ForwardRun& run, double noise,
-                     double slack, const Find& where, std::vector<Observation>& observations) {
+                     double slack, const FindPlace& where, std::vector<Observation>& observations) {
   const std::string at = fmt::format("data[{}].", item);
   SceneTest test;
   test.name = file.name, test.data = item, test.over = abscissa_of(data, item, run.config(), where);
@@ -253,7 +249,7 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
     for (double value : column.values) largest = std::max(largest, std::abs(value));
     test.curves.push_back(std::move(curve));
   }
-  if (!(largest > 0)) refuse(where, at + "columns", "nothing but zeros in " + file.name, "a test of something");
+  if (!(largest > 0)) refuse_scene(where, at + "columns", "nothing but zeros in " + file.name, "a test of something");
   test.measured = Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
   test.deviation = data.standard_deviation.value_or(noise * largest);
   return test;

@@ -3,17 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/in_order.hpp"
+#include "base/no_number.hpp"
 #include "base/random.hpp"
 #include "material/ellipticity.hpp"
 
 namespace langer {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
 
 // zero where it is negative by no more than the difference quotient rounds
 double slope_at(const Material& material, Path path, double x) {

@@ -4,8 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/no_number.hpp"
 #include "base/random.hpp"
 #include "fit/bounded_linear.hpp"
 
@@ -13,7 +13,6 @@ namespace langer {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
 constexpr double normal_95 = 1.959963984540054;
 constexpr int draws = 1000;
 
