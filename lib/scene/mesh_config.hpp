@@ -2,6 +2,8 @@
 // The sides x_min x_max y_min y_max z_min z_max and top, bottom (= y_max, y_min) are always there, as nodes and facets.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +41,8 @@ struct LayerConfig {
   double thickness = 0;
   static void fields(auto& v) {
     v(&LayerConfig::name, "name", unit::none, "name of the body", required);
-    v(&LayerConfig::thickness, "thickness", unit::mm, "along y; faces of cells must lie on its borders", required, positive);
+    v(&LayerConfig::thickness, "thickness", unit::mm,
+      "along y; cells end at its borders: lines of a grid go through them, those of a file must lie there", required, positive);
   }
   std::vector<Complaint> complaints() const {
     if (!name.empty() && name.find_first_of(" \t\n./") == std::string::npos) return {};
@@ -119,8 +122,9 @@ struct MeshConfig {
         found.push_back({"cells", std::string("found ") + name,
                          "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
       if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
-        found.push_back({"bodies", "found layers of " + std::to_string(thickness) + " mm in all",
-                         std::to_string(height) + " mm, the height of the geometry", ""});
+        found.push_back({"bodies", fmt::format("found layers of {:g} mm in all", thickness),
+                         fmt::format("{:g} mm, the height of the geometry", height),
+                         "change a thickness, or the second number of its size"});
     }
     if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
       found.push_back({"cuts", "found beside other cells than the hex8 of a body", "none", ""});
