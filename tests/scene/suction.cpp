@@ -35,7 +35,7 @@ double height(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the dome of a soft layer on a stiff one, and of a stiff one on a soft one, is found at order 2") {
+TEST_CASE("the dome of a soft layer on a stiff one, and of a stiff one on a soft one, converges at order 2 or faster") {
   for (double a1 : {0.004, 0.036}) {
     const double coarse = height(layers(48, a1)), middle = height(layers(96, a1)), fine = height(layers(192, a1));
     const double order = std::log2((coarse - middle) / (middle - fine));
