@@ -62,10 +62,10 @@ TEST_CASE("another schema or another version is refused by name") {
   CHECK(holds(refusal([&] { SolutionReader(folder + "/mesh.h5"); }), "expected solution/1"));
   {
     h5::File file = h5::File::create(folder + "/next.h5");
-    write_identity(file.root(), Schema{"mesh", 3}, example::identity());
+    write_identity(file.root(), Schema{"mesh", 4}, example::identity());
     file.commit();
   }
-  CHECK(holds(refusal([&] { read_mesh(folder + "/next.h5"); }), "schema mesh/3; expected mesh/1"));
+  CHECK(holds(refusal([&] { read_mesh(folder + "/next.h5"); }), "schema mesh/4; expected mesh/1"));
 }
 
 TEST_CASE("a truncated file is refused, wherever it is cut") {
