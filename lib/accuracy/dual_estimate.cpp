@@ -1,12 +1,12 @@
 #include "accuracy/dual_estimate.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "accuracy/energy_error.hpp"
+#include "mesh/hanging.hpp"
 #include "run/step_record.hpp"
 #include "solve/state_tangent.hpp"
 
@@ -106,17 +106,15 @@ class Questions {
     if (!(u.norm() > 0) || found == place_.end()) return std::nullopt;
     const Dofs& dofs = run_.body.dofs();
     asked.by.f = VecX::Zero(dofs.n);
-    const auto& hanging = run_.reduction.mesh().hanging;
-    const auto hangs = std::find_if(hanging.begin(), hanging.end(), [&](const HangingNode& h) { return h.node == found->second; });
     const auto act = [&](int node, double share) {
       Vec3 force = -share * u.normalized();
       if (!dofs.tie.empty()) force = dofs.tie[static_cast<std::size_t>(node)].T.transpose() * force;
       asked.by.f.segment<3>(3 * dofs.node(node)) += force;
     };
-    if (hangs == hanging.end())
-      act(found->second, 1);
-    else
+    if (const HangingNode* hangs = hanging_at(run_.reduction.mesh().hanging, found->second))
       for (int node : hangs->of) act(node, 0.25);
+    else
+      act(found->second, 1);
     asked.sign = -1;
     return asked;
   }

@@ -186,10 +186,7 @@ class ContactFacets {
     each([&](const Facet&, const std::vector<int>& nodes, const VecX& N, double dA) {
       for (std::size_t a = 0; a < nodes.size(); ++a) area_[nodes[a] % front_] += N[static_cast<Eigen::Index>(a)] * dA;
     });
-    for (const HangingNode& h : mesh.hanging) {
-      for (int n : h.of) area_[n] += 0.25 * area_[h.node];
-      area_[h.node] = 0;
-    }
+    fold_hanging(mesh, area_);
     normal_.assign(static_cast<std::size_t>(mesh.n_nodes()), Vec3::Zero());
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int n = contact.nodes[i];
@@ -202,8 +199,7 @@ class ContactFacets {
     VecX out = VecX::Zero(mesh_.n_nodes());
     for (std::size_t i = 0; i < r.size(); ++i)
       if (const int n = contact_.nodes[i]; area_[n] > 0) out[n] = r[i].dot(normal_[n]) / area_[n];
-    for (const HangingNode& h : mesh_.hanging)
-      for (int n : h.of) out[h.node] += 0.25 * out[n];
+    spread_to_hanging(mesh_, out);
     return out;
   }
 

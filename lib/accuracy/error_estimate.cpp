@@ -94,6 +94,9 @@ double between_points(double touching, bool section) {
   return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
 }
 
+// along x, the mean of those of a line
+double cell_length(const Geometry& geometry) { return box(geometry).size[0] / numbers_of_cells(geometry)[0]; }
+
 // A plate with a hole ends to half a cell there: what the ring of that width is of its area, a share of its force. It slips and lifts at the
 // edge, which cells as long as that do not see; what is fitted to them was half of their error (docs/loads.md).
 double beside_holes(const SolveConfig& config) {
@@ -103,8 +106,8 @@ double beside_holes(const SolveConfig& config) {
   const double radius = std::get<Aperture>(plate->second.rigid).radius;
   const auto size = box(config.mesh->geometry).size;
   const double top = is_section(config.mesh->geometry) ? std::numbers::pi * size[0] * size[0] : size[0] * size[2];
-  const double length = size[0] / numbers_of_cells(config.mesh->geometry)[0];
-  return std::min(0.5, std::numbers::pi * radius * length / std::max(top - std::numbers::pi * radius * radius, 1e-300));
+  return std::min(0.5, std::numbers::pi * radius * cell_length(config.mesh->geometry) /
+                           std::max(top - std::numbers::pi * radius * radius, 1e-300));
 }
 
 double greatest_friction(const SolveConfig& config) {
@@ -128,9 +131,9 @@ bool is_clamped(const SolveConfig& config) {
 // three meshes of eight cells over the radius did not tell it (docs/loads.md).
 double under_holes(const SolveConfig& config) {
   double least = 0;
-  const double length = box(config.mesh->geometry).size[0] / numbers_of_cells(config.mesh->geometry)[0];
   for (const auto& [name, contact] : config.contacts)
-    if (const auto* plate = std::get_if<Aperture>(&contact.rigid)) least = std::max(least, 0.12 * length / plate->radius);
+    if (const auto* plate = std::get_if<Aperture>(&contact.rigid))
+      least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / plate->radius);
   return std::min(0.5, least);
 }
 
@@ -145,8 +148,7 @@ double beside_rims(const SolveConfig& config) {
       least = least > 0 ? std::min(least, round->radius) : round->radius;
   }
   if (least == 0 || !config.contacts.empty() || !is_clamped(config)) return 0;
-  const double length = box(config.mesh->geometry).size[0] / numbers_of_cells(config.mesh->geometry)[0];
-  return std::min(0.5, 0.08 * length / least);
+  return std::min(0.5, 0.08 * cell_length(config.mesh->geometry) / least);
 }
 
 const Valued& quantity(const Valued& found) { return found; }

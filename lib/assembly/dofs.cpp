@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/hanging.hpp"
+
 namespace langer {
 
 bool Prescribed::goes_on(double before, double now, double next) const {
@@ -18,12 +20,7 @@ Vec3 displacement(const Dofs& dofs, const VecX& u, int node) {
 DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie,
                        const std::vector<HangingNode>& hanging) {
   DofsResult result;
-  const auto hangs = [&](const Prescribed& p) {
-    const auto at =
-        std::lower_bound(hanging.begin(), hanging.end(), p.dof / 3, [](const HangingNode& h, int node) { return h.node < node; });
-    return at != hanging.end() && at->node == p.dof / 3;
-  };
-  if (!hanging.empty()) std::erase_if(prescribed, hangs);
+  std::erase_if(prescribed, [&](const Prescribed& p) { return hanging_at(hanging, p.dof / 3) != nullptr; });
   Dofs& dofs = result.dofs;
   dofs.n = 3 * n_nodes;
   std::sort(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) { return a.dof < b.dof; });

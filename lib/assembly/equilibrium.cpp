@@ -21,7 +21,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
       n_p_(n_pressures(formulation, n_nodes_)),
       dofs_(std::move(dofs)),
       moving_(mesh),
-      pattern_(make_pattern(mesh, dofs_)),
+      pattern_(make_pattern(mesh, moving_, dofs_)),
       threads_(threads),
       asked_(kernel),
       kernel_(kernel) {

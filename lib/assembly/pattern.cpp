@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mesh/hanging.hpp"
-
 namespace langer {
 
 namespace {
@@ -39,11 +37,10 @@ bool even(const Dofs& dofs, int node) {
 }
 }  // namespace
 
-Pattern make_pattern(const Mesh& mesh, const Dofs& dofs) {
+Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs) {
   Pattern pattern;
   pattern.n = dofs.n_free();
   pattern.column_start.assign(pattern.n + 1, 0);
-  const MovingNodes moving(mesh);
   const auto graph = node_graph(mesh, moving, dofs);
   for (int c = 0; c < pattern.n; ++c) {  // rows are numbered by node, so neighbours in order give ascending rows
     const int dof = dofs.free[c];

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/dofs.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/mesh.hpp"
 
 namespace langer {
@@ -31,6 +32,6 @@ struct Pattern {
   const int* slots(int e) const { return slot.data() + static_cast<std::size_t>(slot_of[e]) * slots_per_element; }
 };
 
-Pattern make_pattern(const Mesh& mesh, const Dofs& dofs);
+Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs);
 
 }  // namespace langer

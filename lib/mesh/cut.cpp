@@ -106,11 +106,11 @@ void CutMesh::add_children(int e, Mesh& to) {
 void CutMesh::cut(std::vector<char> marked) {
   close(marked);
   Mesh to;
-  std::vector<int> first, level, from;
+  std::vector<int> first, level;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
     first.push_back(static_cast<int>(level.size()));
     const int n = marked[e] ? 8 : 1;
-    level.insert(level.end(), n, level_[e] + (marked[e] ? 1 : 0)), from.insert(from.end(), n, e);
+    level.insert(level.end(), n, level_[e] + (marked[e] ? 1 : 0));
     if (marked[e]) {
       add_children(e, to);
       continue;
@@ -127,7 +127,7 @@ void CutMesh::cut(std::vector<char> marked) {
     facets = std::move(parts);
   }
   mesh_.connectivity = std::move(to.connectivity), mesh_.body = std::move(to.body), mesh_.frames = std::move(to.frames);
-  level_ = std::move(level), from_ = std::move(from);
+  level_ = std::move(level);
   find_hanging();
 }
 

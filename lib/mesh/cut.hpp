@@ -19,8 +19,7 @@ class CutMesh {
   explicit CutMesh(Mesh mesh);  // nothing cut yet; nothing hangs in it
 
   const Mesh& mesh() const { return mesh_; }
-  int level(int e) const { return level_[e]; }            // cuts that made the cell
-  const std::vector<int>& from() const { return from_; }  // by cell: the cell of the mesh before the last cut
+  int level(int e) const { return level_[e]; }  // cuts that made the cell
 
   void cut(std::vector<char> marked);  // by cell
 
@@ -31,7 +30,7 @@ class CutMesh {
   void find_hanging();
 
   Mesh mesh_;
-  std::vector<int> level_, from_;
+  std::vector<int> level_;
   std::map<std::array<int, 2>, int> edges_;  // by ends: the node in the middle
   std::map<std::array<int, 4>, int> facets_;
 };

@@ -55,6 +55,11 @@ std::span<const int> MovingNodes::of(int e) const {
 
 const MatX* MovingNodes::weights(int e) const { return row_.empty() || row_[e] < 0 ? nullptr : &weights_[row_[e]]; }
 
+const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node) {
+  const auto at = std::lower_bound(hanging.begin(), hanging.end(), node, [](const HangingNode& h, int n) { return h.node < n; });
+  return at != hanging.end() && at->node == node ? &*at : nullptr;
+}
+
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
   std::sort(nodes.begin(), nodes.end());
   const std::vector<int> own = nodes;

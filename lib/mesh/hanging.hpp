@@ -30,6 +30,25 @@ class MovingNodes {
   std::vector<MatX> weights_;
 };
 
+// that of a node, of those of a mesh; nullptr: it moves by itself
+const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node);
+
+// sums of nodes (areas, forces): what hanging ones have goes to those that they hang on
+template <class Values>
+void fold_hanging(const Mesh& mesh, Values& sums) {
+  for (const HangingNode& h : mesh.hanging) {
+    for (int n : h.of) sums[n] += 0.25 * sums[h.node];
+    sums[h.node] *= 0;
+  }
+}
+
+// values at nodes, 0 at hanging ones, which get the mean of those that they hang on
+template <class Values>
+void spread_to_hanging(const Mesh& mesh, Values& values) {
+  for (const HangingNode& h : mesh.hanging)
+    for (int n : h.of) values[h.node] += 0.25 * values[n];
+}
+
 // these, ascending, and those that hang on no others than these
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes);
 

@@ -43,10 +43,7 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
       area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] += force.row(a).transpose();
   }
   if (mesh_.section) fold(area);
-  for (const HangingNode& h : mesh_.hanging) {
-    for (int n : h.of) area[static_cast<std::size_t>(n)] += 0.25 * area[static_cast<std::size_t>(h.node)];
-    area[static_cast<std::size_t>(h.node)].setZero();
-  }
+  fold_hanging(mesh_, area);
   ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates_[i]);
@@ -57,11 +54,7 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
     state.area += size;
     state.pressure_max = std::max(state.pressure_max, state.pressure[node]);
   }
-  for (const HangingNode& h : mesh_.hanging)
-    for (int n : h.of) {
-      state.traction[static_cast<std::size_t>(h.node)] += 0.25 * state.traction[static_cast<std::size_t>(n)];
-      state.pressure[static_cast<std::size_t>(h.node)] += 0.25 * state.pressure[static_cast<std::size_t>(n)];
-    }
+  spread_to_hanging(mesh_, state.traction), spread_to_hanging(mesh_, state.pressure);
   state.radius = std::sqrt(state.area / std::numbers::pi);
   return state;
 }

@@ -8,12 +8,6 @@
 
 namespace langer {
 
-bool hangs(const Mesh& mesh, int node) {
-  const auto at =
-      std::lower_bound(mesh.hanging.begin(), mesh.hanging.end(), node, [](const HangingNode& h, int n) { return h.node < n; });
-  return at != mesh.hanging.end() && at->node == node;
-}
-
 namespace {
 
 using ByDof = std::map<int, const Prescribed*>;

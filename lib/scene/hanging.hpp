@@ -10,8 +10,6 @@
 
 namespace langer {
 
-bool hangs(const Mesh& mesh, int node);
-
 // Supports that end in the middle of a facet, and what nobody has tried on such cells: forces on a surface, adhesion, derivatives with
 // respect to the config's numbers. Nothing where no node hangs.
 std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh, const std::vector<Prescribed>& prescribed,

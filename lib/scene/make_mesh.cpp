@@ -87,12 +87,16 @@ CutRegion region_of(const Selection& within) {
 
 Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
   CutMesh cells(std::move(mesh));
-  for (int time = 0; time < 8; ++time) {
+  for (int time = 0;; ++time) {
     std::vector<char> marked(static_cast<std::size_t>(cells.mesh().n_cells()), 0);
-    for (const CutConfig& cut : cuts)
-      for (int e = 0; e < cells.mesh().n_cells() && time < cut.times; ++e)
-        if (has_part_of(region_of(cut.within), cells.mesh(), e)) marked[static_cast<std::size_t>(e)] = 1;
+    for (const CutConfig& cut : cuts) {
+      if (time >= cut.times) continue;
+      const CutRegion region = region_of(cut.within);
+      for (int e = 0; e < cells.mesh().n_cells(); ++e)
+        if (has_part_of(region, cells.mesh(), e)) marked[static_cast<std::size_t>(e)] = 1;
+    }
     const long long more = 7LL * std::count(marked.begin(), marked.end(), 1);
+    if (more == 0) return cells.mesh();
     if (cells.mesh().n_cells() + more > most_cells)
       throw Failure(Exit::config, Error{{},
                                         "cuts",
@@ -101,7 +105,6 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
                                         "smaller regions, or fewer times"});
     cells.cut(std::move(marked));
   }
-  return cells.mesh();
 }
 
 // A section's lines go through the radii of its sets, too: a hole or a ring is then the same on all cells. Not in y: a set may be of

@@ -12,6 +12,7 @@
 #include "geometry/read_surface.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/hanging.hpp"
 #include "mesh/reference.hpp"
 #include "mesh/section.hpp"
 #include "scene/adhesion.hpp"
@@ -312,7 +313,7 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
     if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
     rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
-    std::erase_if(rigid.nodes, [&](int node) { return hangs(mesh, node); });  // what they hang on touches
+    std::erase_if(rigid.nodes, [&](int node) { return hanging_at(mesh.hanging, node) != nullptr; });  // what they hang on touches
     if (rigid.nodes.empty() && contact.on.empty())
       nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
                               "a way that brings it to a node that may move", "look at its place and at how far it goes"});
