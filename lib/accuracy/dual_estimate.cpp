@@ -151,10 +151,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   need_known_kind(config, run);
   if (!run.statics.bonds().none()) throw not_known("the tangent has no bonds of adhesion");
   const Questions questions(run, last);
-  std::optional<TangentFactor> condensed;
-  if (run.statics.contact_in_tangent())
-    condensed.emplace(run.body, run.statics.contacts(), config.blas_threads, ContactBy::compliance);
-  const StateTangent tangent(run.statics, run.statics.accepted(), condensed ? &*condensed : nullptr);
+  const StateTangent tangent(run.statics, run.statics.accepted());
   std::vector<Asked> asked;
   std::vector<DualSolution> duals;
   for (std::size_t i = 0; i < found.size(); ++i) {

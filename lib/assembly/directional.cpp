@@ -15,6 +15,21 @@ void Equilibrium::set_laws(std::vector<Material> materials, Directions direction
   pack_fibres();
 }
 
+Equilibrium::Forces Equilibrium::with_laws(std::vector<Material> materials, Directions directions, const VecX& u) {
+  const std::vector<Material> own = materials_;
+  const Directions own_directions = directions_;
+  const std::vector<double> p = p_, local = local_;
+  const VecX f = f_, f_ext = f_ext_;
+  const double W = W_, floor = floor_;
+  set_laws(std::move(materials), std::move(directions));
+  pressures_from(u);
+  assemble(u, false);
+  Forces out{f_, W_};
+  set_laws(own, own_directions);
+  p_ = p, local_ = local, f_ = f, f_ext_ = f_ext, W_ = W, floor_ = floor;
+  return out;
+}
+
 VecX Equilibrium::K_times(const VecX& v) const {
   VecX out = VecX::Zero(v.size());
   for (int column = 0; column < pattern_.n; ++column) {
@@ -29,9 +44,10 @@ VecX Equilibrium::K_times(const VecX& v) const {
   return out;
 }
 
-VecX Equilibrium::beside_K(const VecX& u, const VecX& v) {
+VecX Equilibrium::beside_K(const VecX& u, const VecX& v, double* W) {
   VecX out;
-  if (formulation_ == Formulation::linear_dilatation) out = local_beside_K(u, v);
+  if (W) *W = 0;
+  if (formulation_ == Formulation::linear_dilatation) out = local_beside_K(u, v, W);
   if (!loads_.follow()) return out;
   return out.size() == 0 ? VecX(-skew_pressures(u, v)) : VecX(out - skew_pressures(u, v));
 }
@@ -53,8 +69,8 @@ VecX Equilibrium::loads_times(const VecX& u, const VecX& v) const {
   return out;
 }
 
-// The forces are linear in the moduli.
-VecX Equilibrium::local_beside_K(const VecX& u, const VecX& v) {
+// Forces and energy are linear in the moduli.
+VecX Equilibrium::local_beside_K(const VecX& u, const VecX& v, double* in_W) {
   std::vector<double> change(local_.size()), dt(n_p_), dp(n_p_);
   double largest = 0;
   for (int e = 0; e < mesh_.n_cells(); ++e) {
@@ -83,6 +99,7 @@ VecX Equilibrium::local_beside_K(const VecX& u, const VecX& v) {
   for (std::size_t e = 0; e < local_.size(); ++e) local_[e] += size / largest * change[e];
   assemble(u, false);
   const VecX out = largest / size * (f_ - f);
+  if (in_W) *in_W = largest / size * (W_ - W);
   local_ = local, f_ = f, f_ext_ = f_ext, W_ = W;
   return out;
 }

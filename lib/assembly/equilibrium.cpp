@@ -347,7 +347,9 @@ bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_pres
       });
   floor_ = std::sqrt(floor_);
   if (!loads_.empty() && J_min_ > 0) add_loads(u, with_tangent, du_prescribed);
-  return J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
+  const bool whole = J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
+  J_at_ = whole ? u : VecX();
+  return whole;
 }
 
 double Equilibrium::smallest_J(const VecX& u) const {

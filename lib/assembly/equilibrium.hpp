@@ -65,14 +65,20 @@ class Equilibrium {
   // Other numbers of the same laws, and directions of as many families in each cell, from the next assembly on. Pressures that the
   // tangent uses stay until pressures_from().
   void set_laws(std::vector<Material> materials, Directions directions);
+  // The same for once: what such laws say at u, with the pressures that are theirs there. The body keeps its own laws and forces.
+  struct Forces {
+    VecX f;        // (3 n) f_int [N]
+    double W = 0;  // [N mm]
+  };
+  Forces with_laws(std::vector<Material> materials, Directions directions, const VecX& u);
   const std::vector<Material>& materials() const { return materials_; }
   const Directions& directions() const { return directions_; }
 
   // Derivatives of f_int - f_ext at the u assembled last, where K() has been made with the pressures of that u (assembly/directional.cpp).
   VecX K_times(const VecX& v) const;  // free rows: K() v, v of the free rows
   // What K() has not: the modulus `local` is a function of u, and pressures on a free rim are not symmetric. (3 n), for v (3 n) that moves
-  // no prescribed dof. Empty where there is nothing.
-  VecX beside_K(const VecX& u, const VecX& v);
+  // no prescribed dof. Empty where there is nothing. W: takes what that modulus adds to the change of W(), f_int . v.
+  VecX beside_K(const VecX& u, const VecX& v, double* W = nullptr);
   // On the rows of prescribed dofs, d f_int of each v, others 0; (3 n) each.
   std::vector<VecX> on_prescribed(const VecX& u, const std::vector<VecX>& v) const;
 
@@ -102,7 +108,7 @@ class Equilibrium {
   void follow_pressures();  // local_ from p_
   void pack_fibres();
   VecX loads_times(const VecX& u, const VecX& v) const;
-  VecX local_beside_K(const VecX& u, const VecX& v);
+  VecX local_beside_K(const VecX& u, const VecX& v, double* W);
   // up to eight cells of one material; short blocks repeat their last cell
   struct Block {
     int cells[Packet::lanes];
@@ -147,6 +153,7 @@ class Equilibrium {
   Loads loads_;
   double t_loads_ = 0;
   VecX f_, K_du_, f_ext_;
+  VecX J_at_;  // u that J_minus_1_ and dJ_du_ are those of; empty: of none
   std::vector<double> K_;
   double W_ = 0, J_min_ = 1, floor_ = 0;
 };

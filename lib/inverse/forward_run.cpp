@@ -42,20 +42,23 @@ void add_stops(SolveConfig& config, const std::vector<double>& stops) {
     for (std::size_t k = 0; k < 3; ++k) x[k] = a[k] + part * (b[k] - a[k]);
     return x;
   };
-  const auto add_to = [&](std::optional<HistoryConfig>& history) {
-    if (!history || !history->moves()) return false;
-    if (history->points.empty()) history->points = {{1.0, history->value, {}}};
-    history->points = with_stops(history->points, stops, [](double a, double b, double part) { return a + part * (b - a); });
+  const auto add_to = [&](HistoryConfig& history) {
+    if (history.points.empty()) history.points = {{1.0, history.value, {}}};
+    history.points = with_stops(history.points, stops, [](double a, double b, double part) { return a + part * (b - a); });
     return true;
   };
-  for (auto& [name, contact] : config.contacts)
-    if (!contact.motion.empty()) {
+  const auto add_if = [&](std::optional<HistoryConfig>& history) { return history && history->moves() && add_to(*history); };
+  for (auto& [name, contact] : config.contacts) {
+    if (contact.motion.empty() && !contact.control) continue;
+    if (contact.control)
+      add_to(contact.control->force);
+    else
       contact.motion = with_stops(contact.motion, stops, point_between);
-      return;
-    }
+    return;
+  }
   for (LoadConfig& load : config.loads) {
-    if (auto& u = load.displacement; u && (add_to(u->x) || add_to(u->y) || add_to(u->z))) return;
-    if (add_to(load.pressure)) return;
+    if (auto& u = load.displacement; u && (add_if(u->x) || add_if(u->y) || add_if(u->z))) return;
+    if (add_if(load.pressure)) return;
   }
 }
 
@@ -108,11 +111,11 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   listener.of_whole = [&](StepRecord& whole, const SolveReport&) {
     found.t.push_back(whole.t);
     rows.emplace_back();
-    for (const Observation& one : observations_) rows.back().push_back(one.value(whole));
+    for (const Observation& one : observations_) rows.back().push_back(one.value(whole, run.scene.contacts));
     for (auto& of_number : slopes) of_number.emplace_back(observations_.size(), 0.0);
     for (std::size_t k = 0; k < asked.size(); ++k)
       for (std::size_t i = 0; i < observations_.size(); ++i)
-        slopes[asked[k]].back()[i] = observations_[i].slope(whole, sensitivity->now()[k]);
+        slopes[asked[k]].back()[i] = observations_[i].slope(whole, sensitivity->now()[k], run.scene.contacts);
   };
   const RunEnd end = run.follow(sensitivity ? sensitivity->along(std::move(listener)) : std::move(listener));
   if (end.at == RunEnd::At::signal)

@@ -61,10 +61,12 @@ FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const Fit
 
 FitResult InverseFit::search() {
   const FitProblem asked = problem_;
+  bool begun = false;
   if (draft_) {
     try {
       const FitResult first = level(draft_, options_of(config_, 1e-3));
       if (first.best.converged) {
+        begun = true;
         for (std::size_t i = 0; i < problem_.free.size(); ++i) problem_.free[i].start = first.best.p[static_cast<Eigen::Index>(i)];
         voice_.say("on cells {:g} times as long: {} runs, chi-square {:.4g}", draft_factor, draft_->runs(), 2 * first.best.cost);
       }
@@ -74,7 +76,7 @@ FitResult InverseFit::search() {
     }
   }
   FitOptions options = options_of(config_, 1e-8);
-  if (problem_.free[0].start != asked.free[0].start) options.starts = 1;
+  if (begun) options.starts = 1;
   FitResult found = level(scenes_, options);
   for (std::size_t i = 0; i < problem_.free.size(); ++i) problem_.free[i].start = asked.free[i].start;
   if (found.best.converged) return found;

@@ -7,6 +7,7 @@
 #include "inverse/sensitivity.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/select.hpp"
+#include "run/step_record.hpp"
 
 namespace langer {
 
@@ -41,20 +42,27 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
   return shapes();
 }
 
-}  // namespace
-
-double Observation::value(const StepRecord& whole) const {
-  if (of != Of::force) return sum(whole);
-  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact);
-  const double travel = whole.u_ind.norm();
-  return travel > 0 ? -force.dot(whole.u_ind) / travel : force.norm();
+// of the indenter named, or of the first
+Vec3 way_of(const std::string& contact, const StepRecord& whole, const std::vector<RigidContact>& contacts) {
+  for (const RigidContact& one : contacts)
+    if (one.name == contact) return indenter_at(one, whole);
+  return whole.u_ind;
 }
 
-double Observation::slope(const StepRecord& whole, const StepRecord& derivative) const {
+}  // namespace
+
+double Observation::value(const StepRecord& whole, const std::vector<RigidContact>& contacts) const {
+  if (of == Of::travel) return whole.scalars.at("travel_" + contact);
+  if (of != Of::force) return sum(whole);
+  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact), way = way_of(contact, whole, contacts);
+  return way.norm() > 0 ? -force.dot(way.normalized()) : force.norm();
+}
+
+double Observation::slope(const StepRecord& whole, const StepRecord& derivative, const std::vector<RigidContact>& contacts) const {
+  if (of == Of::travel) return derivative.scalars.at("travel_" + contact);
   if (of != Of::force) return sum(derivative);
   if (contact.empty()) return force_derivative(whole, derivative);
-  const double travel = whole.u_ind.norm();
-  return travel > 0 ? -force_on(derivative, contact).dot(whole.u_ind) / travel : 0;
+  return derivative_against(way_of(contact, whole, contacts), force_on(whole, contact), force_on(derivative, contact));
 }
 
 double Observation::sum(const StepRecord& whole) const {

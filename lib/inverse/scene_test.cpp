@@ -24,20 +24,48 @@ Abscissa sampled(std::string key, const std::vector<double>& kinks, const std::f
 
 std::vector<double> kinks_of(const SolveConfig& scene) {
   std::set<double> t{0, 1};
-  for (const auto& [name, contact] : scene.contacts)
+  for (const auto& [name, contact] : scene.contacts) {
     for (const WaypointConfig& point : contact.motion) t.insert(place(point, scene.path.seconds));
+    for (std::size_t i = 0; contact.control && i < contact.control->force.points.size(); ++i)
+      t.insert(place(contact.control->force.points[i], scene.path.seconds));
+  }
   for (const LoadConfig& load : scene.loads)
     for (const HistoryConfig& history : load.histories())
       for (const HistoryPointConfig& point : history.points) t.insert(place(point, scene.path.seconds));
   return {t.begin(), t.end()};
 }
 
-std::function<double(double)> travel_of(const SolveConfig& scene, const std::string& at, const FindPlace& where) {
+// the indenter that was measured, or the first
+const std::pair<const std::string, ContactConfig>* indenter_of(const FitData& data, const SolveConfig& scene) {
+  if (scene.contacts.empty()) return nullptr;
+  const auto named = scene.contacts.find(data.on);
+  return named != scene.contacts.end() ? &*named : &*scene.contacts.begin();
+}
+
+// a file of an indenter that is pushed gives its travel over the force
+bool gives_travel(const FitData& data, const SolveConfig& scene) {
+  const auto* indenter = indenter_of(data, scene);
+  return indenter && indenter->second.control && !data.columns->u_ind.empty() && !data.columns->force.empty();
+}
+
+std::function<double(double)> pushed_by(const FitData& data, const std::string& at, const SolveConfig& scene,
+                                        const FindPlace& where) {
+  for (const auto& [key, given] :
+       {std::pair("touch_offset", data.touch_offset), {"force_offset", data.force_offset}, {"compliance", data.compliance}})
+    if (given != 0)
+      refuse_scene(where, at + key, "a test of an indenter that is pushed", "none: a file whose offsets are taken off");
+  const History history = history_of(indenter_of(data, scene)->second.control->force, scene.path.seconds);
+  return [history](double t) { return history.at(t); };
+}
+
+std::function<double(double)> travel_of(const FitData& data, const SolveConfig& scene, const std::string& at,
+                                        const FindPlace& where) {
   const std::string key = at + "columns.u_ind";
   if (scene.contacts.empty()) refuse_scene(where, key, "a scene without indenters", "displacement, pressure, time or t");
-  const ContactConfig& contact = scene.contacts.begin()->second;
+  const ContactConfig& contact = indenter_of(data, scene)->second;
   if (contact.control || contact.motion.empty())
-    refuse_scene(where, key, "an indenter that is pushed: its travel is an answer", "t, or time where the path has seconds");
+    refuse_scene(where, key, "an indenter that is pushed: its travel is an answer",
+                 "force beside it, or t, or time where the path has seconds");
   std::vector<HistoryPoint<Vec3>> motion;
   for (const WaypointConfig& point : contact.motion)
     motion.push_back({place(point, scene.path.seconds), Vec3(point.to[0], point.to[1], point.to[2])});
@@ -114,7 +142,9 @@ std::vector<std::size_t> observed(const FitData& data, const std::string& at, co
                                   const std::vector<Vec3>& places, const ForwardRun& run, const FindPlace& where,
                                   std::vector<Observation>& observations) {
   Observation one;
-  if (column.key == "force") {
+  if (column.key == "u_ind") {
+    one.of = Observation::Of::travel, one.contact = indenter_of(data, run.config())->first;
+  } else if (column.key == "force") {
     one = force_of(data, at, run.config(), where);
   } else {
     one.of = column.key.starts_with("u_") ? Observation::Of::displacement : Observation::Of::reaction;
@@ -205,7 +235,8 @@ Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& s
   const FitColumns& c = *data.columns;
   const std::string at = fmt::format("data[{}].", item);
   const std::vector<double> kinks = kinks_of(scene);
-  if (!c.u_ind.empty()) return sampled("u_ind", kinks, travel_of(scene, at, where));
+  if (gives_travel(data, scene)) return sampled("force", kinks, pushed_by(data, at, scene, where));
+  if (!c.u_ind.empty()) return sampled("u_ind", kinks, travel_of(data, scene, at, where));
   if (!c.displacement.empty()) return sampled("displacement", kinks, load_of(data, at, scene, false, where));
   if (!c.pressure.empty()) return sampled("pressure", kinks, load_of(data, at, scene, true, where));
   if (!c.time.empty()) {
@@ -241,7 +272,7 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
   std::vector<double> measured;
   for (const SceneColumn& column : file.columns) {
     if (column.key != "force" && !column.key.starts_with("reaction") && !column.key.starts_with("u_")) continue;
-    if (column.key == "u_ind") continue;
+    if (column.key == test.over.key) continue;
     SceneCurve curve{column.key, column.unit, static_cast<Eigen::Index>(measured.size()),
                      observed(data, at, column, file, test.places, run, where, observations)};
     if (column.key == "force") test.force = curve.first;

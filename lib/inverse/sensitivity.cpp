@@ -22,14 +22,13 @@ std::vector<Vec3> by_node(const VecX& all) {
 
 std::string travel_of(const RigidContact& contact) { return "travel_" + contact.name; }
 
-// of -force . way/|way|, way unchanged but for its length; where there is no way of |force|
-double against(const Vec3& way, const Vec3& force, const Vec3& d_force) {
+}  // namespace
+
+double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force) {
   if (const double length = way.norm(); length > 0) return -d_force.dot(way) / length;
   const double size = force.norm();
   return size > 0 ? d_force.dot(force) / size : 0;
 }
-
-}  // namespace
 
 Vec3 force_on(const StepRecord& record, const std::string& contact) {
   Vec3 force;
@@ -45,7 +44,7 @@ double length_derivative(const StepRecord& whole, const SceneParameter& paramete
 }
 
 double force_derivative(const StepRecord& whole, const StepRecord& derivative) {
-  return against(whole.u_ind, whole.force_ind, derivative.force_ind);
+  return derivative_against(whole.u_ind, whole.force_ind, derivative.force_ind);
 }
 
 Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& where)
@@ -54,8 +53,6 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
       parameters_(config, run.mesh, run.scene, where),
       last_(run.statics.accepted()),
       earlier_(last_) {
-  if (!parameters().empty() && run_.statics.contact_in_tangent())
-    factor_.emplace(run_.body, run_.statics.contacts(), config.blas_threads, ContactBy::compliance);
   StateDerivative rest;
   rest.u = VecX::Zero(last_.u.size());
   d_last_.assign(parameters().size(), rest), d_earlier_ = d_last_;
@@ -63,6 +60,7 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
 
 RunListener Sensitivity::along(RunListener listener) {
   if (parameters().empty()) return listener;
+  if (last_.t > 0) run_.statics.factorize_accepted();  // the increment after a kept step begins with it, as it would have
   listener.of_part = [this, also = std::move(listener.of_part)](StepRecord& record) {
     if (also && !also(record)) return false;
     advance(record);
@@ -91,57 +89,36 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
   return out;
 }
 
-// At fixed u, central differences of what the laws say. The body has its own laws again behind that.
+// At fixed u, differences of what the laws say, after the tangent has been made there.
 std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies) {
   Equilibrium& body = run_.body;
   const VecX& u = run_.statics.accepted().u;
   const Scene& scene = run_.reduction.scene();
   std::vector<ParameterChange> out(parameters().size());
   energies.assign(out.size(), 0);
-  bool varied = false;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].f = VecX::Zero(u.size());
     if (!parameters_.of_laws(i)) {
       for (const RigidContact& contact : scene.contacts) out[i].mu.push_back(contact.name == parameters_.contact(i) ? 1 : 0);
       continue;
     }
-    varied = true;
     const double h = parameters_.step(i);
-    for (const double side : {1., -1.}) {
-      SceneParameters::Laws laws = parameters_.varied(scene, run_.reduction.mesh(), i, side * h);
-      body.set_laws(std::move(laws.materials), std::move(laws.directions));
-      body.pressures_from(u);  // assembles; where the remainder's modulus follows pressures, once more
-      if (scene.formulation == Formulation::linear_dilatation) body.assemble(u, false);
-      out[i].f += side / (2 * h) * body.f_int(), energies[i] += side / (2 * h) * body.W();
-    }
+    const auto with = [&](double by) {
+      SceneParameters::Laws laws = parameters_.varied(scene, run_.reduction.mesh(), i, by);
+      return body.with_laws(std::move(laws.materials), std::move(laws.directions), u);
+    };
+    const Equilibrium::Forces more = with(h);
+    const bool linear = parameters_.linear(i);
+    const Equilibrium::Forces less = linear ? Equilibrium::Forces{body.f_int(), body.W()} : with(-h);
+    const double width = linear ? h : 2 * h;
+    out[i].f = (more.f - less.f) / width, energies[i] = (more.W - less.W) / width;
   }
-  if (varied) body.set_laws(scene.materials, scene.directions);
   return out;
 }
 
-// What the movement of the body adds to the derivatives of its energy. Where the remainder's modulus follows the state the forces are not
-// all of it: a difference along the movement, as the laws have it.
-void Sensitivity::add_work(const std::vector<StateDerivative>& d, std::vector<double>& energies) {
-  Equilibrium& body = run_.body;
-  const VecX& u = run_.statics.accepted().u;
-  const bool follows = run_.reduction.scene().formulation == Formulation::linear_dilatation;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const double size = d[i].u.lpNorm<Eigen::Infinity>(), h = 1e-6;  // [mm]
-    if (!follows) energies[i] += body.f_int().dot(d[i].u);
-    if (!follows || size == 0) continue;
-    for (const double side : {1., -1.}) {
-      const VecX at = u + side * h / size * d[i].u;
-      body.pressures_from(at), body.assemble(at, false);
-      energies[i] += side * size / (2 * h) * body.W();
-    }
-  }
-  if (follows) body.pressures_from(u), body.assemble(u, false);
-}
-
 void Sensitivity::advance(const StepRecord& record) {
-  std::vector<double> energies;
+  const StateTangent tangent(run_.statics, earlier_);
+  std::vector<double> energies, of_movement;
   const std::vector<ParameterChange> all = changes(energies);
-  const StateTangent tangent(run_.statics, earlier_, factor_ ? &*factor_ : nullptr);
   std::vector<StateDerivative> d;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto found = tangent.derivative(all[i], d_last_[i], d_earlier_[i]);
@@ -155,10 +132,9 @@ void Sensitivity::advance(const StepRecord& record) {
                           "without the key the path goes on"});
     d.push_back(*found);
   }
-  const std::vector<VecX> reactions = tangent.reactions(all, d);
-  add_work(d, energies);
+  const std::vector<VecX> reactions = tangent.reactions(all, d, &of_movement);
   of_part_.clear();
-  for (std::size_t i = 0; i < d.size(); ++i) of_part_.push_back(of_part(record, d[i], reactions[i], energies[i]));
+  for (std::size_t i = 0; i < d.size(); ++i) of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
   earlier_ = std::move(last_), last_ = run_.statics.accepted();
   d_earlier_ = std::move(d_last_), d_last_ = std::move(d);
 }
@@ -231,7 +207,7 @@ void Sensitivity::write(StepRecord& whole) const {
     for (const RigidContact& contact : contacts) {
       if (contacts.size() > 1)
         scalars[derivative_name("force_" + contact.name + "_N", p)] =
-            against(indenter_at(contact, whole), force_on(whole, contact.name), force_on(d, contact.name));
+            derivative_against(indenter_at(contact, whole), force_on(whole, contact.name), force_on(d, contact.name));
       if (contact.control) scalars[derivative_name(travel_of(contact) + "_mm", p)] = d.scalars.at(travel_of(contact));
     }
     for (const std::string& set : moved_) {

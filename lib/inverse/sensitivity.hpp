@@ -1,6 +1,7 @@
 // Derivatives of a run with respect to numbers of its scene, increment by increment beside it: `sensitivity` in a config.
 // Direct differentiation of every accepted state (solve/state_tangent.hpp); what a number changes of the internal force where the state
-// stands still is a central difference of that force. Derivatives of an increment with friction need those of the two before.
+// stands still is a difference of that force, in which moduli are linear. Derivatives of an increment with friction need those of the
+// two before.
 #pragma once
 
 #include <set>
@@ -37,7 +38,6 @@ class Sensitivity {
  private:
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
-  void add_work(const std::vector<StateDerivative>& d, std::vector<double>& energies);
   StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const;
   StepRecord of_whole(const StepRecord& derivative, const StepRecord& whole) const;
   StepRecord of_mesh(const StepRecord& derivative, const StepRecord& whole) const;  // that a hexahedron stands for
@@ -46,12 +46,13 @@ class Sensitivity {
   Run& run_;
   const std::set<std::string> moved_;  // sets
   SceneParameters parameters_;
-  std::optional<TangentFactor> factor_;  // where contact stands in the tangent of statics
-  BodyState last_, earlier_;             // accepted states of the part
+  BodyState last_, earlier_;  // accepted states of the part
   std::vector<StateDerivative> d_last_, d_earlier_;
   std::vector<StepRecord> of_part_, now_;
 };
 
+// of -force . way/|way|, way unchanged but for its length; where there is no way of |force|
+double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force);
 // of a record with several indenters: of the body on one of them [N]
 Vec3 force_on(const StepRecord& record, const std::string& contact);
 // of the length of force_ind, by the derivatives that a record of the whole body holds

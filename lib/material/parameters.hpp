@@ -16,6 +16,9 @@ struct MaterialParameter {
   std::string unit;
   Range range;  // that the law allows
   double* value = nullptr;
+
+  // of matrix or fibres: the energy of a state and its stress are linear in it
+  bool modulus() const { return unit == langer::unit::MPa && !key.starts_with("volume."); }
 };
 
 // pointers into `material`, in the order of its listing

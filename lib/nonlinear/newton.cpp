@@ -40,13 +40,15 @@ class OldTangent {
   // an increment in which nothing moves, as of a viscous body that is held: its contacts are found, its residual is small, and stays
   // about the same when the first correction has moved the branch stresses into the volume
   void begins(const Assessment& first) { rests_ = first.others && first.residual < 0.1 * first.reference; }
-  void renewed() { used_ = 0; }
+  void renewed() { used_ = 0, of_before_ = false; }
+  void that_of_before() { used_ = 1, of_before_ = true; }
   bool used() const { return used_ > 0; }
   // residual before the next correction, and the one wanted
   bool serves(double residual, double wanted) {
     const double share = before_ > 0 ? residual / before_ : 1;  // what the last correction left
     before_ = residual;
     if (used_ == 0) return any_ && (share < 0.1 || rests_);  // not while a long step still finds its contacts
+    if (of_before_ && share >= 0.1) return false;
     // where switches of fibres turn on and off, an old tangent may undo what a new one did, for ever
     if (share > 0.3) return any_ = false;
     if (used_ > price_ + 2) return false;
@@ -59,6 +61,7 @@ class OldTangent {
  private:
   double price_, before_ = 0;  // residual
   int used_ = 0;               // since it was made
+  bool of_before_ = false;     // made where the step begins
   bool any_ = true;            // serves in this step at all
   bool rests_ = false;
 };
@@ -74,8 +77,9 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
   };
   const bool reuses = options.reuse_tangent && problem.correction_again;
   OldTangent old(problem.price);
+  const bool at_hand = reuses && problem.begins_again;
   for (;;) {
-    const Assessment now = problem.assess(x, report.iterations == 0 || !reuses);
+    const Assessment now = problem.assess(x, (report.iterations == 0 && !at_hand) || !reuses);
     ++report.evaluations;
     compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
@@ -86,8 +90,11 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     const bool balanced = now.residual <= wanted;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     std::optional<VecX> dx;
-    if (reuses && old.serves(now.residual, wanted) && report.iterations > 0) dx = problem.correction_again();
-    if (dx) {
+    const bool first = at_hand && report.iterations == 0;
+    if (reuses && ((old.serves(now.residual, wanted) && report.iterations > 0) || first)) dx = problem.correction_again();
+    if (dx && first) {
+      old.that_of_before(), ++report.iterations;
+    } else if (dx) {
       old.corrected(), ++report.again;
     } else {
       if (report.iterations == options.iterations)

@@ -2,6 +2,7 @@
 //   assess(x, with_tangent)   residual and tangent at x; what is missing to convergence
 //   correction()              dx of the problem linearised at the last assessed x; empty where it cannot be solved
 //   correction_again()        dx at the last assessed x by the tangent of the last correction(); empty where that does not serve
+//   begins_again              there is one of the state before, which serves for the first correction: who has made it anyway
 //   admissible(x)             cheap test that x can be assessed (det F > 0)
 //   moved(dx, step)           told before x becomes x + step dx
 // There is no test that the residual decreases: near incompressibility the first residuals of a step are huge by nature.
@@ -35,6 +36,7 @@ struct Problem {
   std::function<std::optional<VecX>()> correction;
   std::function<std::optional<VecX>()> correction_again;  // none: every correction takes a new tangent
   double price = 0;                                       // of correction() in units of correction_again()
+  bool begins_again = false;
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
 };
@@ -60,7 +62,7 @@ enum class Outcome { converged, not_converged, inadmissible, singular };
 
 struct SolveReport {
   Outcome outcome = Outcome::not_converged;
-  int iterations = 0;   // each with a tangent of its own
+  int iterations = 0;   // each with a tangent of its own, that of the state before included
   int again = 0;        // corrections with the tangent of an iteration
   int evaluations = 0;  // of the residual
   double residual = 0, tolerance = 0, reference = 0;

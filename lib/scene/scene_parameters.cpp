@@ -70,6 +70,13 @@ Directions turned(const Directions& directions, const Mesh& mesh, const std::vec
   return out;
 }
 
+double largest_modulus(Material material) {
+  double largest = 0;
+  for (const MaterialParameter& p : parameters(material))
+    if (p.modulus()) largest = std::max(largest, std::abs(*p.value));
+  return largest > 0 ? largest : 1;
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
@@ -112,7 +119,7 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (!(contact.mu > 0))
       refuse("which is 0", "friction above 0", "without friction nothing says how a contact slips that sticks");
     list_.push_back({key, name_of(key), unit::none, contact.mu});
-    of_.push_back({contact.name, "", {}, -1});
+    of_.push_back({contact.name, "", {}});
     return;
   }
   const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies, const std::vector<int>& of_angles) {
@@ -127,7 +134,7 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
         if (family == 0 && has_field(config, mesh.bodies[static_cast<std::size_t>(b)]))
           refuse("and a fibre_field gives the directions of that family", "another number");
       list_.push_back({key, name_of(key), p.unit, *p.value});
-      of_.push_back({"", p.key, concerned, family});
+      of_.push_back({"", p.key, concerned, family, p.modulus(), largest_modulus(material)});
       return true;
     }
     return false;
@@ -154,7 +161,9 @@ bool SceneParameters::turns_fibres() const {
 
 double SceneParameters::step(std::size_t i) const {
   if (of_[i].family >= 0) return 1e-3;  // degrees
-  const double size = std::abs(list_[i].value);
+  if (of_[i].linear) return of_[i].modulus;
+  // exponents and shares that are almost 0 still act as much as one of 0.1 does
+  const double size = std::max(std::abs(list_[i].value), list_[i].unit == unit::none ? 0.1 : 0);
   return size > 0 ? 1e-5 * size : 1e-5;
 }
 

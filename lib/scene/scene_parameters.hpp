@@ -34,7 +34,8 @@ class SceneParameters {
   bool turns_fibres() const;
   bool of_laws(std::size_t i) const { return of_[i].contact.empty(); }
   const std::string& contact(std::size_t i) const { return of_[i].contact; }  // whose friction it is; empty: a number of laws
-  double step(std::size_t i) const;                                           // of a central difference
+  bool linear(std::size_t i) const { return of_[i].linear; }                  // forces and energy are linear in it
+  double step(std::size_t i) const;                                           // of a difference, central but where they are
 
   // The laws and directions of the scene, or of a part of it, where number i is larger by `by`.
   struct Laws {
@@ -51,6 +52,8 @@ class SceneParameters {
     std::string key;          // of the material
     std::vector<int> bodies;  // of the mesh
     int family = -1;          // whose angle it is
+    bool linear = false;
+    double modulus = 0;  // where it is: the largest of its law [MPa]
   };
   void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Error& refused);
 

@@ -8,8 +8,38 @@ namespace langer {
 
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
-  factored_at_ = u_;
+  factored_at_ = u_, of_accepted_ = false;
   return factor_.factorize(equilibrium_);
+}
+
+TangentFactor& Statics::condensed_factor() {
+  if (!contact_in_tangent()) return factor_;
+  if (!beside_) beside_ = std::make_unique<TangentFactor>(equilibrium_, contacts_, options_.threads, ContactBy::compliance);
+  return *beside_;
+}
+
+bool Statics::factorize_accepted() {
+  {
+    const Stopwatch watch(cost_.assembly);
+    equilibrium_.pressures_from(now_.u);
+    equilibrium_.assemble(now_.u, true);
+    K_current_ = true;
+  }
+  TangentFactor& factor = condensed_factor();
+  const TangentFactor::Counts needed = factor.counts();
+  factor_serves_ = false;
+  bool solvable = false;
+  if (&factor == &factor_) {
+    solvable = factorize();
+    of_accepted_ =
+        solvable && factor.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
+    if (of_accepted_) equilibrium_.keep_dilatations();
+  } else {
+    const Stopwatch watch(cost_.factor);
+    factor.begin_increment(), solvable = factor.factorize(equilibrium_);
+  }
+  factor.uncount(needed);  // they count what the solution needed
+  return solvable;
 }
 
 void Statics::need_tangent() {
@@ -48,7 +78,7 @@ std::optional<VecX> Statics::correction() {
 
 // K at another state of this increment stands for the one here, in the mixed equations of u and p.
 std::optional<VecX> Statics::correction_again() {
-  if (!factor_serves_ || !remaining_prescribed(u_).isZero(0)) return std::nullopt;
+  if (!factor_serves_ || !prescribed_reached(u_, remaining_prescribed(u_))) return std::nullopt;
   again_ = true;
   const VecX rhs = free_residual() + on_free_rows(equilibrium_.turned_dilatations());
   return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
@@ -144,7 +174,7 @@ FreeBalance Statics::free_balance() {
   b.tangent = [this](const VecX& u) {
     if (!equilibrium_.assemble(u, true)) return false;
     const Stopwatch watch(cost_.factor);
-    factor_serves_ = false, factored_at_ = u;
+    factor_serves_ = of_accepted_ = false, factored_at_ = u;
     return factor_.factorize_fixed_reactions(equilibrium_);
   };
   b.solve = [this](const VecX& rhs, bool fresh) {

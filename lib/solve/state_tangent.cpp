@@ -10,18 +10,8 @@
 
 namespace langer {
 
-StateTangent::StateTangent(Statics& statics, const BodyState& earlier, TangentFactor* factor)
-    : statics_(statics), factor_(factor ? *factor : statics.factor_), earlier_(earlier) {
-  Equilibrium& body = statics_.equilibrium_;
-  body.pressures_from(statics_.now_.u);
-  body.assemble(statics_.now_.u, true);
-  const TangentFactor::Counts needed = factor_.counts();
-  if (factor)
-    factor_.begin_increment(), solvable_ = factor_.factorize(body);
-  else
-    solvable_ = statics_.factorize();
-  factor_.uncount(needed);  // they count what the solution needed
-  statics_.factor_serves_ = false;
+StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
+    : statics_(statics), factor_(statics.condensed_factor()), earlier_(earlier), solvable_(statics.factorize_accepted()) {
   if (!solvable_ || statics_.contacts_.empty()) return;
   take_candidates();
   if (!near_.empty()) take_rows();
@@ -124,12 +114,7 @@ VecX StateTangent::local_of(const VecX& last) const {
 Approach StateTangent::approach(const RigidContact& contact, int node) const {
   const BodyState &now = statics_.now_, &was = statics_.before_;
   const Vec3 u0 = was.u.segment<3>(3 * node), u = u0 + statics_.extrapolated_ * (u0 - earlier_.u.segment<3>(3 * node));
-  return {statics_.equilibrium_.mesh().X[node],
-          u0,
-          u,
-          indenter_displacement(contact, was.t, was.travel),
-          indenter_displacement(contact, now.t, now.travel),
-          contact.rotation ? contact.rotation->angle.at(now.t) - contact.rotation->angle.at(was.t) : 0};
+  return statics_.approach(contact, node, was, u, now.t, now.travel);
 }
 
 std::vector<Vec3> StateTangent::start_moves() const {
@@ -309,13 +294,16 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
 }
 
 std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& changes,
-                                          const std::vector<StateDerivative>& derivatives) const {
+                                          const std::vector<StateDerivative>& derivatives, std::vector<double>* energies) const {
   Equilibrium& body = statics_.equilibrium_;
+  if (energies) energies->assign(derivatives.size(), 0);
   std::vector<VecX> u;
   for (const StateDerivative& d : derivatives) u.push_back(d.u);
   std::vector<VecX> out = body.on_prescribed(statics_.now_.u, u);
   for (std::size_t j = 0; j < out.size(); ++j) {
-    const VecX beside = body.beside_K(statics_.now_.u, u[j]);
+    double of_moduli = 0;
+    const VecX beside = body.beside_K(statics_.now_.u, u[j], &of_moduli);
+    if (energies) (*energies)[j] = body.f_int().dot(u[j]) + of_moduli;
     for (const Prescribed& p : body.dofs().prescribed) {
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];
       if (beside.size() > 0) out[j][p.dof] += beside[p.dof];

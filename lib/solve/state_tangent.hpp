@@ -38,15 +38,16 @@ struct ParameterChange {
 class StateTangent {
  public:
   // Of the state that was accepted last, right after accept(): assembles and factorizes there. `earlier`: the state before the one before it.
-  // factor: of the same body and contacts, made for ContactBy::compliance; nullptr where that of statics is such a one.
-  // Refers to all of them.
-  StateTangent(Statics& statics, const BodyState& earlier, TangentFactor* factor = nullptr);
+  // Refers to statics.
+  StateTangent(Statics& statics, const BodyState& earlier);
 
   // before, earlier: derivatives of the two states before. Nothing where the tangent is singular, or the corrections do not end.
   std::optional<StateDerivative> derivative(const ParameterChange& change, const StateDerivative& before,
                                             const StateDerivative& earlier) const;
-  // Of what the body bears at supports and contact nodes (Statics::reactions), one for each.
-  std::vector<VecX> reactions(const std::vector<ParameterChange>& changes, const std::vector<StateDerivative>& derivatives) const;
+  // Of what the body bears at supports and contact nodes (Statics::reactions), one for each. energies: if given, takes what the movement
+  // adds to the derivative of the stored energy [N mm].
+  std::vector<VecX> reactions(const std::vector<ParameterChange>& changes, const std::vector<StateDerivative>& derivatives,
+                              std::vector<double>* energies = nullptr) const;
   StateDerivative of_rest() const;  // nothing changes
 
  private:

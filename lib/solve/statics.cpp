@@ -45,7 +45,7 @@ Statics::Cost Statics::cost() const {
 void Statics::restore(const BodyState& accepted, const BodyState* before) {
   now_ = accepted;
   before_ = before ? *before : accepted;
-  K_current_ = factor_serves_ = again_ = false;
+  K_current_ = factor_serves_ = again_ = of_accepted_ = false;
   t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
@@ -53,7 +53,8 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
 }
 
 void Statics::begin(double t) {
-  t_ = t, K_current_ = factor_serves_ = again_ = unsettled_ = false, extrapolated_ = 0;
+  t_ = t, K_current_ = again_ = unsettled_ = false, extrapolated_ = 0;
+  factor_serves_ = std::exchange(of_accepted_, false);
   factor_.begin_increment();
   u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
@@ -108,17 +109,21 @@ void Statics::slip_from_touch() {
 
 void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
   for (int node : contacts_[k].nodes)
-    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], approach(k, node, expected), options_.gap_tolerance);
+    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], approach(contacts_[k], node, expected), options_.gap_tolerance);
 }
 
-Approach Statics::approach(std::size_t k, int node, const VecX& expected) const {
-  const RigidContact& contact = contacts_[k];
+Approach Statics::approach(const RigidContact& contact, int node, const VecX& expected) const {
+  return approach(contact, node, now_, expected.segment<3>(3 * node), t_, travel_);
+}
+
+Approach Statics::approach(const RigidContact& contact, int node, const BodyState& from, const Vec3& u, double t,
+                           double travel) const {
   return {equilibrium_.mesh().X[node],
-          now_.u.segment<3>(3 * node),
-          expected.segment<3>(3 * node),
-          indenter_displacement(contact, now_.t, now_.travel),
-          indenter_displacement(contact, t_, travel_),
-          contact.rotation ? contact.rotation->angle.at(t_) - contact.rotation->angle.at(now_.t) : 0};
+          from.u.segment<3>(3 * node),
+          u,
+          indenter_displacement(contact, from.t, from.travel),
+          indenter_displacement(contact, t, travel),
+          contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(from.t) : 0};
 }
 
 // A node slips from where the way of the indenter has it touch. Where that way is an unknown, the start of the slip follows it: then a
@@ -128,10 +133,9 @@ bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled
 std::vector<Vec3> Statics::start_moves() const {
   std::vector<Vec3> out;
   if (!starts_with_travel()) return out;
-  const auto k = static_cast<std::size_t>(controlled_);
   const Vec3 none = Vec3::Zero();
   for (int node : controlled()->nodes)
-    out.push_back(change_of_slips_from(*controlled(), approach(k, node, expected_),
+    out.push_back(change_of_slips_from(*controlled(), approach(*controlled(), node, expected_),
                                        {none, none, none, none, controlled()->control->along}, options_.gap_tolerance));
   return out;
 }
@@ -181,6 +185,10 @@ VecX Statics::remaining_prescribed(const VecX& u) const {
   VecX du = VecX::Zero(u.size());
   for (const Prescribed& p : equilibrium_.dofs().prescribed) du[p.dof] = p.at(t_) - u[p.dof];
   return du;
+}
+
+bool Statics::prescribed_reached(const VecX& u, const VecX& remaining) const {
+  return remaining.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>());
 }
 
 VecX Statics::on_free_rows(const VecX& all) const {
@@ -251,7 +259,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
     out.missing = "the contact law does not hold";
   else if (controlled_ >= 0 && !force_is_given())
     out.missing = "the force on the indenter is not the given one";
-  else if (!(du.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>())))
+  else if (!prescribed_reached(u, du))
     out.missing = "prescribed displacements not reached";
   else if (factor_.held_by_contact() && slips_away())
     out.missing = "the body slips away from under the indenter, and nothing else holds it";
@@ -301,7 +309,7 @@ Problem Statics::problem() {
   p.correction = [this] { return correction(); };
   if (equilibrium_.formulation() != Formulation::displacement) {
     p.correction_again = [this] { return correction_again(); };
-    p.price = price();
+    p.price = price(), p.begins_again = factor_serves_;
   }
   p.admissible = [this](const VecX& u) { return admissible(u); };
   p.moved = [this](const VecX& du, double step) { moved(du, step); };

@@ -91,6 +91,9 @@ class Statics {
     long factorizations = 0, sweeps = 0;
   };
   Cost cost() const;
+  // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it is singular. The next increment
+  // begins with it where it is positive definite and contact is condensed.
+  bool factorize_accepted();
   const LinearSolver& linear() const { return factor_.linear(); }
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
 
@@ -100,7 +103,9 @@ class Statics {
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
-  Approach approach(std::size_t k, int node, const VecX& expected) const;
+  Approach approach(const RigidContact& contact, int node, const VecX& expected) const;
+  // between any two places of the path: of the node to a displacement u
+  Approach approach(const RigidContact& contact, int node, const BodyState& from, const Vec3& u, double t, double travel) const;
   bool starts_with_travel() const;        // the slip of an indenter under force control
   std::vector<Vec3> start_moves() const;  // by its candidate, what the slip is measured from, per travel
   Assessment assess(const VecX& u, bool with_tangent);
@@ -116,6 +121,7 @@ class Statics {
   void need_tangent();
   bool factorize();
   void need_factor_of_accepted(double within);  // a share of the step's movement
+  TangentFactor& condensed_factor();            // the one of the body, or where contact stands in its tangent one beside it
   double price() const;                         // of a correction with a new tangent in units of one with the last
   bool admissible(const VecX& u) const;
   bool slips_away() const;
@@ -128,6 +134,7 @@ class Statics {
   void bring_to_touch();  // the indenter under force control, where it bears nothing
   bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
+  bool prescribed_reached(const VecX& u, const VecX& remaining) const;
   VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
   VecX on_free_rows(const VecX& all) const;  // of (3 n)
 
@@ -151,7 +158,9 @@ class Statics {
   bool K_current_ = false;      // K is that of the trial
   bool factor_serves_ = false;  // also for other corrections of this increment
   bool again_ = false;          // the last correction was such a one
-  bool unsettled_ = false;      // the remainder's modulus is not yet that of where a FreeBalance was left (linear_dilatation)
+  bool of_accepted_ = false;    // the factor is that of the accepted state
+  std::unique_ptr<TangentFactor> beside_;
+  bool unsettled_ = false;  // the remainder's modulus is not yet that of where a FreeBalance was left (linear_dilatation)
 };
 
 }  // namespace langer

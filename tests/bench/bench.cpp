@@ -1,6 +1,6 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, inverse, inverse_coverage, relaxation, paper, depths, grading, growth, wide
+//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, wide
 #include <fmt/format.h>
 
 #include <array>
@@ -26,6 +26,7 @@ void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
 void measure_wide();     // wide.cpp
 void measure_inverse();  // inverse.cpp
+void measure_price();
 void measure_inverse_coverage();
 
 namespace {
@@ -159,6 +160,7 @@ int main(int argc, char** argv) {
   if (asked.count("coverage")) measure_coverage();
   if (asked.count("relaxation")) measure_relaxation_coverage();
   if (asked.count("inverse")) measure_inverse();
+  if (asked.count("price")) measure_price();
   if (asked.count("inverse_coverage")) measure_inverse_coverage();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))

@@ -1,6 +1,7 @@
 // What fits of scenes cost and whether their intervals can be believed.
-//   inverse            runs of the scene that the fit of pipelines/inverse_yeoh.yaml takes, with the derivatives of the runs and with
-//                      difference quotients of whole runs
+//   inverse            runs of their scenes that the fits of pipelines/inverse_yeoh, inverse_indentation and invivo_extension take, with the
+//                      derivatives of the runs and with difference quotients of whole runs
+//   price              CPU seconds of a run with derivatives by none, one and more numbers, and its tangents
 //   inverse_coverage   how often 95 % intervals hold the true values, over fresh noise
 #include "inverse/inverse_fit.hpp"
 
@@ -10,10 +11,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <random>
 
 #include "base/stopwatch.hpp"
 #include "config/reader.hpp"
+#include "inverse/sensitivity.hpp"
+#include "run/body_mesh.hpp"
 #include "study/fit_report.hpp"
 
 using namespace langer;
@@ -58,10 +63,10 @@ void write_noisy(const ForwardPath& path, double deviation, unsigned seed) {
   write("force.csv", text);
 }
 
-FitRecord fitted(const std::string& yaml, int& runs, bool quotients = false) {
+FitRecord fitted(const std::string& yaml, int& runs) {
   const auto loaded = read_config<FitConfig>(parse_yaml(yaml, "fit.yaml", folder));
   FitProblem problem = fit_problem(loaded.config);
-  InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, {}, "", quotients);
+  InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, {}, "");
   const FitResult found = inverse.search();
   runs = inverse.runs();
   return fit_record(problem, found);
@@ -95,29 +100,117 @@ void measure_inverse_coverage() {
 }
 
 namespace {
-// of one run without derivatives, the scene as the fit solves it
-double forward_seconds() {
-  constexpr int runs = 10;
-  const double begun = cpu_seconds();
-  for (int i = 0; i < runs; ++i) true_path();
-  return (cpu_seconds() - begun) / runs;
+
+using Loaded = decltype(read_config<FitConfig>(load_yaml("")));
+
+// what the scenes of a fit say at the law and the friction of their configs, into the files that the pipeline would give the fit
+std::vector<std::string> made_up(const Loaded& fit) {
+  std::vector<std::string> files;
+  for (const FitData& data : fit.config.data) {
+    if (data.solve.path.empty() || !data.file.path.empty()) continue;
+    const auto scene = read_config<SolveConfig>(load_yaml(data.solve.path));
+    ForwardRun run(scene.config, scene.where, data.fibre_angle);
+    run.observe({Observation{}}, {});
+    const ForwardPath path = run.solve({*scene.config.material});
+    const double depth = -scene.config.contacts.begin()->second.motion.back().to[1];
+    std::string text = data.columns->u_ind + "," + data.columns->force + "\n";
+    for (std::size_t i = 0; i < path.t.size(); ++i)
+      text += fmt::format("{},{}\n", depth * path.t[i], path.values(static_cast<Eigen::Index>(i), 0));
+    const std::string name = fmt::format("made_{}.csv", files.size());
+    write(name, text);
+    files.push_back(folder + "/" + name);
+  }
+  return files;
 }
 
-void measure_with(bool quotients, double forward) {
-  int runs = 0;
-  const double begun = cpu_seconds();
-  const FitRecord record = fitted(fit_yaml, runs, quotients);
-  double worst = 0;
-  for (std::size_t i = 0; i < 3; ++i) worst = std::max(worst, std::abs(record.parameters[i].value / true_values[i] - 1));
-  const double seconds = cpu_seconds() - begun;
-  fmt::print(
-      "Yeoh from an indentation of a section, {}: {} runs, {:.2f} s CPU, as much as {:.1f} forward runs; off by {:.1e} at most\n",
-      quotients ? "differences of whole runs" : "derivatives of the runs", runs, seconds, seconds / forward, worst);
+// CPU seconds of one run of each scene without derivatives, at the law that was found
+double forward_seconds(const Loaded& fit, const Material& law) {
+  std::map<std::pair<std::string, double>, int> scenes;
+  for (const FitData& data : fit.config.data)
+    if (!data.solve.path.empty()) scenes[{data.solve.path, data.fibre_angle}] = 1;
+  double seconds = 0;
+  for (const auto& [scene, once] : scenes) {
+    const auto loaded = read_config<SolveConfig>(load_yaml(scene.first));
+    const ForwardRun run(loaded.config, loaded.where, scene.second);
+    const double begun = cpu_seconds();
+    int runs = 0;
+    do run.solve({law}), ++runs;
+    while (cpu_seconds() - begun < 1);
+    seconds += (cpu_seconds() - begun) / runs;
+  }
+  return seconds;
 }
+
+void measure_fit(const std::string& name, const std::string& yaml) {
+  const Loaded loaded = read_config<FitConfig>(load_yaml(SOURCE_DIR "/configs/fit/" + yaml));
+  const std::vector<std::string> files = made_up(loaded);
+  double forward = 0;
+  for (bool quotients : {false, true}) {
+    FitProblem problem = fit_problem(loaded.config);
+    const double begun = cpu_seconds();
+    InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, files, "", quotients);
+    const FitResult found = inverse.search();
+    const double seconds = cpu_seconds() - begun;
+    if (forward == 0) forward = forward_seconds(loaded, found.material);
+    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.1f} | {:.6g} |\n", name, problem.free.size(),
+               quotients ? "differences of runs" : "derivatives", inverse.runs(), seconds, seconds / forward, 2 * found.best.cost);
+  }
+}
+
 }  // namespace
 
 void measure_inverse() {
-  write_noisy(true_path(), 0, 1);
-  const double forward = forward_seconds();
-  for (bool quotients : {false, true}) measure_with(quotients, forward);
+  fmt::print("| fit | parameters | slopes by | runs | CPU s | forward runs of its scenes | chi-square |\n");
+  fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
+  measure_fit("Yeoh, indentation of a section", "inverse_yeoh.yaml");
+  measure_fit("HGO-Yeoh, tensile curve and two indentations with friction", "inverse_indentation.yaml");
+  measure_fit("HGO-Yeoh, force and field between two pads", "invivo_hgo_yeoh.yaml");
+}
+
+namespace {
+
+void measure_price_of(const std::string& yaml, const std::vector<std::string>& keys, const std::string& edge = "") {
+  Tree tree = load_yaml(SOURCE_DIR "/configs/solve/" + yaml);
+  if (!edge.empty())
+    set_value(tree, "mesh.geometry." + tree.find("mesh")->find("geometry")->map[0].key + ".edge", parse_yaml(edge, "edge"));
+  const auto loaded = read_config<SolveConfig>(tree);
+  const Mesh mesh = body_mesh(loaded.config, "", loaded.where);
+  double none = 0, last = 0;
+  for (std::size_t n = 0; n <= keys.size(); ++n) {
+    SolveConfig config = loaded.config;
+    config.sensitivity.assign(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(n));
+    double least = std::numeric_limits<double>::infinity();
+    long factorizations = 0;
+    PathReport path;
+    for (int round = 0; round < 5; ++round) {
+      const double begun = cpu_seconds();
+      Run run(mesh, config, config.material, loaded.where);
+      Sensitivity sensitivity(run, config, loaded.where);
+      RunListener each;
+      each.of_whole = [](StepRecord&, const SolveReport&) {};
+      path = run.follow(sensitivity.along(each)).path;
+      least = std::min(least, cpu_seconds() - begun), factorizations = run.statics.cost().factorizations;
+    }
+    if (n == 0) none = least;
+    fmt::print(
+        "{}, {} cells, by {}: {:.3f} s CPU ({:+.1f} %, {:+.1f} % for the last), {} increments, {} factorizations, {} corrections more\n",
+        yaml, mesh.n_cells(),
+        n == 0   ? "nothing"
+        : n == 1 ? keys[0]
+                 : fmt::format("{} numbers", n),
+        least, 100 * (least / none - 1), n == 0 ? 0 : 100 * (least - last) / none, path.steps, factorizations, path.again);
+    last = least;
+  }
+}
+
+}  // namespace
+
+void measure_price() {
+  const std::vector<std::string> yeoh{"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3"};
+  std::vector<std::string> hgo = yeoh;
+  hgo.insert(hgo.end(), {"fibres[0].hgo.c1", "fibres[0].hgo.c2"});
+  measure_price_of("inverse_yeoh.yaml", yeoh);
+  measure_price_of("inverse_yeoh.yaml", yeoh, "0.04");
+  measure_price_of("inverse_block.yaml", hgo);
+  measure_price_of("inverse_block.yaml", hgo, "0.12");
 }

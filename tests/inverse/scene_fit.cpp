@@ -179,6 +179,58 @@ TEST_CASE("A law is found from loading and unloading with friction, whose forces
   CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
 }
 
+TEST_CASE("A law is found from the travel of an indenter that is pushed, measured over its force") {
+  const ForwardPath path = truth();  // of one that is moved: without friction the states are the same
+  std::string text = "travel_mm,force_N\n";
+  for (std::size_t i = 0; i < path.t.size(); ++i)
+    text += fmt::format("{},{}\n", path.t[i], path.values(static_cast<Eigen::Index>(i), 0));
+  write("pushed.csv", text);
+  std::string scene = solve_yaml;
+  scene.replace(scene.find("motion: [{t: 1, to: [0, -1, 0]}]"), 32,
+                fmt::format("control: {{force: {}}}", path.values(static_cast<Eigen::Index>(path.t.size()) - 1, 0)));
+  scene.replace(scene.find("steps: 5"), 8, "first: 0.1, largest: 0.1");
+  write("pushed.yaml", scene);
+  const std::string data =
+      "data: [{kind: scene, solve: pushed.yaml, file: pushed.csv, columns: {u_ind: travel_mm, force: force_N}, standard_deviation: 0.01";
+  const Found found = fitted(data + "}]\n" + law + three + "draft: false\n");
+  REQUIRE(found.fit.best.converged);
+  REQUIRE(found.record.curves.size() == 1);
+  CHECK(found.record.curves[0].quantity == "u_ind");
+  CHECK(found.record.curves[0].x_name == "force");
+  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
+  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
+  CHECK(found.fit.best.p[2] == doctest::Approx(0.01).epsilon(1e-3));
+  holds(refusal(data + ", touch_offset: 0.1}]\n" + law + three), "data[0].touch_offset");
+}
+
+TEST_CASE("The force on one of two indenters is over its own travel and against its own way") {
+  const std::string scene =
+      "mesh: {geometry: {block: {origin: [-5, 0, -2], size: [10, 2, 4], divisions: [20, 3, 8]}}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}]\n"
+      "contacts:\n"
+      "  a: {on: top, rigid: {sphere: {radius: 1.5, centre: [-2.5, 3.5, 0]}}, motion: [{t: 1, to: [0, -0.2, 0]}]}\n"
+      "  b: {on: top, rigid: {sphere: {radius: 1.5, centre: [2.5, 3.5, 0]}}, motion: [{t: 1, to: [0.3, -0.4, 0]}]}\n"
+      "material: {matrix: {yeoh: {a1: 0.012, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nstability: off\npath: {steps: 4}\n";
+  write("two.yaml", scene);
+  auto loaded = read_config<SolveConfig>(load_yaml(folder + "/two.yaml"));
+  Run run(body_mesh(loaded.config, "", loaded.where), loaded.config, loaded.config.material, loaded.where);
+  std::string text = "travel_mm,force_N\n";
+  RunListener each;
+  each.of_whole = [&](StepRecord& whole, const SolveReport&) {
+    const Vec3 force(whole.scalars.at("force_b_x"), whole.scalars.at("force_b_y"), whole.scalars.at("force_b_z"));
+    text += fmt::format("{},{}\n", 0.5 * whole.t, -force.dot(Vec3(0.6, -0.8, 0)));
+  };
+  REQUIRE(run.follow(each).path.complete);
+  write("two.csv", text);
+  const Found found = fitted(
+      "data: [{kind: scene, solve: two.yaml, file: two.csv, columns: {u_ind: travel_mm, force: force_N}, on: b}]\n" +
+      std::string("law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n") +
+      "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}]\ndraft: false\n");
+  REQUIRE(found.fit.best.converged);
+  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-5));
+  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-5));
+}
+
 TEST_CASE("A place on the surface is found where its shape functions put it, on a block and on a section") {
   for (const char* yaml : {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
                            "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",

@@ -254,3 +254,44 @@ TEST_CASE("a run continued from any of its steps has the same derivatives to the
     CHECK(next == whole.size());
   }
 }
+
+TEST_CASE("the tangents of derivatives serve the increments behind them, whose states change by no more than their tolerance") {
+  const std::string scene = block("hex8", "[8, 3, 8]") + "material: " + skin + ball(0.3, "[{t: 1, to: [0, -0.8, 0]}]") +
+                            "path: {steps: 10}\nstability: off\n";
+  long tangents[2];
+  Vec3 force[2];
+  for (int asked : {0, 1}) {
+    const SolveConfig config = test::config_of(scene + (asked ? listed(some) : std::string()));
+    Run run(test::mesh_in(config), config, config.material, test::nowhere);
+    Sensitivity sensitivity(run, config, test::nowhere);
+    RunListener each;
+    each.of_whole = [&, asked](StepRecord& whole, const SolveReport&) { force[asked] = whole.force_ind; };
+    REQUIRE(run.follow(sensitivity.along(each)).path.complete);
+    tangents[asked] = run.statics.cost().factorizations;
+  }
+  CAPTURE(tangents[0]);
+  CAPTURE(tangents[1]);
+  CHECK(tangents[1] - tangents[0] < 7);  // of ten
+  CHECK((force[1] - force[0]).norm() < 1e-6 * force[0].norm());
+}
+
+TEST_CASE("derivatives by numbers that are 0 or almost 0 have all their digits") {
+  // GOH beside its bounds: no dispersion, or next to none
+  const std::string goh =
+      "{matrix: {yeoh: {a1: 0.05, a2: A2, a3: 0.02}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 30, switch: \"off\", kappa: KAPPA}], "
+      "volume: {quadratic: {d: 1.0e-3}}}\n";
+  const std::vector<std::string> keys{"matrix.yeoh.a2", "fibres[0].kappa"};
+  std::vector<Steps> found[2];
+  for (int small : {0, 1}) {
+    std::string law = goh;
+    law.replace(law.find("A2"), 2, small ? "1.0e-11" : "0");
+    law.replace(law.find("KAPPA"), 5, small ? "1.0e-9" : "0");
+    steps_of(test::config_of(block("hex8", "[4, 2, 4]") + "material: " + law + ball(0) + four + listed(keys)), &found[small]);
+  }
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const StepRecord &zero = found[0].back()[i], &small = found[1].back()[i];
+    CAPTURE(keys[i]);
+    CHECK(norm(difference(zero.u, small.u)) < 1e-7 * norm(zero.u));
+    CHECK((zero.force_ind - small.force_ind).norm() < 1e-7 * zero.force_ind.norm());
+  }
+}

@@ -48,3 +48,29 @@ TEST_CASE("a number of a fibre law with the word of its family's angle takes the
   CHECK(names == std::vector<std::string>{"a1", "ksi", "exp_pow_alpha", "beta", "alpha", "kappa", "E", "lam0", "beta_2", "alpha_2",
                                           "kappa_2", "bulk_modulus"});
 }
+
+TEST_CASE("energy and stress of a state are linear in what is called a modulus, in every law") {
+  Mat3 F;
+  F << 1.3, 0.2, -0.1, 0.05, 0.9, 0.15, 0.1, -0.2, 1.1;
+  const Mat3 C = F.transpose() * F;
+  for (NamedMaterial& law : catalogue()) {
+    const std::vector<Vec3> a = fibre_directions(law.material);
+    const Response here = isochoric(law.material, C, a);
+    int moduli = 0;
+    for (const MaterialParameter& p : parameters(law.material)) {
+      if (!p.modulus()) continue;
+      CAPTURE(law.name);
+      CAPTURE(p.key);
+      ++moduli;
+      const double value = *p.value;
+      *p.value = value + 1;
+      const Response near = isochoric(law.material, C, a);
+      *p.value = value + 3;
+      const Response far = isochoric(law.material, C, a);
+      *p.value = value;
+      CHECK((far.S - here.S - 3 * (near.S - here.S)).norm() < 1e-12 * (1 + far.S.norm()));
+      CHECK(far.W - here.W == doctest::Approx(3 * (near.W - here.W)).epsilon(1e-12));
+    }
+    CHECK(moduli > 0);
+  }
+}

@@ -68,6 +68,23 @@ TEST_CASE("old tangents are used where they are cheap and the answer is as good"
   CHECK(after.again == 1);
 }
 
+TEST_CASE("a tangent that was made where the step begins serves first, and is left where it leads nowhere") {
+  const Eigen::Vector2d exact(std::sqrt(2.0), std::cbrt(3.0));
+  for (const double far : {0.02, 0.5}) {
+    Roots roots;
+    VecX x = exact + VecX(Eigen::Vector2d(far, -far));
+    const VecX before = x + VecX(Eigen::Vector2d(far, -far));
+    roots.slope = Eigen::Vector2d(2 * before[0], 3 * before[1] * before[1]);
+    Problem problem = roots.problem(10);
+    problem.begins_again = true;
+    const SolveReport report = newton(problem, x, NewtonOptions{});
+    REQUIRE(report.converged());
+    CHECK((x - exact).norm() < 1e-8);
+    CHECK(report.iterations == 1 + roots.tangents);  // it counts as what it is
+    CHECK((roots.tangents == 0) == (far < 0.1));
+  }
+}
+
 TEST_CASE("indentations with old tangents end where those with a new one each time do") {
   struct Case {
     CellType cells;
