@@ -11,6 +11,7 @@
 #include <set>
 
 #include "accuracy/dual_estimate.hpp"
+#include "accuracy/holes.hpp"
 #include "accuracy/refinements.hpp"
 #include "accuracy/truncation.hpp"
 #include "assembly/equilibrium.hpp"
@@ -94,22 +95,6 @@ double between_points(double touching, bool section) {
   return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
 }
 
-// along x, the mean of those of a line
-double cell_length(const Geometry& geometry) { return box(geometry).size[0] / numbers_of_cells(geometry)[0]; }
-
-// A plate with a hole ends to half a cell there: what the ring of that width is of its area, a share of its force. It slips and lifts at the
-// edge, which cells as long as that do not see; what is fitted to them was half of their error (docs/loads.md).
-double beside_holes(const SolveConfig& config) {
-  const auto has_edge = [](const auto& contact) { return std::holds_alternative<Aperture>(contact.second.rigid); };
-  const auto plate = std::find_if(config.contacts.begin(), config.contacts.end(), has_edge);
-  if (plate == config.contacts.end()) return 0;
-  const double radius = std::get<Aperture>(plate->second.rigid).radius;
-  const auto size = box(config.mesh->geometry).size;
-  const double top = is_section(config.mesh->geometry) ? std::numbers::pi * size[0] * size[0] : size[0] * size[2];
-  return std::min(0.5, std::numbers::pi * radius * cell_length(config.mesh->geometry) /
-                           std::max(top - std::numbers::pi * radius * radius, 1e-300));
-}
-
 double greatest_friction(const SolveConfig& config) {
   double most = 0;
   for (const auto& [name, contact] : config.contacts) most = std::max(most, contact.friction);
@@ -125,30 +110,6 @@ bool is_clamped(const SolveConfig& config) {
       if (load.tells(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
   return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
-}
-
-// What is sucked through the hole of a plate: of drawn scenes its height was off by up to 0.083 of the cells' length in radii of the hole, and
-// three meshes of eight cells over the radius did not tell it (docs/loads.md).
-double under_holes(const SolveConfig& config) {
-  double least = 0;
-  for (const auto& [name, contact] : config.contacts)
-    if (const auto* plate = std::get_if<Aperture>(&contact.rigid))
-      least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / plate->radius);
-  return std::min(0.5, least);
-}
-
-// A region that a pressure sucks into a ring that is held: at its rim stresses are singular, and what cells beside it miss of the dome is a
-// share of their length in radii, of drawn scenes up to 0.07; on eight cells over the radius three meshes did not tell it (docs/loads.md).
-double beside_rims(const SolveConfig& config) {
-  double least = 0;
-  for (const LoadConfig& load : config.loads) {
-    const auto set = config.mesh->sets.find(load.on);
-    if (!load.pressure || set == config.mesh->sets.end()) continue;
-    if (const auto* round = std::get_if<InCylinder>(&set->second.within))
-      least = least > 0 ? std::min(least, round->radius) : round->radius;
-  }
-  if (least == 0 || !config.contacts.empty() || !is_clamped(config)) return 0;
-  return std::min(0.5, 0.08 * cell_length(config.mesh->geometry) / least);
 }
 
 const Valued& quantity(const Valued& found) { return found; }
@@ -305,7 +266,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   });
   PathErrors out;
   const bool section = config.mesh && is_section(config.mesh->geometry);
-  const double beside_hole = beside_holes(config), beside_rim = std::max(beside_rims(config), under_holes(config));
+  const double beside_hole = beside_holes(config),
+               beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
   const double sticks = refined.sticks_far_apart ? std::min(1.0, greatest_friction(config) / all_stick) : 0;
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
@@ -327,6 +289,10 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   Family increments;
   if (!all.other.empty()) increments.of = {refined.sticks_far_apart ? all.family.of[1] : all.family.of.back(), all.other[0]};
   for (const Valued& q : itself.found) {
+    if (std::string why = over_an_edge(config, q.name); !why.empty()) {
+      out.not_known.push_back(std::move(why));
+      continue;
+    }
     auto at_end = judged(q, 1, all.telling(q).ends(q.name), increments.ends(q.name));
     if (!at_end) continue;
     if (q.of_force()) at_end->left_out = all.left_out(q);

@@ -157,3 +157,24 @@ TEST_CASE("an estimate by itself takes longer cells than one that is asked for, 
   const ErrorEstimate one = estimate_of(config).at_end[0];
   CHECK(std::abs(two.limit() - one.limit()) < one.total() + two.total());
 }
+
+TEST_CASE("under a plate with a hole the height of the dome has an error bar, the displacement of what slips over the edge none") {
+  const std::string text =
+      "mesh:\n  geometry: {section: {of: axisymmetric, size: [6, 2], divisions: [24, 8]}}\n"
+      "  points: {apex: [0, 2, 0], rim: [2, 2, 0], below: [2, 1, 0]}\n"
+      "  sets: {hole: {of: top, within: {cylinder: {axis: y, radius: 2}}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.012}}, volume: {quadratic: {d: 1.0e-2}}}\nsupports: [{on: bottom, hold: [x, y]}]\n"
+      "contacts: {plate: {on: top, rigid: {aperture: {radius: 2, edge: 0.5, face: [0, 2, 0]}}, friction: 0, "
+      "motion: [{t: 0.2, to: [0, -0.05, 0]}, {t: 1, to: [0, -0.05, 0]}]}}\n"
+      "loads: [{on: hole, pressure: [{t: 0.2, to: 0}, {t: 1, to: -0.005}]}]\npath: {first: 0.2, largest: 0.4}\nestimate: refinement\n";
+  const PathErrors errors = estimate_of(read_config<SolveConfig>(parse_yaml(text, "plate.yaml")).config);
+  const auto has = [&](const std::string& name) {
+    return std::any_of(errors.at_end.begin(), errors.at_end.end(), [&](const ErrorEstimate& e) { return e.of.name == name; });
+  };
+  CHECK(has("force"));
+  CHECK(has("displacement_apex"));
+  CHECK(has("displacement_below"));
+  CHECK(!has("displacement_rim"));
+  REQUIRE(errors.not_known.size() == 1);
+  CHECK(errors.not_known[0].find("displacement_rim") != std::string::npos);
+}
