@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/xml.hpp"
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
 #include "mesh/facets.hpp"
@@ -17,12 +18,6 @@
 namespace langer {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string s;
-  for (char c : text) s += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return s;
-}
 
 // letters that a file's name may have anywhere
 std::string file_name(std::string name) {
@@ -126,7 +121,7 @@ class FebioWriter {
       domains_ += fmt::format("    <SolidDomain name=\"{}\" mat=\"law{}\"/>\n", name, g + 1);
     }
     for (const auto& [name, nodes] : mesh_.node_sets) {
-      sets_ += fmt::format("    <NodeSet name=\"{}\">", escaped(name));
+      sets_ += fmt::format("    <NodeSet name=\"{}\">", xml_text(name));
       for (std::size_t i = 0; i < nodes.size(); ++i) sets_ += fmt::format("{}{}", i == 0 ? "" : ",", nodes[i] + 1);
       sets_ += "</NodeSet>\n";
     }
@@ -152,7 +147,7 @@ class FebioWriter {
       }
       if (asked.insert(h.set).second)
         reactions_ += fmt::format("      <node_data data=\"Rx;Ry;Rz\" delim=\",\" file=\"{}_reaction.csv\" node_set=\"{}\"/>\n",
-                                  file_name(h.set), escaped(h.set));
+                                  file_name(h.set), xml_text(h.set));
       std::string points = "<pt>0,0</pt>";
       if (h.to.factor)
         for (const auto& point : *h.to.factor) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", point.t, point.to);
@@ -160,17 +155,17 @@ class FebioWriter {
       boundary_ += fmt::format(
           "    <bc name=\"moved{}\" type=\"prescribed displacement\" node_set=\"{}\"><dof>{}</dof><value "
           "lc=\"{}\">{:.16g}</value><relative>0</relative></bc>\n",
-          ++moved, escaped(h.set), "xyz"[h.axis], path, h.to.value);
+          ++moved, xml_text(h.set), "xyz"[h.axis], path, h.to.value);
     }
     for (const auto& [set, axes] : fixed)
       boundary_ += fmt::format(
           "    <bc name=\"held_{0}\" type=\"zero displacement\" "
           "node_set=\"{0}\"><x_dof>{1}</x_dof><y_dof>{2}</y_dof><z_dof>{3}</z_dof></bc>\n",
-          escaped(set), axes[0], axes[1], axes[2]);
+          xml_text(set), axes[0], axes[1], axes[2]);
   }
 
   void contact(const DeckContact& c) {
-    const std::string name = escaped(c.law.name);
+    const std::string name = xml_text(c.law.name);
     const int id = next_material_++;
     material_ += fmt::format(
         "    <material id=\"{}\" name=\"{}\" type=\"rigid "

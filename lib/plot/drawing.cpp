@@ -7,27 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "base/xml.hpp"
 #include "plot/figure_style.hpp"
 #include "plot/gnuplot.hpp"
 
 namespace langer {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string s;
-  for (char c : text) {
-    if (c == '&')
-      s += "&amp;";
-    else if (c == '<')
-      s += "&lt;";
-    else if (c == '>')
-      s += "&gt;";
-    else
-      s += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return s;
-}
 
 // σ_{xx} (MPa) -> σ, xx below the line, (MPa)
 struct Piece {
@@ -60,9 +46,9 @@ std::string with_subscripts(const Label& label) {
     if (piece.text.empty()) continue;
     const double dy = 0.25 * label.size * (piece.below - line);
     line = piece.below;
-    s += dy == 0 ? escaped(piece.text)
+    s += dy == 0 ? xml_text(piece.text)
                  : fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy, (piece.below ? 0.7 : 1) * label.size,
-                               escaped(piece.text));
+                               xml_text(piece.text));
   }
   return s;
 }
@@ -96,7 +82,7 @@ struct SvgWriter {
         t.turned == 0 ? "" : fmt::format(" transform=\"rotate({:g} {:.2f} {:.2f})\"", -t.turned, t.at[0], t.at[1]);
     s += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}{}>{}</text>\n", t.at[0], t.at[1],
                      t.size, anchors[static_cast<int>(t.anchor)], t.white ? " fill=\"#ffffff\"" : "", turn,
-                     t.enhanced ? with_subscripts(t) : escaped(t.text));
+                     t.enhanced ? with_subscripts(t) : xml_text(t.text));
   }
 };
 
@@ -185,7 +171,7 @@ std::string svg(const Drawing& drawing, const FigureStyle& style) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{3:.6g}{2}\" height=\"{4:.6g}{2}\" "
       "font-family=\"{5}, DejaVu Sans, Arial, sans-serif\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      drawing.width, drawing.height, unit, k * drawing.width, k * drawing.height, escaped(style.font));
+      drawing.width, drawing.height, unit, k * drawing.width, k * drawing.height, xml_text(style.font));
   for (const auto& mark : drawing.marks) std::visit(SvgWriter{s, style.decimal}, mark);
   return s + "</svg>\n";
 }

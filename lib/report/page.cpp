@@ -1,6 +1,7 @@
 #include "report/page.hpp"
 
 #include "base/version.hpp"
+#include "base/xml.hpp"
 #include "report/embedded.hpp"
 
 namespace langer::report {
@@ -103,12 +104,6 @@ Json data_of(const ReportPage& page) {
                  {"origins", list(page.origins, origin)}});
 }
 
-std::string escaped(const std::string& s) {
-  std::string text;
-  for (char c : s) c == '<' ? text += "&lt;" : c == '&' ? text += "&amp;" : text += c;
-  return text;
-}
-
 }  // namespace
 
 bool has_three() { return !embedded::three_js.empty(); }
@@ -121,7 +116,7 @@ std::size_t bytes_without_data() {
 
 std::string html(const ReportPage& page) {
   using namespace embedded;
-  const std::string data = data_of(page).text, title = escaped(page.title);
+  const std::string data = data_of(page).text, title = xml_text(page.title);
   const bool view = has_three() && !page.bodies.empty();
   const std::pair<std::string_view, std::string_view> parts[] = {
       {"title", title}, {"style", style_css},  {"three", view ? three_js : ""}, {"orbit", view ? orbit_js : ""},

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/xml.hpp"
 #include "hdf5/seal.hpp"
 #include "mesh/reference.hpp"
 #include "store/grid.hpp"
-#include "store/xml.hpp"
 
 namespace langer {
 
@@ -25,7 +25,7 @@ struct Vtu {
   template <class T>
   void array(const char* type, const std::string& name, int components, const std::vector<T>& values) {
     text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-                        xml_attribute(name), components, bytes.size());
+                        xml_text(name), components, bytes.size());
     const std::uint64_t size = values.size() * sizeof(T);
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
     bytes.append(reinterpret_cast<const char*>(values.data()), size);
@@ -35,7 +35,7 @@ struct Vtu {
     const ActiveFields active = active_fields(fields);
     text += fmt::format("<{}", tag);
     for (const auto& [key, name] : {std::pair{"Scalars", active.scalars}, {"Vectors", active.vectors}, {"Tensors", active.tensors}})
-      if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, xml_attribute(name));
+      if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, xml_text(name));
     text += ">\n";
     for (const Field& f : fields) array("Float64", f.name, f.components, f.values);
     text += fmt::format("</{}>\n", tag);
@@ -85,7 +85,7 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
   std::string text =
       fmt::format("{}<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n", first_line);
   for (const auto& [time, file] : files)
-    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, xml_attribute(file));
+    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, xml_text(file));
   write_text_file(path, text + "</Collection>\n</VTKFile>\n");
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/xml.hpp"
 #include "mesh/reference.hpp"
-#include "store/xml.hpp"
 
 namespace langer {
 
@@ -38,7 +38,7 @@ std::string without_xdmf(const Mesh& mesh) {
 std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<double>& times,
                  const std::vector<XdmfArray>& arrays) {
   const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()), per_cell = nodes_per_cell(mesh.type);
-  const std::string name = xml_attribute(file);
+  const std::string name = xml_text(file);
   std::string s =
       "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -53,7 +53,7 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
         "Dimensions=\"{} 3\">{}:/VTKHDF/Points</DataItem></Geometry>\n",
         n, name);
     for (const XdmfArray& array : arrays)
-      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_attribute(array.name),
+      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_text(array.name),
                        array.components == 1   ? "Scalar"
                        : array.components == 3 ? "Vector"
                        : array.components == 9 ? "Tensor"
