@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "hdf5/seal.hpp"
+#include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 #include "stage.hpp"
 #include "store/mesh_file.hpp"

@@ -8,6 +8,7 @@
 #include "run/dry_run.hpp"
 #include "run/run_words.hpp"
 #include "run/step_record.hpp"
+#include "scene/config_io.hpp"
 #include "stage.hpp"
 
 namespace langer {

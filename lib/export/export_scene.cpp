@@ -10,10 +10,10 @@
 #include <tuple>
 
 #include "base/version.hpp"
-#include "config/reader.hpp"
 #include "export/acting.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
+#include "scene/config_io.hpp"
 #include "scene/scene.hpp"
 #include "scene/symmetry.hpp"
 

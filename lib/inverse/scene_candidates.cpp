@@ -10,11 +10,10 @@
 #include "accuracy/accuracy.hpp"
 #include "base/in_order.hpp"
 #include "base/interrupt.hpp"
-#include "config/reader.hpp"
-#include "config/writer.hpp"
 #include "inverse/forward_run.hpp"
 #include "inverse/refuse.hpp"
 #include "material/ties.hpp"
+#include "scene/config_io.hpp"
 
 namespace langer {
 

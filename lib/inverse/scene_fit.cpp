@@ -7,7 +7,7 @@
 
 #include "base/in_order.hpp"
 #include "base/stopwatch.hpp"
-#include "config/writer.hpp"
+#include "scene/config_io.hpp"
 #include "store/identity.hpp"
 
 namespace langer {

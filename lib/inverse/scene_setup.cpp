@@ -5,8 +5,8 @@
 #include <set>
 
 #include "accuracy/accuracy.hpp"
-#include "config/reader.hpp"
 #include "inverse/scene_fit.hpp"
+#include "scene/config_io.hpp"
 
 namespace langer {
 

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "config/reader.hpp"
-#include "config/writer.hpp"
 #include "mesh/bounding_box.hpp"
 #include "run/body_mesh.hpp"
 #include "run/continued.hpp"
 #include "run/step_record.hpp"
+#include "scene/config_io.hpp"
 #include "scene/image.hpp"
 #include "store/solution_layout.hpp"
 

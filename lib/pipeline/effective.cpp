@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "config/json_schema.hpp"
-#include "config/reader.hpp"
 #include "fit/doubts.hpp"
 #include "inverse/sample_config.hpp"
 #include "material/at_rest.hpp"
 #include "report/report_config.hpp"
 #include "run/post_config.hpp"
+#include "scene/config_io.hpp"
 #include "scene/mesh_config.hpp"
 #include "scene/solve_config.hpp"
 #include "study/fit_config.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "config/reader.hpp"
 #include "run/post_files.hpp"
+#include "scene/config_io.hpp"
 #include "scene/loads.hpp"
 
 namespace langer {

@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "base/say.hpp"
-#include "config/reader.hpp"
-#include "config/writer.hpp"
+#include "scene/config_io.hpp"
 
 namespace langer {
 

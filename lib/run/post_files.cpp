@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "config/reader.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/section.hpp"
 #include "run/contact_state.hpp"
 #include "run/step_record.hpp"
+#include "scene/config_io.hpp"
 #include "scene/loads.hpp"
 #include "scene/solve_config.hpp"
 #include "tensor/stress.hpp"

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "config/reader.hpp"
 #include "material/at_rest.hpp"
 #include "scene/bond_records.hpp"
+#include "scene/config_io.hpp"
 #include "store/material_file.hpp"
 #include "tensor/stress.hpp"
 

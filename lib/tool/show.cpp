@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/split.hpp"
-#include "config/writer.hpp"
 #include "material/material.hpp"
+#include "scene/config_io.hpp"
 #include "store/curves_file.hpp"
 #include "store/material_file.hpp"
 #include "store/mesh_file.hpp"

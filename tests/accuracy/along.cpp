@@ -7,8 +7,8 @@
 #include "accuracy/error_estimate.hpp"
 #include "accuracy/refinements.hpp"
 #include "accuracy/truncation.hpp"
-#include "config/reader.hpp"
 #include "config/tree.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 

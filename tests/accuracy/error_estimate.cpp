@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "config/reader.hpp"
 #include "config/tree.hpp"
 #include "post/recovery.hpp"
+#include "scene/config_io.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

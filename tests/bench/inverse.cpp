@@ -16,9 +16,9 @@
 #include <random>
 
 #include "base/stopwatch.hpp"
-#include "config/reader.hpp"
 #include "inverse/sensitivity.hpp"
 #include "run/body_mesh.hpp"
+#include "scene/config_io.hpp"
 #include "study/fit_report.hpp"
 
 using namespace langer;

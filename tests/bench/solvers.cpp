@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/stopwatch.hpp"
-#include "config/reader.hpp"
 #include "run/run.hpp"
+#include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 
 namespace langer {

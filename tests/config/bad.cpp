@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/reader.hpp"
 #include "config/sample.hpp"
 #include "material/material.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/expand.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

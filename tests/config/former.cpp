@@ -2,10 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "base/former.hpp"
-#include "config/reader.hpp"
-#include "config/writer.hpp"
 #include "pipeline/run_files.hpp"
 #include "run/continued.hpp"
+#include "scene/config_io.hpp"
 #include "scene/solve_config.hpp"
 #include "study/fit_config.hpp"
 

@@ -17,9 +17,9 @@
 
 #include <fmt/format.h>
 
-#include "config/reader.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/expand.hpp"
+#include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/scene.hpp"
 #include "study/fit_config.hpp"

@@ -5,10 +5,9 @@
 #include <fstream>
 #include <random>
 
-#include "config/reader.hpp"
 #include "config/sample.hpp"
-#include "config/writer.hpp"
 #include "material/material.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 using sample::Sample;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "config/reader.hpp"
 #include "mesh/reference.hpp"
+#include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 
 using namespace langer;

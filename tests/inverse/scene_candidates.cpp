@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "base/random.hpp"
-#include "config/reader.hpp"
 #include "inverse/inverse_fit.hpp"
+#include "scene/config_io.hpp"
 #include "study/fit_report.hpp"
 #include "study/study.hpp"
 

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/reader.hpp"
 #include "inverse/scene_data.hpp"
 #include "mesh/select.hpp"
 #include "run/body_mesh.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

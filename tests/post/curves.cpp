@@ -8,12 +8,11 @@
 #include <map>
 #include <set>
 
-#include "config/reader.hpp"
-#include "config/writer.hpp"
 #include "mesh/select.hpp"
 #include "post/describe_columns.hpp"
 #include "post/steps.hpp"
 #include "run/post_config.hpp"
+#include "scene/config_io.hpp"
 #include "store/curves_file.hpp"
 #include "store/solution_layout.hpp"
 #include "support/block.hpp"

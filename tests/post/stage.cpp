@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "config/writer.hpp"
 #include "hdf5/h5.hpp"
+#include "scene/config_io.hpp"
 #include "scene/solve_config.hpp"
 #include "store/curves_file.hpp"
 #include "store/provenance.hpp"

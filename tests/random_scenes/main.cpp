@@ -11,10 +11,10 @@
 
 #include "accuracy/accuracy.hpp"
 #include "base/stopwatch.hpp"
-#include "config/reader.hpp"
 #include "random_scenes/draw.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 

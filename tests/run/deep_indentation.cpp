@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "accuracy/error_estimate.hpp"
-#include "config/reader.hpp"
 #include "config/tree.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 

@@ -10,9 +10,9 @@
 #include "accuracy/accuracy.hpp"
 #include "accuracy/error_estimate.hpp"
 #include "base/random.hpp"
-#include "config/reader.hpp"
 #include "fit/stiffness_at_rest.hpp"
 #include "material/at_rest.hpp"
+#include "scene/config_io.hpp"
 #include "study/fit_config.hpp"
 #include "support/solved_scene.hpp"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "scene/config_io.hpp"
 #include "scene/scene.hpp"
 #include "support/solved_scene.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/reader.hpp"
 #include "run/run.hpp"
+#include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 
 namespace langer::test {
