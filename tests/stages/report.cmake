@@ -137,6 +137,8 @@ file(APPEND ${WORK}/tried.html [=[
   let coloured = 0;
   for (let i = 0; i < ink.length; i += 4) coloured += Math.max(ink[i], ink[i + 1], ink[i + 2]) - Math.min(ink[i], ink[i + 1], ink[i + 2]) > 60;
   root.dataset.paper = coloured > 2000;
+  const widths = [...document.querySelectorAll('.split')].map(box => [...box.querySelectorAll('table')].map(t => t.tHead.rows[0].cells.length));
+  root.dataset.parts = widths.length > 0 && widths.every(([all, ...parts]) => Math.max(...parts) <= 10 && parts.reduce((n, w) => n + w - 1, 1) === all);
   dispatchEvent(new Event('afterprint'));
   root.dataset.unnamed = document.querySelectorAll('svg[role=img]:not([aria-label]), canvas[role=img]:not([aria-label])').length;
   root.dataset.tried = pictures.join(' ');
@@ -153,7 +155,7 @@ endif()
 string(REGEX MATCH "<html[^>]*>" root "${dom}")
 message("${root}")
 foreach(expected "data-errors=\"\"" "data-ready=\"yes\"" "data-view=\"ready\"" "data-picked=\"displacement u_y [^\"]* mm" "data-hovered=\"alpha = " "data-zoomed=\"true\"" "data-whole=\"true\""
-    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"" "data-unlabelled=\"0\"" "data-cutmoved=\"true\"" "data-cutput=\"true\"" "data-paper=\"true\"")
+    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"" "data-unlabelled=\"0\"" "data-cutmoved=\"true\"" "data-cutput=\"true\"" "data-paper=\"true\"" "data-parts=\"true\"")
   if(NOT root MATCHES "${expected}")
     message(FATAL_ERROR "the page in the browser lacks ${expected}:\n${root}\n${log}")
   endif()

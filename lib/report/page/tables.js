@@ -1,8 +1,21 @@
 'use strict';
+// A sheet of paper holds some ten columns: wider tables are printed in parts, each with the first column.
+const onPaper = 10;
 L.table = table => {
-  const head = L.el('tr', {}, ...table.columns.map(c => L.el('th', { scope: 'col' }, c.name, L.el('small', {}, L.unit(c.unit) || '\u00a0'))));
-  const rows = table.rows.map(row => L.el('tr', {}, ...row.map(v => typeof v === 'string' ? L.el('td', { class: 'word' }, v) : L.el('td', {}, L.number(v, 5)))));
-  return L.el('div', { class: 'scroll' }, L.el('table', { 'aria-label': table.title || 'table' }, L.el('thead', {}, head), L.el('tbody', {}, ...rows)));
+  const columns = table.columns.map((_, i) => i), title = table.title || 'table';
+  const cell = v => typeof v === 'string' ? L.el('td', { class: 'word' }, v) : L.el('td', {}, L.number(v, 5));
+  const part = some => L.el('table', { 'aria-label': title },
+    L.el('thead', {}, L.el('tr', {}, ...some.map(i => L.el('th', { scope: 'col' }, table.columns[i].name, L.el('small', {}, L.unit(table.columns[i].unit) || '\u00a0'))))),
+    L.el('tbody', {}, ...table.rows.map(row => L.el('tr', {}, ...some.map(i => cell(row[i]))))));
+  const box = L.el('div', { class: 'scroll' }, part(columns));
+  if (columns.length > onPaper) {
+    box.classList.add('split');
+    L.printed.push(() => {
+      if (box.childElementCount > 1) return;
+      for (let i = 1; i < columns.length; i += onPaper - 1) box.append(part([0, ...columns.slice(i, i + onPaper - 1)]));
+    });
+  }
+  return box;
 };
 
 // what is nearly 1 shows how nearly
