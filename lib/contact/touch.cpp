@@ -71,4 +71,22 @@ Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const 
   return d_start + turned_by(along, angle, d_start - d.c0) - d_touches * a.angle * cross(along, turned);
 }
 
+Approach IncrementMove::of(const RigidContact& contact, int node) const {
+  return {X[static_cast<std::size_t>(node)],
+          u0.segment<3>(3 * node),
+          expected.segment<3>(3 * node),
+          indenter_displacement(contact, t0, travel0),
+          indenter_displacement(contact, t, travel),
+          contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(t0) : 0};
+}
+
+std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact, const IncrementMove& move, double tolerance) {
+  const Vec3 none = Vec3::Zero();
+  std::vector<Vec3> out;
+  for (int node : contact.nodes)
+    out.push_back(
+        change_of_slips_from(contact, move.of(contact, node), {none, none, none, none, contact.control->along}, tolerance));
+  return out;
+}
+
 }  // namespace langer

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "contact/contact.hpp"
 
@@ -28,5 +29,15 @@ struct Approach {
 Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance);
 // derivative where u0, u, c0, c change by those of `d`
 Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d, double tolerance);
+
+// An increment as the start of slip sees it; refers to its arguments.
+struct IncrementMove {
+  const std::vector<Vec3>& X;
+  const VecX &u0, &expected;                      // (3 n): where it began, where the last movement goes on to
+  double t0 = 0, travel0 = 0, t = 0, travel = 0;  // of the indenter, under force control
+  Approach of(const RigidContact& contact, int node) const;
+};
+// by candidate: derivative of slips_from with respect to the travel of a pushed indenter
+std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact, const IncrementMove& move, double tolerance);
 
 }  // namespace langer

@@ -11,8 +11,10 @@
 namespace langer {
 
 StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
-    : statics_(statics), factor_(statics.condensed_factor()), earlier_(earlier), solvable_(statics.factorize_accepted()) {
+    : statics_(statics), factor_(statics.condensed_factor()), solvable_(statics.factorize_accepted()) {
   if (!solvable_ || statics_.contacts_.empty()) return;
+  const BodyState& was = statics_.before_;
+  expected_ = was.u + statics_.extrapolated_ * (was.u - earlier.u);
   take_candidates();
   if (!near_.empty()) take_rows();
 }
@@ -39,7 +41,8 @@ void StateTangent::take_candidates() {
   if (near_.empty()) return;
   const std::vector<Vec3> c(statics_.contacts_.size(), Vec3::Zero());
   ContactState state{statics_.contacts_, X, now.u, statics_.u_start_, c, c, now.r, pushed_ ? statics_.controlled_ : -1};
-  if (pushed_ && statics_.starts_with_travel()) state.start_moves = start_moves();
+  if (pushed_ && statics_.starts_with_travel())
+    state.start_moves = change_of_slips_with_travel(*statics_.controlled(), increment_move(), statics_.options_.gap_tolerance);
   c_ = condensed(state, factor_, near_);
 }
 
@@ -110,21 +113,9 @@ VecX StateTangent::local_of(const VecX& last) const {
   return d;
 }
 
-// What the start of a candidate's slip is found from: the state that the increment began with, and where its movement was expected to end.
-Approach StateTangent::approach(const RigidContact& contact, int node) const {
+IncrementMove StateTangent::increment_move() const {
   const BodyState &now = statics_.now_, &was = statics_.before_;
-  const Vec3 u0 = was.u.segment<3>(3 * node), u = u0 + statics_.extrapolated_ * (u0 - earlier_.u.segment<3>(3 * node));
-  return statics_.approach(contact, node, was, u, now.t, now.travel);
-}
-
-std::vector<Vec3> StateTangent::start_moves() const {
-  std::vector<Vec3> out;
-  const RigidContact& contact = *statics_.controlled();
-  const Vec3 none = Vec3::Zero();
-  for (int node : contact.nodes)
-    out.push_back(change_of_slips_from(contact, approach(contact, node), {none, none, none, none, contact.control->along},
-                                       statics_.options_.gap_tolerance));
-  return out;
+  return {statics_.equilibrium_.mesh().X, was.u, expected_, was.t, was.travel, now.t, now.travel};
 }
 
 // Of the two states before; an indenter's travel in this increment is an unknown of its own.
@@ -138,7 +129,7 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, c
     const Vec3 d_u0 = before.u.segment<3>(3 * node), d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
     const Vec3 d_c0 = contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const Approach d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
-    const Vec3 from = change_of_slips_from(contact, approach(contact, node), d, statics_.options_.gap_tolerance) - d_c0;
+    const Vec3 from = change_of_slips_from(contact, increment_move().of(contact, node), d, statics_.options_.gap_tolerance) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }

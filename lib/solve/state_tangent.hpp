@@ -63,8 +63,7 @@ class StateTangent {
   void take_rows();
   Rows rows_of(std::size_t p, double typical) const;
   VecX local_of(const VecX& last) const;  // movement of the candidates from that of the rows of factor.last()
-  Approach approach(const RigidContact& contact, int node) const;
-  std::vector<Vec3> start_moves() const;  // as Statics::start_moves, of the accepted state
+  IncrementMove increment_move() const;   // that led to the accepted state
   // x' where the body stands still, and what friction itself changes
   std::vector<Vec3> slip_of_history(const StateDerivative& before, const StateDerivative& earlier) const;
   Vec3 moved_against(const ParameterChange& change, const Near& near) const;  // of prescribed dofs against the indenter, local
@@ -76,7 +75,7 @@ class StateTangent {
 
   Statics& statics_;
   TangentFactor& factor_;
-  BodyState earlier_;
+  VecX expected_;                           // u that the increment was begun with
   bool solvable_ = false, pushed_ = false;  // an indenter under force control bears something
   std::vector<Near> near_;
   std::vector<ContactStatus> status_;

@@ -108,22 +108,13 @@ void Statics::slip_from_touch() {
 }
 
 void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
+  const IncrementMove move = increment_move(expected);
   for (int node : contacts_[k].nodes)
-    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], approach(contacts_[k], node, expected), options_.gap_tolerance);
+    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], move.of(contacts_[k], node), options_.gap_tolerance);
 }
 
-Approach Statics::approach(const RigidContact& contact, int node, const VecX& expected) const {
-  return approach(contact, node, now_, expected.segment<3>(3 * node), t_, travel_);
-}
-
-Approach Statics::approach(const RigidContact& contact, int node, const BodyState& from, const Vec3& u, double t,
-                           double travel) const {
-  return {equilibrium_.mesh().X[node],
-          from.u.segment<3>(3 * node),
-          u,
-          indenter_displacement(contact, from.t, from.travel),
-          indenter_displacement(contact, t, travel),
-          contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(from.t) : 0};
+IncrementMove Statics::increment_move(const VecX& expected) const {
+  return {equilibrium_.mesh().X, now_.u, expected, now_.t, now_.travel, t_, travel_};
 }
 
 // A node slips from where the way of the indenter has it touch. Where that way is an unknown, the start of the slip follows it: then a
@@ -131,13 +122,8 @@ Approach Statics::approach(const RigidContact& contact, int node, const BodyStat
 bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled()->mu > 0; }
 
 std::vector<Vec3> Statics::start_moves() const {
-  std::vector<Vec3> out;
-  if (!starts_with_travel()) return out;
-  const Vec3 none = Vec3::Zero();
-  for (int node : controlled()->nodes)
-    out.push_back(change_of_slips_from(*controlled(), approach(*controlled(), node, expected_),
-                                       {none, none, none, none, controlled()->control->along}, options_.gap_tolerance));
-  return out;
+  if (!starts_with_travel()) return {};
+  return change_of_slips_with_travel(*controlled(), increment_move(expected_), options_.gap_tolerance);
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }

@@ -103,11 +103,9 @@ class Statics {
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
-  Approach approach(const RigidContact& contact, int node, const VecX& expected) const;
-  // between any two places of the path: of the node to a displacement u
-  Approach approach(const RigidContact& contact, int node, const BodyState& from, const Vec3& u, double t, double travel) const;
-  bool starts_with_travel() const;        // the slip of an indenter under force control
-  std::vector<Vec3> start_moves() const;  // by its candidate, what the slip is measured from, per travel
+  IncrementMove increment_move(const VecX& expected) const;  // refers to `expected`
+  bool starts_with_travel() const;                           // the slip of an indenter under force control
+  std::vector<Vec3> start_moves() const;                     // by its candidate, what the slip is measured from, per travel
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
   bool contact_law_holds(const VecX& u) const;
