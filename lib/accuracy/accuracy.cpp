@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "accuracy/footprint.hpp"
@@ -139,15 +138,6 @@ void put(const ChosenLevel& chosen, SolveConfig& config) {
   if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
   if (config.path.seconds) config.path.first = std::min(first, level.step);  // its error decides: longer ones are begun again
   config.mesh->cells = level.cells;
-}
-
-std::optional<double> percent_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string rest(end, text.data() + text.size());
-  std::erase(rest, ' ');
-  if (error != std::errc{} || rest != "%" || !std::isfinite(value) || !(value > 0)) return std::nullopt;
-  return value;
 }
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -189,6 +190,15 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
     other.materials = std::move(laws.materials), other.directions = std::move(laws.directions);
   }
   return other;
+}
+
+std::optional<double> percent_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string rest(end, text.data() + text.size());
+  std::erase(rest, ' ');
+  if (error != std::errc{} || rest != "%" || !std::isfinite(value) || !(value > 0)) return std::nullopt;
+  return value;
 }
 
 }  // namespace langer
