@@ -22,6 +22,11 @@ Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPat
   return free < way ? Vec3(dc - free * contact.control->along) : dc;
 }
 
+// Of a body of revolution what points away from the axis is that of the whole circle, and cancels.
+Vec3 of_circle(const Mesh& mesh, const Vec3& sum) {
+  return mesh.section && mesh.section->of == SectionOf::axisymmetric ? Vec3(0, sum[1], 0) : sum;
+}
+
 // What bonds make of the force on the body that pulls it towards the indenter, along the mean normal of what bears [N].
 double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state, std::size_t k, const Vec3& c) {
   Vec3 force = Vec3::Zero(), normal = Vec3::Zero();
@@ -32,6 +37,7 @@ double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::
     const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
     force += r + bond, normal += (r.norm() + bond.norm()) * n;
   }
+  normal = of_circle(mesh, normal);
   return normal.isZero(0) ? 0 : std::max(0.0, -force.dot(normal.normalized()));
 }
 
@@ -50,7 +56,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
   if (k == 0) {
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : now.r[0]) force += r;
-    step.way = dc.norm(), step.travel = c.norm(), step.force = force.norm();
+    step.way = dc.norm(), step.travel = c.norm(), step.force = of_circle(mesh_, force).norm();
     if (!now.bonds.empty() && !now.bonds[0].empty()) step.pull = pull_of(contact, mesh_, now, 0, c);
   }
   double angle = 0;
