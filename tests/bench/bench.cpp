@@ -1,6 +1,7 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, wide
+//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, wide,
+//                               control
 #include <fmt/format.h>
 
 #include <array>
@@ -25,6 +26,7 @@ void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
 void measure_wide();     // wide.cpp
+void measure_control();  // control.cpp
 void measure_inverse();  // inverse.cpp
 void measure_price();
 void measure_inverse_coverage();
@@ -173,6 +175,7 @@ int main(int argc, char** argv) {
   if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);
   if (asked.count("wide")) measure_wide();
+  if (asked.count("control")) measure_control();
   if (asked.count("grading")) {
     test::Indentation scene;
     scene.nx = scene.nz = 36, scene.ny = 12, scene.h = 0.2;
