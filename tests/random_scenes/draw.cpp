@@ -168,13 +168,42 @@ std::string pulled(Draw& draw, bool across) {
       L, h, w, n(L), n(h), n(w), across ? 0 : u, across ? 0.5 * u : 0, material(draw));
 }
 
+std::string disc_of(const Pressed& p, const std::string& layers = "") {
+  return fmt::format(
+      "mesh: {{geometry: {{indented_disc: {{size: [{:g}, {:g}], radius: {:g}, depth: {:g}}}}}{}}}\n"
+      "supports: [{{on: bottom, hold: [x, y]}}]\n",
+      p.half, p.H, p.R, p.depth, layers);
+}
+
 std::string section(Draw& draw) {
   const Pressed p = pressed(draw, 0.6, 3);
-  return fmt::format(
-             "mesh: {{geometry: {{indented_disc: {{size: [{:g}, {:g}], radius: {:g}, depth: {:g}}}}}}}\n"
-             "supports: [{{on: bottom, hold: [x, y]}}]\nmaterial: {}\ncontacts:\n",
-             p.half, p.H, p.R, p.depth, material(draw, 1, 0)) +
-         contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
+  return disc_of(p) + "material: " + material(draw, 1, 0) + "\ncontacts:\n" + contact_of("ball", sphere_at(p, 0, 0), p, down(p)) +
+         "stability: off\n";
+}
+
+// Indenters of revolution on a disc of one layer or two, of which the upper one is softer or stiffer. The punch's rounded edge is a tenth of its
+// radius to half of it; the plane is wider than the disc.
+enum class On { ball, punch, ellipsoid, plane };
+std::string pressed_disc(Draw& draw, On shape, bool thin, bool layered) {
+  const Pressed p = thin ? pressed(draw, 0.2, 0.8) : pressed(draw, 1, 4);
+  std::string layers, laws = "material: " + material(draw, 1, 0) + "\n";
+  if (layered) {
+    const double top = rounded(p.H * draw.uniform(0.2, 0.7)), contrast = draw.logarithmic(0.05, 20);
+    layers = fmt::format(", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]", p.H - top, top);
+    laws = "materials: {below: {material: " + material(draw, 1 / std::sqrt(contrast), 0) +
+           "}, above: {material: " + material(draw, std::sqrt(contrast), 0) + "}}\n";
+  }
+  const double radius = rounded(0.8 * p.a), edge = rounded(radius * draw.uniform(0.1, 0.5));
+  const std::string shapes[]{
+      sphere_at(p, 0, 0),
+      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}", radius, edge, p.H),
+      fmt::format("{{ellipsoid: {{half_axes: [{0:g}, {1:g}, {0:g}], centre: [0, {2:.10g}, 0]}}}}",
+                  rounded(p.R * draw.uniform(0.7, 1.6)), p.R, p.H + p.R),
+      fmt::format("{{plane: {{point: [0, {:g}, 0], normal: [0, -1, 0]}}}}", p.H)};
+  const std::string to =
+      fmt::format("{{t: 1, to: [0, {:g}, 0]}}", shape == On::punch || shape == On::plane ? -0.5 * p.depth : -p.depth);
+  return disc_of(p, layers) + laws + "contacts:\n" + contact_of("tool", shapes[static_cast<std::size_t>(shape)], p, to) +
+         "stability: off\n";
 }
 
 std::string soft_matrix(Draw& draw, double mu) {
@@ -231,6 +260,17 @@ const Makers& of_suction() {
                           {"plate_layers", [](Draw& draw) { return sucked(draw, true, true); }}};
   return all;
 }
+const Makers& of_sections() {
+  static const Makers all{{"ball", [](Draw& draw) { return pressed_disc(draw, On::ball, false, false); }},
+                          {"punch", [](Draw& draw) { return pressed_disc(draw, On::punch, false, false); }},
+                          {"thin", [](Draw& draw) { return pressed_disc(draw, On::ball, true, false); }},
+                          {"layered", [](Draw& draw) { return pressed_disc(draw, On::ball, false, true); }},
+                          {"punch_layers", [](Draw& draw) { return pressed_disc(draw, On::punch, false, true); }},
+                          {"ellipsoid", [](Draw& draw) { return pressed_disc(draw, On::ellipsoid, false, false); }},
+                          {"punch_thin", [](Draw& draw) { return pressed_disc(draw, On::punch, true, false); }},
+                          {"plane", [](Draw& draw) { return pressed_disc(draw, On::plane, false, false); }}};
+  return all;
+}
 const Makers& makers() {
   static const Makers all{{"centred", centred},
                           {"beside", beside},
@@ -249,8 +289,8 @@ const Makers& makers() {
 
 }  // namespace
 
-DrawnScene drawn_scene(std::uint64_t seed, int number, bool suction) {
-  const Makers& all = suction ? of_suction() : makers();
+DrawnScene drawn_scene(std::uint64_t seed, int number, const std::string& kind_of) {
+  const Makers& all = kind_of == "suction" ? of_suction() : kind_of == "section" ? of_sections() : makers();
   const auto& [kind, make] = all[static_cast<std::size_t>(number) % all.size()];
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));
   return {fmt::format("{:03}_{}", number, kind), make(draw)};

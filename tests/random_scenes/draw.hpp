@@ -10,7 +10,7 @@ struct DrawnScene {
   std::string name;  // <number>_<kind>
   std::string yaml;  // a config of langer-solve without an accuracy
 };
-// Scene `number` of a seed: kinds in turn, of all kinds of indentation and tension or of those of suction.
-DrawnScene drawn_scene(std::uint64_t seed, int number, bool suction = false);
+// Scene `number` of a seed: kinds in turn, of all kinds of indentation and tension (any), of indenters on a disc (section) or of suction.
+DrawnScene drawn_scene(std::uint64_t seed, int number, const std::string& kind_of = "any");
 
 }  // namespace langer::test

@@ -1,5 +1,5 @@
 // Whether an accuracy that is asked for is kept, on scenes drawn at random (random_scenes/draw.hpp), and whether error bars hold.
-//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | suction]
+//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps]
 // Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and again on shorter cells and half the
 // increments, whose limit is the truth and whose own error bar is what remains unknown of it; scenes that this would take longer than
 // `seconds` of CPU have no truth. One line a scene, then the counts.
@@ -25,7 +25,8 @@ struct Options {
   std::uint64_t seed = 1;
   int scenes = 24, from = 0;
   double asked = 1, seconds = 120;
-  bool suction = false;
+  std::string kind = "any";
+  bool steps = false;  // bars along the path are judged, too
 };
 
 Options options_of(int argc, char** argv) {
@@ -34,7 +35,9 @@ Options options_of(int argc, char** argv) {
     const std::string text = argv[i];
     const auto at = text.find('=');
     const std::string key = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
-    if (value.empty() && !text.starts_with("-"))
+    if (key == "steps")
+      o.steps = true;
+    else if (value.empty() && !text.starts_with("-"))
       o.folder = text;
     else if (key == "seed")
       o.seed = std::stoull(value);
@@ -46,8 +49,8 @@ Options options_of(int argc, char** argv) {
       o.asked = std::stod(value);
     else if (key == "seconds")
       o.seconds = std::stod(value);
-    else if (key == "kind" && (value == "any" || value == "suction"))
-      o.suction = value == "suction";
+    else if (key == "kind" && (value == "any" || value == "section" || value == "suction"))
+      o.kind = value;
     else
       throw std::invalid_argument(text);
   }
@@ -58,9 +61,14 @@ Options options_of(int argc, char** argv) {
 const auto nowhere = [](const std::string&) { return Place{}; };
 const Voice silent{"scenes", true};
 
+struct Solved {
+  std::vector<ErrorEstimate> errors;
+  std::vector<StepForces> path;
+  std::map<std::string, std::vector<double>> along;  // bars at each step
+};
 struct Answer {
   SolveConfig config;  // that it was solved with
-  std::vector<ErrorEstimate> errors;
+  Solved solved;
   double seconds = 0;
 };
 
@@ -73,18 +81,19 @@ void need_time(const SolveConfig& config, Run& run, double seconds) {
   if (takes > seconds) throw TooLong{takes};
 }
 
-std::vector<ErrorEstimate> solved_once(const SolveConfig& config, double seconds) {
+Solved solved_once(const SolveConfig& config, double seconds) {
   Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
   need_time(config, run, seconds);
-  std::vector<StepForces> path;
-  const RunEnd end = run.follow(collecting({}, config, run, path));
+  Solved out;
+  const RunEnd end = run.follow(collecting({}, config, run, out.path));
   if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
   try {
-    return estimated(config, config.material, nowhere, run, end.last, path, {}).at_end;
+    const PathErrors found = estimated(config, config.material, nowhere, run, end.last, out.path, {});
+    out.errors = found.at_end, out.along = found.along;
   } catch (const Failure& failure) {
-    if (failure.code() != Exit::not_converged) throw;
-    return {};  // as accuracy/say_errors.hpp: not known
+    if (failure.code() != Exit::not_converged) throw;  // else as accuracy/say_errors.hpp: not known
   }
+  return out;
 }
 
 // as stages/solve.cpp, without files
@@ -95,20 +104,20 @@ Answer asked_for(const SolveConfig& config, double seconds) {
   for (bool again = true; again;) {
     answer.config = accuracy.config();
     try {
-      answer.errors = solved_once(answer.config, seconds);
-      again = accuracy.refine(answer.errors);
+      answer.solved = solved_once(answer.config, seconds);
+      again = accuracy.refine(answer.solved.errors);
     } catch (const Failure& failure) {
       again = accuracy.begin_anew(failure);
       if (!again) throw;
     }
   }
   answer.seconds = cpu_seconds() - start;
-  accuracy.need(answer.errors, "");
+  accuracy.need(answer.solved.errors, "");
   return answer;
 }
 
 // on cells of 0.8 times the length; of sections, which are cheap, of half
-std::vector<ErrorEstimate> truth_of(SolveConfig config, double seconds) {
+Solved truth_of(SolveConfig config, double seconds) {
   scale_cells(config.mesh->geometry, is_section(config.mesh->geometry) ? 0.5 : 0.8);
   config.path.use_increment(0.5 * config.path.largest_increment());
   try {
@@ -122,14 +131,36 @@ struct Counts {
   int ended = 0, within = 0, outside = 0, undecided = 0, refused = 0, left = 0, without_truth = 0;
   int bars = 0, hold = 0, wide = 0;  // of forces
   int others = 0, others_hold = 0;   // of what no accuracy is asked of
+  int steps = 0, steps_hold = 0;
 };
+
+// Bars of the steps before the end against the truth's forces there, each known to half its own bar.
+void judge_steps(const std::string& name, const Solved& found, const Solved& truth, Counts& counts) {
+  for (const auto& [force, bars] : found.along) {
+    if (!truth.along.contains(force)) continue;
+    std::string words;
+    for (std::size_t i = 0; i + 1 < bars.size() && i < found.path.size(); ++i) {
+      const double t = found.path[i].t, q = found.path[i].of.at(force);
+      if (q == 0) continue;
+      double unknown = 0;
+      for (std::size_t k = 0; k < truth.path.size(); ++k)
+        if (std::abs(truth.path[k].t - t) < 1e-9) unknown = 0.5 * truth.along.at(force)[k];
+      const double off = q - force_at(truth.path, force, t);
+      const bool holds = std::abs(off) <= bars[i] + unknown;
+      ++counts.steps, counts.steps_hold += holds;
+      words += fmt::format(" {:.3g}: {:+.2f} bar {:.2g} unknown {:.2g}{};", t, 100 * off / q, 100 * bars[i] / q, 100 * unknown / q,
+                           holds ? "" : " FAILS");
+    }
+    if (!words.empty()) fmt::print("| {} | {} at |{} | | | | | |\n", name, force, words);
+  }
+}
 
 void judge(const Options& o, const std::string& name, const Answer& answer, const std::vector<ErrorEstimate>& truths,
            Counts& counts) {
-  const std::vector<ErrorEstimate> judged = forces_judged(answer.errors);
-  for (const ErrorEstimate& e : answer.errors) {
-    if (o.suction && e.of.name == "von_mises_max") continue;  // it has no limit at a rim where stresses are singular
-    if (e.of.value == 0) continue;                            // a rim that is held
+  const std::vector<ErrorEstimate> judged = forces_judged(answer.solved.errors);
+  for (const ErrorEstimate& e : answer.solved.errors) {
+    if (o.kind == "suction" && e.of.name == "von_mises_max") continue;  // it has no limit at a rim where stresses are singular
+    if (e.of.value == 0) continue;                                      // a rim that is held
     const bool asked = std::any_of(judged.begin(), judged.end(), [&](const ErrorEstimate& j) { return j.of.name == e.of.name; });
     const auto t =
         std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) { return other.of.name == e.of.name; });
@@ -168,20 +199,21 @@ int main(int argc, char** argv) try {
   fmt::print(
       "| scene | quantity | found | off by % | unknown +- % | bar +- % | | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (int i = o.from; i < o.from + o.scenes; ++i) {
-    const test::DrawnScene scene = test::drawn_scene(o.seed, i, o.suction);
+    const test::DrawnScene scene = test::drawn_scene(o.seed, i, o.kind);
     std::ofstream(o.folder + "/" + scene.name + ".yaml") << scene.yaml << "accuracy: " << o.asked << "%\n";
     try {
       SolveConfig config = read_config<SolveConfig>(parse_yaml(scene.yaml, scene.name + ".yaml")).config;
       config.accuracy = fmt::format("{:g}%", o.asked);
       const Answer answer = asked_for(config, o.seconds);
       ++counts.ended;
-      std::vector<ErrorEstimate> truths;
+      Solved truth;
       try {
-        truths = truth_of(answer.config, o.seconds);
+        truth = truth_of(answer.config, o.seconds);
       } catch (const Failure& failure) {
         fmt::print("| {} | truth | {} | | | | | |\n", scene.name, failure.what());
       }
-      judge(o, scene.name, answer, truths, counts);
+      judge(o, scene.name, answer, truth.errors, counts);
+      if (o.steps) judge_steps(scene.name, answer.solved, truth, counts);
     } catch (const TooLong& too_long) {
       ++counts.left;
       fmt::print("| {} | left: {:.0f} s for one solve | | | | | | |\n", scene.name, too_long.seconds);
@@ -197,10 +229,12 @@ int main(int argc, char** argv) try {
              counts.undecided, counts.without_truth);
   fmt::print("Their bars: {} of {} hold, {} more than five times the error. All else: {} of {} bars hold.\n", counts.hold,
              counts.bars, counts.wide, counts.others_hold, counts.others);
+  if (o.steps) fmt::print("At steps before the end: {} of {} hold.\n", counts.steps_hold, counts.steps);
   return 0;
 } catch (const std::logic_error& wrong) {
-  fmt::print(stderr,
-             "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | suction]; found {}\n",
-             wrong.what());
+  fmt::print(
+      stderr,
+      "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps]; found {}\n",
+      wrong.what());
   return 2;
 }
