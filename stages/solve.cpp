@@ -1,5 +1,7 @@
 // langer-solve: equilibrium along a load path.
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
+#include <csignal>
+
 #include "accuracy/model_choice.hpp"
 #include "accuracy/say_errors.hpp"
 #include "inverse/uncertainty.hpp"
@@ -31,13 +33,19 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
   Recording recording(run, watch, config, job.identity, job.output, uncertainty.beside(sensitivity.companion()));
   Progress progress(job.voice(), run);
   const Interruptible at_the_end_of_a_step;
+  std::optional<EndsSoon> steps_are_kept(std::in_place, SIGINT);
   const RunEnd end = recording.follow(job.voice(), progress, loose);
+  steps_are_kept.reset();
   if (end.at == RunEnd::At::not_homogeneous) {
     model.leave_point();
     return {};
   }
+  std::optional<EndsSoon> all_is_kept(std::in_place);
   const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
-  if (model.another(estimate.at_end)) return {};
+  const bool again = model.another(estimate.at_end);
+  if (again && interrupted()) recording.stopped_in_estimate();
+  if (again) return {};
+  all_is_kept.reset();
   const auto forces = uncertainty.of(end.last);
   say_forces(job.voice(), known, forces, estimate.at_end);
   const auto said = joined({sensitivity.summary(end.last), summary_of(forces), summary_of(estimate.at_end),

@@ -10,8 +10,20 @@ namespace langer {
 
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0, places_to_stop = 0;
+volatile std::sig_atomic_t signal_seen = 0, places_to_stop = 0, patience = 0;  // patience: with which signal it ends
+constexpr int any = -1;
 timespec seen_at;
+
+void say(const char* words) { [[maybe_unused]] const ssize_t n = write(2, words, std::char_traits<char>::length(words)); }
+
+[[noreturn]] void end_at_once(int signal) {
+  say(signal == SIGINT ? "ended by SIGINT\n" : "ended by SIGTERM\n");
+  _exit(128 + signal);
+}
+
+void on_alarm(int) {
+  if (signal_seen != 0) end_at_once(signal_seen);
+}
 
 void on_signal(int signal) {
   timespec now;
@@ -22,13 +34,13 @@ void on_signal(int signal) {
         static_cast<double>(now.tv_sec - seen_at.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - seen_at.tv_nsec);
     if (later < 0.2) return;
   }
-  if (signal_seen != 0 || places_to_stop == 0) {
-    const char* words = signal == SIGINT ? "ended by SIGINT\n" : "ended by SIGTERM\n";
-    [[maybe_unused]] const ssize_t n = write(2, words, std::char_traits<char>::length(words));
-    _exit(128 + signal);
-  }
+  if (signal_seen != 0 || places_to_stop == 0) end_at_once(signal);
   seen_at = now;
   signal_seen = signal;
+  if (patience != 0 && (patience == any || patience == signal))
+    alarm(EndsSoon::seconds);
+  else
+    say("\nends after this step; a second signal ends at once\n");
 }
 
 }  // namespace
@@ -50,6 +62,17 @@ void listen_to_signals() {
 Interruptible::Interruptible() { places_to_stop = 1; }
 
 Interruptible::~Interruptible() { places_to_stop = 0; }
+
+EndsSoon::EndsSoon(int after) {
+  patience = after == 0 ? any : after;
+  std::signal(SIGALRM, on_alarm);
+  if (signal_seen != 0 && (after == 0 || after == signal_seen)) alarm(seconds);  // it came just before
+}
+
+EndsSoon::~EndsSoon() {
+  patience = 0;
+  alarm(0);
+}
 
 int interrupted() { return signal_seen; }
 

@@ -19,6 +19,17 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 };
 
+// While one of these lives as well, nothing would be lost but what was begun last: where the signal is not asked for within `seconds`, since a
+// large tangent is analysed or factorized, the program ends by itself.
+class EndsSoon {
+ public:
+  static constexpr int seconds = 2;
+  explicit EndsSoon(int after = 0);  // 0: either signal
+  ~EndsSoon();
+  EndsSoon(const EndsSoon&) = delete;
+  EndsSoon& operator=(const EndsSoon&) = delete;
+};
+
 int interrupted();  // the signal, 0 where none has come
 
 Exit exit_code_of(int signal);
