@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accuracy/footprint.hpp"
+#include "accuracy/level_cost.hpp"
 #include "watch/progress.hpp"
 
 namespace langer {
@@ -22,20 +23,9 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
 constexpr double enough_for_coarsest = 2;  // [%]
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
-constexpr double finest_of_block = 0.04, finest_of_disc = 0.01, shortest_step = 0.01;  // finer ones were never tried
-constexpr double most_hex8 = 6e4;  // of meshes whose cells are no lengths in contact radii
-// An estimate of more than this [%] may be too large by the factor: then cells that it calls too long may do, and are not shortened at
-// once by all that it asks for.
-constexpr double rough = 5, too_large = 4, at_once = 0.4;
-
-// Other numbers of cells may not fit the lengths of graded ones: then somewhat shorter ones do.
-Geometry with_cells(const Geometry& written, double factor) {
-  for (int i = 0;; ++i, factor *= 0.97) {
-    Geometry geometry = written;
-    scale_cells(geometry, factor);
-    if (i == 10 || std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry)) return geometry;
-  }
-}
+constexpr double finest_of_block = 0.04, finest_of_disc = 0.01;  // finer ones were never tried
+constexpr double most_hex8 = 6e4;                                // of meshes whose cells are no lengths in contact radii
+constexpr double worth_a_forecast = 1e4;                         // cells: fewer take some seconds
 
 // cells to where the indenters are, unless the config says where
 void place_cells(IndentedBlock& block, const Footprint& print) {
@@ -119,26 +109,7 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
   return replaced;
 }
 
-// as it would be on cells longer by the factor `edge`, in increments longer by `step` [%]
-double percent_with(ErrorEstimate e, double edge, double step) {
-  e.cells *= std::pow(edge, e.order), e.increments *= step * step, e.scatter *= edge * edge;
-  return e.in_percent(e.total());
-}
-
 }  // namespace
-
-void put(const ChosenLevel& chosen, SolveConfig& config) {
-  const AccuracyLevel& level = chosen.level;
-  Geometry& geometry = config.mesh->geometry;
-  if (double* edge = edge_in_contact_radii(geometry))
-    *edge = level.edge;
-  else
-    geometry = level.edge == 1 ? chosen.written : with_cells(chosen.written, level.edge);
-  const double first = config.path.first_increment();
-  if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
-  if (config.path.seconds) config.path.first = std::min(first, level.step);  // its error decides: longer ones are begun again
-  config.mesh->cells = level.cells;
-}
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
   // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
@@ -225,44 +196,50 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   return found;
 }
 
-std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates) {
-  AccuracyLevel finer = chosen.level;
-  const double enough = 0.8 * chosen.wanted;
-  double step = 1, edge = 1;  // factors
-  const std::vector<ErrorEstimate> forces = forces_judged(estimates);
-  for (const ErrorEstimate& e : forces) {
-    const double increments = e.in_percent(std::abs(e.increments));
-    if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
-    // an estimate of few increments scatters by more than itself, and a fifth more of them cost less than shorter cells
-    else if (increments > 0.05 * chosen.wanted)
-      step = std::min(step, 0.8);
-  }
-  const double least = chosen.finest / chosen.level.edge;
-  for (const ErrorEstimate& e : forces) {
-    const bool is_rough = e.in_percent(e.total()) > rough;
-    if (percent_with(e, least, step) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
-    while (percent_with(e, edge, step) > enough && edge > (is_rough ? std::max(least, at_once) : least)) edge *= 0.97;
-  }
-  finer.edge *= edge, finer.step *= step;
-  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)), finer.edge = std::max(finer.edge, chosen.finest);
-  if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step) return std::nullopt;
-  return finer;
-}
-
-std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen) {
-  AccuracyLevel shorter = chosen.level;
-  shorter.edge *= 0.7;
-  return shorter.edge < chosen.finest ? std::nullopt : std::optional(shorter);
-}
-
 Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
-    : voice_(voice), config_(config), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
+    : voice_(voice), config_(config), material_(material), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
   begins_ = !chosen_->shown && chosen_->level.in_contact_radii && config_.estimate == EstimateBy::refinement;
   if (begins_)
     voice_.say("accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
                dry ? " (not with --dry-run)" : "");
+  if (begins_ && dry) {
+    const AccuracyLevel next = finest_at_once(*chosen_);
+    voice_.say("accuracy: a next level, where these cells are not enough, takes up to {}",
+               in_words(level_cost(with(next), material_, where_)));
+  }
+}
+
+// where they have not fallen, or by chance to nearly nothing, an order says little
+OrdersSeen Accuracy::orders_since_before(const std::vector<ErrorEstimate>& estimates) {
+  OrdersSeen orders;
+  std::map<std::string, double> now;
+  for (const ErrorEstimate& e : estimates) now[e.of.name] = e.in_percent(e.total() - std::abs(e.increments));
+  const double shorter = edge_before_ / chosen_->level.edge;
+  for (const auto& [name, percent] : cells_before_)
+    if (shorter > 1.1 && now.contains(name))
+      orders[name] = std::clamp(std::log(percent / std::max(now[name], 1e-300)) / std::log(shorter), 1.0, 2.5);
+  edge_before_ = chosen_->level.edge, cells_before_ = std::move(now);
+  return orders;
+}
+
+SolveConfig Accuracy::with(const AccuracyLevel& level) const {
+  ChosenLevel other = *chosen_;
+  other.level = level;
+  SolveConfig config = config_;
+  put(other, config);
+  return config;
+}
+
+std::string Accuracy::not_begun(const AccuracyLevel& level) const {
+  const SolveConfig config = with(level);
+  const double left = seconds_left();
+  if (std::isinf(left) && n_cells(config.mesh->geometry) < worth_a_forecast) return "";
+  const LevelCost cost = level_cost(config, material_, where_);
+  voice_.say("accuracy: {}: {}, by the forecast", in_words(level), in_words(cost));
+  const std::string why = too_dear(cost, left);
+  return why.empty() ? "" : fmt::format("{} {}", in_words(level), why);
 }
 
 bool Accuracy::begin_anew(const Failure& failure) {
@@ -291,8 +268,11 @@ bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
   if (estimates.empty()) return shorter_cells();
   begins_ = false;
   const ReachedAccuracy found = reached(*chosen_, estimates);
-  const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates);
+  const OrdersSeen orders = orders_since_before(estimates);
+  const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates, orders);
   if (!finer) return false;
+  not_begun_ = not_begun(*finer);
+  if (!not_begun_.empty()) return false;
   take(*finer);
   voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
   return true;
@@ -301,11 +281,13 @@ bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
 std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {
   if (!chosen_) return {};
   const ReachedAccuracy found = reached(*chosen_, estimates);
-  if (!chosen_->shown && estimates.empty()) return {};  // not known
+  const auto judged = forces_judged(estimates);
+  const bool none = std::all_of(judged.begin(), judged.end(), [](const ErrorEstimate& e) { return e.none_yet(); });
+  if (none && (!judged.empty() || !chosen_->shown)) return {};  // not known
   return {{"accuracy", found.percent, "percent"}};
 }
 
-void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const {
+void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output, const std::string& cheaper) const {
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
@@ -313,10 +295,11 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
     return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
   throw Failure(Exit::not_accurate,
-                Error{where_(key), key, found.words, fmt::format("at most {:g} %", chosen_->wanted),
-                      fmt::format("kept: {}, solved with {}; ask for what was reached, or say where cells are to be short: "
+                Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; a next level, " + not_begun_),
+                      fmt::format("at most {:g} %", chosen_->wanted),
+                      fmt::format("kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
                                   "mesh.geometry with estimate, in place of {}",
-                                  output, in_words(chosen_->level), key)});
+                                  output, in_words(chosen_->level), cheaper, key)});
 }
 
 }  // namespace langer

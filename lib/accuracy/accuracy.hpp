@@ -5,6 +5,7 @@
 // (make accuracy). A level's error is that of the force in the scenes of its kind.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,17 @@ struct ReachedAccuracy {
 };
 ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates);
 
+// The order with which each error of cells has fallen from one level to the next, by name.
+using OrdersSeen = std::map<std::string, double>;
+
 // The level at which these errors, of one that was solved, fall below four fifths of what is wanted: cells' with the length of the
-// cells to their order, increments' with the square of their length. Nothing where it is the finest that there is, or not even that would do.
-std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates);
+// cells to their order, or that which was seen, increments' with the square of their length; but at most some times as many cells as there
+// are: the next error tells more than this one. Nothing where it is the finest that there is, or not even that would do.
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+                                         const OrdersSeen& seen = {});
+
+AccuracyLevel finest_at_once(const ChosenLevel& chosen);  // the most that finer_level takes
+double n_cells(const Geometry& geometry);                 // of numbers_of_cells, without symmetry
 
 // without an error that would say which: cells of 0.7 times the length; nothing where these would be shorter than the finest
 std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen);
@@ -72,17 +81,24 @@ class Accuracy {
   // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says so.
   bool begin_anew(const Failure& failure);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
-  // Throws Failure(not_accurate) where the estimates exceed what was asked for.
-  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output) const;
+  // Throws Failure(not_accurate) where the estimates exceed what was asked for. cheaper: what would take less; may be empty
+  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output, const std::string& cheaper = "") const;
 
  private:
   void take(const AccuracyLevel& level);
   bool shorter_cells();
+  SolveConfig with(const AccuracyLevel& level) const;
+  OrdersSeen orders_since_before(const std::vector<ErrorEstimate>& estimates);
+  std::string not_begun(const AccuracyLevel& level) const;  // why; empty where it may be
 
   Voice voice_;
   SolveConfig config_;
+  std::optional<Material> material_;
   Where where_;
   std::optional<ChosenLevel> chosen_;
+  double edge_before_ = 0;  // of the level before, and its errors of cells [%]
+  std::map<std::string, double> cells_before_;
+  std::string not_begun_;
   int without_estimate_ = 0;
   bool begins_ = false;  // with cells that no study and no estimate stands for
 };

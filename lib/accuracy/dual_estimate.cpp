@@ -7,6 +7,7 @@
 
 #include "accuracy/energy_error.hpp"
 #include "mesh/hanging.hpp"
+#include "run/step_forces.hpp"
 #include "run/step_record.hpp"
 #include "solve/state_tangent.hpp"
 
@@ -166,6 +167,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) throw not_known("a layer of one cell tells nothing of smooth fields across it");
   const bool quadratic = run.mesh.cell().second_order();
+  const std::vector<StepForces> end{step_forces(config, run.scene, run.mesh, last)};
   PathErrors out;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const Valued& q = found[asked[k].quantity];
@@ -179,6 +181,10 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     ErrorEstimate e{q, asked[k].sign * d.sum() / times, 0, 0, last.residual * std::abs(q.value)};
     if (q.of_force()) e.order = order_of_force(config);
     e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * size;
+    if (!asked[k].of_set && q.of_force())  // smooth fields do not know that nodes touch one by one
+      e.scatter = std::max(e.scatter, 0.5 * std::abs(q.value) *
+                                          one_by_one(touching_at(end, end[0].touching.contains(q.name) ? q.name : "force", last.t),
+                                                     run.mesh.section.has_value()));
     if (size > too_rough * std::abs(q.value))
       out.not_known.push_back(
           fmt::format("the error of {} is not known: the cells are too long, their parts of it add up to {:.0f} %", q.name,

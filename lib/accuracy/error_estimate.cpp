@@ -78,12 +78,6 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
-// What nodes that come into contact one by one make of a force, relative to it (make work-precision; sections: docs/work_precision.md).
-double one_by_one(double touching, bool section) {
-  if (touching < 1) return 0;
-  return std::min(0.5, section ? 0.25 / (touching * touching) : 3.1 * std::pow(touching, -1.5));
-}
-
 // What nodes that stick where they touch add to a force, relative to it: 0.7 times the square of their distance in contact radii.
 double too_early(double touching) { return touching < 1 ? 0 : std::min(0.5, 1.6 / touching); }
 constexpr double all_stick = 0.2;  // friction from which on that is so
@@ -130,6 +124,12 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 }
 
 }  // namespace
+
+// What nodes that come into contact one by one make of a force, relative to it (make work-precision; sections: docs/work_precision.md).
+double one_by_one(double touching, bool section) {
+  if (touching < 1) return 0;
+  return std::min(0.5, section ? 0.25 / (touching * touching) : 3.1 * std::pow(touching, -1.5));
+}
 
 // A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
 // do where a force is passed on by a clamped face; below an indenter such a face is far away.
@@ -323,6 +323,9 @@ PathErrors estimated(const SolveConfig& config, const std::optional<Material>& m
 }
 
 std::string in_words(const ErrorEstimate& e) {
+  if (e.none_yet())
+    return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit, e.of.name.starts_with("force") ? "nothing is touched" : "no error");
+  if (e.of.value == 0) return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
   const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, e.in_percent(e.total()));
   const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
   if (!e.has_limit) return fmt::format("{} (cells {:.2g} by recovery, solver {:.1g} %)", begins, cells, solver);

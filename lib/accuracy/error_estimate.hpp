@@ -76,11 +76,15 @@ struct ErrorEstimate {
   // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not follow one law leave more open
   // than their scatter.
   double total() const { return (order < 2 ? 1.25 : 1) * std::abs(cells) + std::abs(increments) + 2 * scatter + solver; }
+  bool none_yet() const { return of.value == 0 && total() == 0; }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
   double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
 };
 
 double order_of_force(const SolveConfig& config);  // p of its error
+
+// share of a force that nodes may make which come into contact one by one, from the number of those that touch (run/step_forces.hpp)
+double one_by_one(double touching, bool section);
 
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
 // reactions; and torques; where forces alone load the body, the displacements of its named points.

@@ -24,7 +24,9 @@ class ModelChoice {
 
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
   // Throws Failure(not_accurate) where the errors exceed what was asked for.
-  void need(const std::vector<ErrorEstimate>& errors, const std::string& output) const { accuracy_.need(errors, output); }
+  void need(const std::vector<ErrorEstimate>& errors, const std::string& output) const {
+    accuracy_.need(errors, output, section_.offered() ? "reduce: auto solves a section, on which short cells are cheap; " : "");
+  }
 
  private:
   Accuracy of_model() const;

@@ -127,7 +127,7 @@ SectionInPlace::SectionInPlace(const Voice& voice, const SolveConfig& config, co
   if (block) radii_ = radii_of(*block);
   if (config.reduce == Reduce::automatic)
     decide(material, where, dry);
-  else if (on_a_disc(config, material, radii_.alike))
+  else if ((offered_ = on_a_disc(config, material, radii_.alike).has_value()))
     voice_.say("the scene is the same around an axis but for its sides: reduce: auto solves a section where they do not matter");
 }
 
@@ -142,7 +142,7 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
     const bool bilinear = asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
     accuracy_->level.cells = bilinear ? CellType::hex8 : CellType::hex27;
     accuracy_->level.edge = bilinear ? edge_hex8 : edge_hex27;
-    accuracy_->finest = finest;
+    accuracy_->finest = finest, accuracy_->written = section->mesh->geometry;
     put(*accuracy_, *section);
   }
   try {

@@ -12,20 +12,16 @@
 
 namespace langer {
 
-namespace {
-
-std::string amount(double bytes) {
+std::string memory_in_words(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes) : fmt::format("{:.1f} GB", 1e-9 * bytes);
 }
 
-std::string duration(double seconds) {
+std::string duration_in_words(double seconds) {
   if (seconds < 1) return fmt::format("{:.2g} s", seconds);
   if (seconds < 10) return fmt::format("{:.1f} s", seconds);
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
   return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
-
-}  // namespace
 
 void need_memory(const Statics& statics, const Statics* beside, int threads) {
   if (beside) need_memory(*beside, nullptr, threads);
@@ -39,7 +35,7 @@ void need_memory(const Statics& statics, const Statics* beside, int threads) {
                 Error{{},
                       "",
                       fmt::format("this run needs {} more than the {} it holds already, to factorize its tangent; {} are free",
-                                  amount(wanted), amount(resident_bytes()), amount(free)),
+                                  memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
                       "",
                       "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
@@ -65,7 +61,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                                  : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
                                                scene.directions.from_field() ? ", directions from a field" : ""));
     if (body.viscous())
-      line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory", amount(body.memory()->bytes())));
+      line("viscous",
+           fmt::format("branch stresses at the Gauss points take {} of the memory", memory_in_words(body.memory()->bytes())));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
@@ -76,12 +73,12 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                                 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
     line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps, f.iterations,
                              f.again > 0 ? fmt::format("Newton + {:.0f} modified ", f.again) : ""));
-    line("memory",
-         fmt::format("{}; {} are free{}", amount(f.bytes), amount(free), f.size.factor_bytes > free ? ": this will not fit" : ""));
+    line("memory", fmt::format("{}; {} are free{}", memory_in_words(f.bytes), memory_in_words(free),
+                               f.size.factor_bytes > free ? ": this will not fit" : ""));
     line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}{}",
-                             duration(f.seconds()), f.per_iteration() + f.contact, f.assembly, f.factor, f.solving,
+                             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly, f.factor, f.solving,
                              f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
-    if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration(estimate)));
+    if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration_in_words(estimate)));
   }
   return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},
           {"cells", static_cast<double>(body.mesh().n_cells()), "-"},

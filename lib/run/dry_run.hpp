@@ -1,6 +1,7 @@
 // What a solve would take, before it: for --dry-run, and to refuse a run that will not fit in memory.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -9,6 +10,9 @@
 #include "store/provenance.hpp"
 
 namespace langer {
+
+std::string memory_in_words(double bytes);      // "430 MB"
+std::string duration_in_words(double seconds);  // "40 s"
 
 // Throws Failure(config) where the factor of the tangent, or that of a mesh beside it, exceeds the memory that is free or allowed.
 void need_memory(const Statics& statics, const Statics* beside, int threads);

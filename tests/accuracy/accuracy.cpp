@@ -1,10 +1,14 @@
 // What a wanted accuracy puts into a config.
 #include "accuracy/accuracy.hpp"
 #include "accuracy/footprint.hpp"
+#include "accuracy/level_cost.hpp"
+#include "support/laws.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 
 using namespace langer;
 
@@ -189,23 +193,90 @@ TEST_CASE("cells go where the indenters are, unless the config says where") {
 
 TEST_CASE("the next level follows from the error of the one before: cells by their order, increments by its square") {
   ChosenLevel chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, "", 0.04};
+  chosen.written = IndentedBlock{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.16};
   const auto of = [](double cells, double increments, double scatter = 0, double order = 2) {
     return ErrorEstimate{{"force", "N", 100}, cells, increments, scatter, 0, order};
   };
-  const auto by_cells = finer_level(chosen, {of(3.2, 0)});
+  const auto by_cells = finer_level(chosen, {of(2.2, 0)});
   REQUIRE(by_cells.has_value());
-  CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 3.2)).epsilon(0.05));
+  CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 2.2)).epsilon(0.05));
   CHECK(by_cells->step == 0.25);
-  CHECK(finer_level(chosen, {of(3.2, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 3.2).epsilon(0.05));
-  const auto by_step = finer_level(chosen, {of(0.3, 3)});
+  CHECK(finer_level(chosen, {of(1, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  const auto by_step = finer_level(chosen, {of(0.3, 2)});
   REQUIRE(by_step.has_value());
-  CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.1)).epsilon(0.01));
+  CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.15)).epsilon(0.01));
   CHECK(by_step->edge > 0.15);
-  // of much, which is rough, not all at once, and where it may be too large
-  CHECK(finer_level(chosen, {of(10, 0, 0, 1)})->edge == doctest::Approx(0.4 * 0.16).epsilon(0.05));
-  CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));
+  // with the order that was seen
+  CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge == doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));  // not even the finest
   chosen.level.edge = 0.04;
   CHECK(!finer_level(chosen, {of(3.2, 0)}));  // the finest there is
+}
+
+TEST_CASE("a level has at most eight times the cells of the one before, whatever its error, and three times the increments") {
+  const auto from = [](const Geometry& written, double edge, double finest) {
+    ChosenLevel chosen{{CellType::hex8, edge, 0.25, 0}, 0.1, false, false, "", finest};
+    chosen.written = written;
+    SolveConfig before, after;
+    before.mesh.emplace(), after.mesh.emplace();
+    before.mesh->geometry = after.mesh->geometry = written;
+    put(chosen, before);
+    for (double cells : {0.3, 3.0, 30.0}) {
+      CAPTURE(cells);
+      const auto next = finer_level(chosen, {ErrorEstimate{{"force", "N", 1000}, cells, cells, 0, 0, 2}});
+      if (!next) continue;
+      ChosenLevel other = chosen;
+      other.level = *next;
+      put(other, after);
+      CHECK(n_cells(after.mesh->geometry) <= 8 * n_cells(before.mesh->geometry));
+      CHECK(n_cells(after.mesh->geometry) > n_cells(before.mesh->geometry));
+      CHECK(next->step >= 0.25 / 3 - 1e-12);
+    }
+    CHECK(finest_at_once(chosen).edge < 0.8 * edge);
+    CHECK(finest_at_once(chosen).edge >= finest - 1e-12);
+  };
+  from(IndentedBlock{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175}, 0.175, 0.04);
+  from(IndentedDisc{{15, 4}, 0, 2.5, 1, 0.07}, 0.07, 0.01);
+  Block block;
+  block.size = {10, 2, 10}, block.divisions = {10, 4, 10};
+  from(block, 1, 0.2);
+}
+
+TEST_CASE("what a level would take is held against memory and time, and the limits of both are known") {
+  CHECK(too_dear({10, 1e9, 2e9}, 20).empty());
+  CHECK(too_dear({10, 3e9, 2e9}, 20).find("3.0 GB") != std::string::npos);
+  CHECK(too_dear({30, 1e9, 2e9}, 20).find("30 s") != std::string::npos);
+  CHECK(!too_dear({30, 1e9, 2e9}, -5).empty());
+  setenv("SLURM_JOB_END_TIME", std::to_string(std::time(nullptr) + 100).c_str(), 1);
+  CHECK(seconds_left() <= 101);
+  CHECK(seconds_left() > 50);
+  unsetenv("SLURM_JOB_END_TIME");
+  SolveConfig coarse = indentation(), fine = indentation();
+  for (SolveConfig* config : {&coarse, &fine}) {
+    config->supports = {{"bottom", {Axis::x, Axis::y, Axis::z}}};
+    config->material = test::neo_hooke(0.1, 1e-3);
+  }
+  std::get<IndentedBlock>(fine.mesh->geometry).edge = 0.15;
+  const auto nowhere = [](const std::string&) { return Place{}; };
+  const LevelCost less = level_cost(coarse, coarse.material, nowhere), more = level_cost(fine, fine.material, nowhere);
+  CHECK(less.seconds > 0);
+  CHECK(more.seconds > 2 * less.seconds);
+  CHECK(more.bytes > less.bytes);
+  CHECK(more.free > more.bytes);
+}
+
+TEST_CASE("an indenter that touches nothing has a force of 0 and no percent") {
+  const ErrorEstimate none{{"force", "N", 0}};
+  CHECK(in_words(none) == "force 0 N: nothing is touched");
+  CHECK(in_words(ErrorEstimate{{"force", "N", 0}, 0.01}).find("%") == std::string::npos);
+  SolveConfig config = indentation();
+  config.accuracy = "1%";
+  const Accuracy accuracy(
+      Voice{"solve", true}, config, std::nullopt, [](const std::string&) { return Place{}; }, false);
+  CHECK(accuracy.summary({none}).empty());
+  accuracy.need({none}, "out.h5");
+  REQUIRE(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}}).size() == 1);
+  CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value == doctest::Approx(0.5));
 }
 
 TEST_CASE("cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {

@@ -64,3 +64,20 @@ expect_said("errors are not estimated: that takes more than a third of the solve
 # without an estimate nothing is judged, which is said
 run(0 ${BIN}/langer-solve beside.yaml -o loose.h5 --set accuracy=2% --set estimate=none)
 expect_said("nothing was estimated")
+
+# a level that a job leaves no time for is not begun: what was reached is kept and told, and what the level would take
+file(WRITE ${folder}/punch.yaml "include: configs/solve/refinement_isotropic.yaml
+mesh:
+  geometry: {indented_block: {origin: [-8, 0, -8], size: [16, 4, 16], radius: 2, depth: 0.4}}
+contacts:
+  sphere: {on: '', rigid: {cylinder: {radius: 1.5, edge: 0.2, face: [0, 4, 0]}}, motion: [{t: 1, to: [0, -0.3, 0]}]}
+accuracy: 1%
+")
+execute_process(COMMAND ${CMAKE_COMMAND} -E env SLURM_JOB_END_TIME=1 ${BIN}/langer-solve punch.yaml -o punch.h5
+  WORKING_DIRECTORY ${folder} RESULT_VARIABLE code ERROR_VARIABLE said)
+expect_equal(${code} 5 "exit code where no time is left")
+expect_said("asked for 1 %")
+expect_said("a next level, hex8 of ")
+expect_said("and 0 s are left")
+expect_said("reduce: auto solves a section")
+run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution punch.h5 -o curves.h5 --quiet)
