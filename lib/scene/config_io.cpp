@@ -6,6 +6,5 @@ template Loaded<SolveConfig> read_config(Tree);
 template Loaded<MeshConfig> read_config(Tree);
 template Loaded<Material> read_config(Tree);
 template Tree to_tree(const SolveConfig&, const PathText&);
-template void collect_files(const SolveConfig&, const std::string&, std::vector<NamedFile>&);
 
 }  // namespace langer

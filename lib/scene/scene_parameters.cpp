@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -78,12 +77,6 @@ double largest_modulus(Material material) {
   return largest > 0 ? largest : 1;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
 }  // namespace
 
 std::string derivative_name(const std::string& quantity, const SceneParameter& parameter) {
@@ -153,7 +146,8 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (look_in(beginning, body, body)) return;
   }
   const std::string near = nearest(key, known);
-  refuse("", "a number of the scene: " + joined(known), near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+  refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")),
+         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
 }
 
 bool SceneParameters::turns_fibres() const {
@@ -190,15 +184,6 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
     other.materials = std::move(laws.materials), other.directions = std::move(laws.directions);
   }
   return other;
-}
-
-std::optional<double> percent_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string rest(end, text.data() + text.size());
-  std::erase(rest, ' ');
-  if (error != std::errc{} || rest != "%" || !std::isfinite(value) || !(value > 0)) return std::nullopt;
-  return value;
 }
 
 }  // namespace langer

@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "base/former.hpp"
 #include "base/history.hpp"
+#include "base/percent.hpp"
 #include "contact/adhesion.hpp"
 #include "contact/rigid.hpp"
 #include "element/solid.hpp"
@@ -144,8 +145,6 @@ constexpr auto names(Reduce) { return std::array{"none", "auto"}; }
 // Whether a body that deforms alike everywhere is solved at a point (run/homogeneous.hpp).
 enum class Homogeneous { automatic, off };
 constexpr auto names(Homogeneous) { return std::array{"auto", "off"}; }
-
-std::optional<double> percent_of(const std::string& text);  // "1%" or "1 %": 1; nothing where it is none above 0
 
 struct BodyConfig {
   std::optional<Material> material;
