@@ -13,7 +13,13 @@ inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOption
                                   const Problem& problem) {
   if (const auto* options = std::get_if<KinsolOptions>(&solver))
     return kinsol(problem, statics.free_balance(), statics.trial(), *options);
-  return newton(problem, statics.trial(), std::get<NewtonOptions>(solver));
+  const NewtonOptions& options = std::get<NewtonOptions>(solver);
+  const SolveReport report = newton(problem, statics.trial(), options);
+  if (report.converged() || !problem.begins_again) return report;
+  Problem anew = problem;  // the tangent of the state before led astray: the increment as it would be without one
+  anew.begins_again = false;
+  statics.begin_anew();
+  return newton(anew, statics.trial(), options);
 }
 
 inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOptions>& solver, Statics& statics) {

@@ -54,7 +54,8 @@ class Statics {
  public:
   Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options);
 
-  void begin(double t);        // put the trial state at the start of an increment to t
+  void begin(double t);  // put the trial state at the start of an increment to t
+  void begin_anew() { begin(t_); }
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }

@@ -92,8 +92,10 @@ Found run(const Pressed& scene, Number number, double by, bool differentiate) {
       path, 0, {}, {},
       [&](double t) {
         statics.begin(t);
-        return scene.kinsol ? kinsol(statics.problem(), statics.free_balance(), statics.trial(), {.relative = 1e-12})
-                            : newton(statics.problem(), statics.trial(), tight);
+        Problem problem = statics.problem();
+        problem.begins_again = false;  // paths that are compared are found alike
+        return scene.kinsol ? kinsol(problem, statics.free_balance(), statics.trial(), {.relative = 1e-12})
+                            : newton(problem, statics.trial(), tight);
       },
       [&](double, double, double, const SolveReport&) {
         statics.accept();
