@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "accuracy/accuracy.hpp"
@@ -29,9 +30,12 @@ Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item, const Sc
   return loaded;
 }
 
-// where increments end: measured places that are no closer than half the largest of them
+// Where increments end: measured places that are no closer than half the largest of them. The travel of an indenter that is pushed begins
+// upright over its force, where no polynomial follows it: there all places.
 std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const FitConfig& config, double largest) {
-  std::set<double> places, kept;
+  constexpr double apart = 0.499;
+  std::map<double, double> places;  // with the room that they need
+  std::set<double> kept;
   for (const SceneTest* test : tests) {
     for (std::size_t row = 0; row < test->s.size(); ++row) {
       const double s = test->s[row];
@@ -39,15 +43,15 @@ std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const F
       if (const auto t = test->over.find(s - (test->over.key == "u_ind" ? config.data[test->data].touch_offset : 0), piece,
                                          SceneTests::beyond_path);
           t && *t > 0 && *t < 1)
-        places.insert(*t);
+        places.insert({*t, test->over.key == "force" && *t < 2 * largest ? 1e-3 * largest : apart * largest});
     }
     kept.insert(test->kinks.begin(), test->kinks.end());
   }
   std::vector<double> stops;
-  for (double t : places) {
+  for (const auto& [t, needed] : places) {
     const auto behind = kept.lower_bound(t);
     const double room = std::min(behind == kept.end() ? 1 : *behind - t, behind == kept.begin() ? t : t - *std::prev(behind));
-    if (room < 0.499 * largest) continue;
+    if (room < needed) continue;
     stops.push_back(t), kept.insert(t);
   }
   return stops;
