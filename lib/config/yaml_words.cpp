@@ -11,14 +11,14 @@ namespace langer {
 
 namespace {
 
-struct Line {
+struct TextLine {
   std::string text;
   std::size_t indent = 0;  // blanks and tabs at its begin
   bool empty = true;       // nothing, or a comment
 };
 
-std::vector<Line> lines_of(const std::string& text) {
-  std::vector<Line> lines;
+std::vector<TextLine> lines_of(const std::string& text) {
+  std::vector<TextLine> lines;
   std::istringstream stream(text);
   for (std::string s; std::getline(stream, s);) {
     const std::size_t first = s.find_first_not_of(" \t\r");
@@ -32,7 +32,7 @@ struct Opened {
   std::size_t line = 0, column = 0;
   char mark = 0;
 };
-std::optional<Opened> first_open(const std::vector<Line>& lines, std::size_t until) {
+std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t until) {
   std::vector<Opened> open;
   for (std::size_t i = 0; i <= until && i < lines.size(); ++i) {
     const std::string& s = lines[i].text;
@@ -55,7 +55,7 @@ std::optional<Opened> first_open(const std::vector<Line>& lines, std::size_t unt
 }
 
 // columns at which the blocks that are open before a line begin, ascending; a list's item opens one behind its dash
-std::vector<std::size_t> levels_before(const std::vector<Line>& lines, std::size_t at) {
+std::vector<std::size_t> levels_before(const std::vector<TextLine>& lines, std::size_t at) {
   std::vector<std::size_t> levels;
   for (std::size_t i = 0; i < at; ++i) {
     if (lines[i].empty) continue;
@@ -75,7 +75,7 @@ std::string words_of(const std::vector<std::size_t>& levels) {
 }
 
 // "friction:0.3" is one word for YAML
-std::optional<std::size_t> colon_without_blank(const Line& line) {
+std::optional<std::size_t> colon_without_blank(const TextLine& line) {
   const std::string& s = line.text;
   std::size_t k = line.indent;
   if (s.compare(k, 2, "- ") == 0) k += 2;
@@ -88,7 +88,7 @@ std::optional<std::size_t> colon_without_blank(const Line& line) {
 }  // namespace
 
 YamlTrouble yaml_trouble(const std::string& text, int line, int column, const std::string& words) {
-  const std::vector<Line> lines = lines_of(text);
+  const std::vector<TextLine> lines = lines_of(text);
   const auto at = static_cast<std::size_t>(std::max(line, 1) - 1), last = std::min(at, lines.empty() ? 0 : lines.size() - 1);
   const auto place = [](std::size_t row, std::size_t k) { return std::pair{static_cast<int>(row) + 1, static_cast<int>(k) + 1}; };
   for (std::size_t i = 0; i <= last && i < lines.size(); ++i)
