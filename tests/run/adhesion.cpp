@@ -82,8 +82,7 @@ TEST_CASE("adhesion: a sphere pulled off a soft body, near to JKR though bonds a
   double pull = 0;
   for (const StepRecord& step : found.steps) pull = std::max(pull, -step.force_ind[1]);
   const double jkr = 1.5 * std::acos(-1.0) * 5e-4 * 5;
-  CHECK(pull ==
-        doctest::Approx(jkr).epsilon(0.15));  // cells and bonds that are coarse and long: pipelines/pull_off.yaml is within 5 %
+  CHECK(pull == doctest::Approx(jkr).epsilon(0.15));  // cells and bonds that are coarse and long: docs/adhesion.md
   CHECK(std::abs(sums_of(found).back().balance) < 2e-3);
   CHECK(sums_of(found).back().pull_off == doctest::Approx(pull));  // what points away from the axis is no pull
   for (const Vec3& r : found.last().contacts.at("ball").r) CHECK(r.isZero(0));
