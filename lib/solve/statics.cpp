@@ -295,7 +295,8 @@ Problem Statics::problem() {
   p.correction = [this] { return correction(); };
   if (equilibrium_.formulation() != Formulation::displacement) {
     p.correction_again = [this] { return correction_again(); };
-    p.price = price(), p.begins_again = factor_serves_;
+    // bonds that let go solve several times within an increment, and only the first time with what the state before left
+    p.price = price(), p.begins_again = factor_serves_ && bonds_.none();
   }
   p.admissible = [this](const VecX& u) { return admissible(u); };
   p.moved = [this](const VecX& du, double step) { moved(du, step); };
