@@ -9,6 +9,7 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <filesystem>
 #include <fstream>
@@ -303,9 +304,12 @@ Tree load(const std::string& path, Reading& reading) {
   if (!file)
     throw Failure(Exit::input, fs::exists(path, ec) ? Error{{path, 0, 0}, "", "cannot be read", "", ""}
                                                     : Error{{path, 0, 0}, "", "there is no such file", "", meant_for(path)});
-  std::string text(largest_file + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  std::string text;  // by parts: a device has no size, and most files are small
+  std::array<char, 1 << 14> part;
+  do {
+    file.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file && text.size() <= largest_file);
   if (text.size() > largest_file) refuse({path, 0, 0}, fmt::format("larger than {} bytes", largest_file), "a YAML file");
   reading.files.push_back(own_name(path));
   Tree tree = parse(text, path, fs::path(path).parent_path().string(), reading.n_parts);
