@@ -98,9 +98,12 @@ void sync_folder_of(const std::string& path) {
   sync_path(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 
-void write_text_file(const std::string& path, const std::string& text) {
+namespace {
+
+// beside it, to be renamed; returns its path
+std::string write_part(const std::string& path, const std::string& text) {
   need_replaceable_by(path, text);
-  const std::string part = path + ".part";
+  std::string part = path + ".part";
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
@@ -110,7 +113,15 @@ void write_text_file(const std::string& path, const std::string& text) {
     errno = reason;
     cannot_write(path);
   }
-  rename_durably(part, path);
+  return part;
+}
+
+}  // namespace
+
+void write_text_file(const std::string& path, const std::string& text) { rename_durably(write_part(path, text), path); }
+
+void write_text_file_soon(const std::string& path, const std::string& text) {
+  if (std::rename(write_part(path, text).c_str(), path.c_str()) != 0) cannot_write(path);
 }
 
 }  // namespace langer

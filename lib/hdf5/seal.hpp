@@ -13,5 +13,7 @@ Seal seal_of(const std::string& path);
 void rename_durably(const std::string& from, const std::string& to);
 void sync_folder_of(const std::string& path);                            // that the name of a new file lasts
 void write_text_file(const std::string& path, const std::string& text);  // through <path>.part
+// As write_text_file, without waiting for the disk: for the many small files that the same command makes again at any time.
+void write_text_file_soon(const std::string& path, const std::string& text);
 
 }  // namespace langer

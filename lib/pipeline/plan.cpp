@@ -197,7 +197,7 @@ void make_folder(const fs::path& path) {
 bool write_if_changed(const fs::path& path, const std::string& text) {
   if (holds(path, text)) return false;
   make_folder(path.parent_path());
-  write_text_file(path.string(), text);
+  write_text_file_soon(path.string(), text);
   return true;
 }
 
