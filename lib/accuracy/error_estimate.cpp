@@ -351,10 +351,7 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
 
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
   const Refinements refined = refinements(config, where);
-  const auto seconds = [&](const SolveConfig& scene) {
-    Run run(body_mesh(scene, "", where), scene, material, where);
-    return forecast_of(scene, run.body, run.statics, run.scene.stops).seconds();
-  };
+  const auto seconds = [&](const SolveConfig& scene) { return forecast_of(scene, material, where).seconds(); };
   double sum = refined.per_change == 0 ? 0 : seconds(refined.other_increments);
   for (const auto* scenes : {&refined.hex8, &refined.hex27})
     for (const SolveConfig& scene : *scenes) sum += seconds(scene);

@@ -9,23 +9,17 @@
 #include <ctime>
 #include <limits>
 
+#include "accuracy/error_estimate.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
-#include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 
 namespace langer {
 
-namespace {
-constexpr double estimate_too = 1.5, with_other_increments = 1.9;  // docs/work_precision.md
-}  // namespace
-
 LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where) {
-  Run run(body_mesh(config, "", where), config, material, where);
-  const Forecast f = forecast_of(config, run.body, run.statics, run.scene.stops);
-  const bool estimated = config.estimate == EstimateBy::refinement;
-  const double times = !estimated ? 1 : has_friction(config) || config.path.seconds ? with_other_increments : estimate_too;
-  return {times * f.seconds(), f.bytes, resident_bytes() + std::min(free_memory(), free_address())};
+  const Forecast f = forecast_of(config, material, where);
+  const double estimate = config.estimate == EstimateBy::refinement ? estimate_seconds(config, material, where) : 0;
+  return {f.seconds() + estimate, f.bytes, resident_bytes() + std::min(free_memory(), free_address())};
 }
 
 std::string in_words(const LevelCost& cost) {

@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "base/say.hpp"
 #include "mesh/reference.hpp"
+#include "run/body_mesh.hpp"
 
 namespace langer {
 
@@ -44,6 +45,11 @@ Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent,
                   statics.contact_in_tangent());
+}
+
+Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where) {
+  Run run(body_mesh(config, "", where), config, material, where);
+  return forecast_of(config, run.body, run.statics, run.scene.stops);
 }
 
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,

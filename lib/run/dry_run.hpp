@@ -1,9 +1,11 @@
 // What a solve would take, before it: for --dry-run, and to refuse a run that will not fit in memory.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "run/run.hpp"
 #include "scene/scene.hpp"
 #include "solve/forecast.hpp"
 #include "solve/statics.hpp"
@@ -19,6 +21,9 @@ void need_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
 Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops);
+
+// of a scene that is made for it
+Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where);
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
 // estimate: seconds that the estimate of its errors takes, 0 where none is wanted
