@@ -258,9 +258,9 @@ bool Accuracy::shorter_cells() {
 }
 
 void Accuracy::take(const AccuracyLevel& level) {
+  config_ = with(level);
   chosen_->level = level, chosen_->level.error = 0;
   chosen_->met = chosen_->shown = false;  // no study stands for it
-  put(*chosen_, config_);
 }
 
 bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {

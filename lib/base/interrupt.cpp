@@ -14,6 +14,8 @@ volatile std::sig_atomic_t signal_seen = 0, places_to_stop = 0, patience = 0;  /
 constexpr int any = -1;
 timespec seen_at;
 
+bool is_awaited(int signal) { return patience == any || patience == signal; }
+
 void say(const char* words) { [[maybe_unused]] const ssize_t n = write(2, words, std::char_traits<char>::length(words)); }
 
 [[noreturn]] void end_at_once(int signal) {
@@ -37,7 +39,7 @@ void on_signal(int signal) {
   if (signal_seen != 0 || places_to_stop == 0) end_at_once(signal);
   seen_at = now;
   signal_seen = signal;
-  if (patience != 0 && (patience == any || patience == signal))
+  if (is_awaited(signal))
     alarm(EndsSoon::seconds);
   else
     say("\nends after this step; a second signal ends at once\n");
@@ -66,7 +68,7 @@ Interruptible::~Interruptible() { places_to_stop = 0; }
 EndsSoon::EndsSoon(int after) {
   patience = after == 0 ? any : after;
   std::signal(SIGALRM, on_alarm);
-  if (signal_seen != 0 && (after == 0 || after == signal_seen)) alarm(seconds);  // it came just before
+  if (signal_seen != 0 && is_awaited(signal_seen)) alarm(seconds);  // it came just before
 }
 
 EndsSoon::~EndsSoon() {
