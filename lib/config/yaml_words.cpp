@@ -39,7 +39,7 @@ std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t
     for (std::size_t k = 0; k < s.size(); ++k) {
       const bool quoted = !open.empty() && (open.back().mark == '"' || open.back().mark == '\'');
       if (quoted) {
-        if (s[k] == open.back().mark && !(s[k] == '"' && s[k - 1] == '\\')) open.pop_back();
+        if (s[k] == open.back().mark && !(s[k] == '"' && k > 0 && s[k - 1] == '\\')) open.pop_back();
       } else if (s[k] == '#' && (k == 0 || s[k - 1] == ' ' || s[k - 1] == '\t')) {
         break;
       } else if (s[k] == '[' || s[k] == '{' ||
