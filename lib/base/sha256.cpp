@@ -83,7 +83,7 @@ std::string sha256_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error(path + " cannot be read");
   Sum sum;
-  std::vector<char> block(std::size_t{1} << 20);
+  std::vector<char> block(std::size_t{1} << 16);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
     sum.take({block.data(), static_cast<std::size_t>(in.gcount())});
   return sum.end();

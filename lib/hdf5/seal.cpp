@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -33,7 +34,7 @@ constexpr std::size_t seal_length = seal_begin.size() + 16 + 1;  // begin, 16 he
 template <class Take>
 std::uint64_t over_blocks(std::ifstream& in, std::uintmax_t bytes, const Take& take) {
   std::uint64_t h = 0xcbf29ce484222325u;
-  std::vector<char> block(std::size_t{1} << 20);
+  std::vector<char> block(static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, 1 << 20)));
   while (bytes > 0) {
     const std::size_t n = static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, block.size()));
     if (!in.read(block.data(), static_cast<std::streamsize>(n))) return 0;
