@@ -78,10 +78,10 @@ AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wa
 double finest_edge(const MeshConfig& mesh) {
   if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
   if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
-  double cells = reference(mesh.cells).second_order() ? 8 : 1;
-  int axes = 0;
-  for (int n : numbers_of_cells(mesh.geometry)) cells *= n, axes += n > 1;
-  return std::min(1.0, std::pow(cells / most_hex8, 1.0 / std::max(axes, 1)));
+  const double cells = (reference(mesh.cells).second_order() ? 8 : 1) * n_cells(mesh.geometry);
+  const std::vector<int> along = numbers_of_cells(mesh.geometry);
+  const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
+  return std::min(1.0, std::pow(cells / most_hex8, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
 }
 
 // What the config says stays where it is finer; what does not is told. `written`: before anything was chosen.
