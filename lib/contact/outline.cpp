@@ -8,6 +8,15 @@
 
 namespace langer {
 
+std::vector<std::array<double, 2>> half_circle(double radius, int parts) {
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= parts; ++i) {
+    const double theta = std::numbers::pi * i / parts;
+    profile.push_back({-radius * std::cos(theta), i % parts == 0 ? 0 : radius * std::sin(theta)});
+  }
+  return profile;
+}
+
 Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
                  bool closed) {
   int least = 0;

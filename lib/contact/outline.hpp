@@ -26,6 +26,9 @@ struct Shown {
 Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
                  bool closed = true);
 
+// The profile of a sphere about 0, from along = -radius.
+std::vector<std::array<double, 2>> half_circle(double radius, int parts);
+
 // What lies on the side of the plane x[axis] = at to which `side` (1 or -1) points, and the faces in the plane that close it. A surface
 // with an end, as that of a plate with a hole, encloses nothing: there the plane leaves a line.
 struct OpenedOutline {

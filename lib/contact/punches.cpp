@@ -1,47 +1,40 @@
 #include "contact/punches.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
-
-#include "contact/rigid.hpp"
 
 namespace langer {
 
-namespace {
+std::vector<Complaint> Cylinder::complaints() const {
+  std::vector<Complaint> found;
+  if (edge > radius) found.push_back({"edge", "larger than the radius", "edge <= radius", ""});
+  if (!(vec(into).stableNorm() > 0)) found.push_back({"axis", "[0, 0, 0]", "a direction", ""});
+  return found;
+}
 
-// half a circle about 0, from along = -radius
-std::vector<std::array<double, 2>> half_circle(double radius, int parts) {
-  std::vector<std::array<double, 2>> profile;
-  for (int i = 0; i <= parts; ++i) {
-    const double theta = std::numbers::pi * i / parts;
-    profile.push_back({-radius * std::cos(theta), i % parts == 0 ? 0 : radius * std::sin(theta)});
+ShapePoint Cylinder::at(const Vec3& x) const {
+  const Vec3 a = direction(into);
+  const auto [along, rho, outward] = about({vec(face), a}, x);
+  const double side = rho - (radius - edge), end = edge - along;  // beyond the core sideways and endways
+  if (side <= 0 && end <= 0) {                                    // inside the core: the nearer of end and side
+    if (end >= side) return {end - edge, -a, Mat3::Zero()};
+    return {side - edge, outward, ring(a, outward, 1, rho)};
   }
-  return profile;
+  const double s = std::max(side, 0.0), e = std::max(end, 0.0), distance = std::hypot(s, e);
+  const Vec3 n = (s * outward - e * a) / distance;
+  Mat3 curvature = ring(a, outward, s / distance, rho);
+  if (s > 0 && e > 0) {  // on the rounded edge: curved along the meridian too
+    const Vec3 meridian = (e * outward + s * a) / distance;
+    curvature += meridian * meridian.transpose() / distance;
+  }
+  return {distance - edge, n, curvature};
 }
 
-}  // namespace
-
-Outline Sphere::outline(const Shown& shown) const {
-  return revolved(vec(centre), Vec3::UnitY(), half_circle(radius, shown.parts), 2 * shown.parts);
-}
-
-// a square about the middle of what is shown, and a net of lines
-Outline Plane::outline(const Shown& shown) const {
-  constexpr int n = 8;
-  const Vec3 a = direction(outward), middle = shown.middle - at(shown.middle).gap * a;
-  int least = 0;
-  a.cwiseAbs().minCoeff(&least);
-  const Vec3 s = shown.size / n * (Vec3::Unit(least) - a[least] * a).normalized();
-  const Vec3 t = cross(a, s);
-  Outline out;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) out.points.push_back(middle + (i - 0.5 * n) * s + (j - 0.5 * n) * t);
-  const auto at_grid = [](int i, int j) { return i * (n + 1) + j; };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) out.faces.push_back({at_grid(i, j), at_grid(i + 1, j), at_grid(i + 1, j + 1), at_grid(i, j + 1)});
-  for (int i = 0; i <= n; ++i)
-    out.lines.push_back({at_grid(i, 0), at_grid(i, n)}), out.lines.push_back({at_grid(0, i), at_grid(n, i)});
-  return out;
+bool Cylinder::becomes(const Cylinder& other, const Isometry& op) const {
+  return radius == other.radius && edge == other.edge && goes_to(vec(face), vec(other.face), op) &&
+         turns_to(direction(into), direction(other.into), op);
 }
 
 // from its flat end as far as it is wide
@@ -56,17 +49,71 @@ Outline Cylinder::outline(const Shown& shown) const {
   return revolved(vec(face), direction(into), profile, 2 * shown.parts);
 }
 
-Outline Aperture::outline(const Shown& shown) const {
-  const int parts = shown.parts / 2;
-  std::vector<std::array<double, 2>> profile;
-  for (int i = 4; i > 0; --i) profile.push_back({edge + 0.5 * i * radius, radius});
-  for (int i = 0; i <= parts; ++i) {
-    const double theta = 0.5 * std::numbers::pi * i / parts;
-    profile.push_back({edge * (1 - std::sin(theta)), radius + edge * (1 - std::cos(theta))});
+namespace {
+
+// nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t + h_i^2))^2 = 1
+Vec3 nearest(Vec3 q, const Vec3& h) {
+  const double tiny = 1e-12 * h.minCoeff();
+  for (double& v : q) v = std::abs(v) < tiny ? std::copysign(tiny, v) : v;  // off the planes of symmetry: one nearest point
+  const Vec3 hh = h.cwiseProduct(h);
+  int least = 0;
+  h.minCoeff(&least);
+  const auto f = [&](double t) {
+    double sum = -1;
+    for (int i = 0; i < 3; ++i) sum += std::pow(h[i] * q[i] / (t + hh[i]), 2);
+    return sum;
+  };
+  double low = -hh.minCoeff() + h.minCoeff() * std::abs(q[least]), high = h.maxCoeff() * q.norm();
+  if (f(low) < 0) low = -hh.minCoeff();
+  double t = std::clamp(0.0, low, high);
+  for (int k = 0; k < 200; ++k) {  // Newton kept inside a shrinking bracket; f falls and is convex
+    const double value = f(t);
+    (value > 0 ? low : high) = t;
+    double slope = 0;
+    for (int i = 0; i < 3; ++i) slope -= 2 * std::pow(h[i] * q[i], 2) / std::pow(t + hh[i], 3);
+    double next = t - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == t || high - low <= 1e-16 * hh.maxCoeff()) break;
+    t = next;
   }
-  const double flat = radius + edge, far = std::max(0.5 * shown.size, 1.5 * flat);
-  for (int i = 1; i <= 4; ++i) profile.push_back({0, flat + 0.25 * i * (far - flat)});
-  return revolved(vec(face), direction(into), profile, 2 * shown.parts, false);
+  Vec3 c;
+  for (int i = 0; i < 3; ++i) c[i] = hh[i] * q[i] / (t + hh[i]);
+  return c;
+}
+
+}  // namespace
+
+ShapePoint Ellipsoid::at(const Vec3& x) const {
+  const Vec3 h = vec(half_axes), q = x - vec(centre);
+  const Vec3 c = nearest(q, h);
+  const Vec3 slope = 2 * c.cwiseQuotient(h.cwiseProduct(h));  // gradient of sum (c_i/h_i)^2
+  ShapePoint p;
+  p.normal = slope.normalized();
+  p.gap = (q - c).dot(p.normal);
+  // shape operator S of the surface at c, carried to the surface of constant gap: S (1 + gap S)^-1
+  const Mat3 P = tangent_projection(p.normal);
+  const Mat3 S = P * Mat3((2 * h.cwiseProduct(h).cwiseInverse()).asDiagonal()) * P / slope.norm();
+  p.curvature = S * Mat3(Mat3::Identity() + p.gap * S).inverse();
+  return p;
+}
+
+bool Ellipsoid::becomes(const Ellipsoid& other, const Isometry& op) const {
+  const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal(),
+             image = vec(other.half_axes).cwiseProduct(vec(other.half_axes)).asDiagonal();
+  return goes_to(vec(centre), vec(other.centre), op) &&
+         (op.turn * H * op.turn.transpose() - image).norm() <= same_place * image.norm();
+}
+
+double Ellipsoid::half_width() const {
+  std::array<double, 3> h = half_axes;
+  std::sort(h.begin(), h.end());
+  return h[1];
+}
+
+std::optional<Line> Ellipsoid::axis() const {
+  for (int k : {1, 0, 2})
+    if (half_axes[(k + 1) % 3] == half_axes[(k + 2) % 3]) return Line{vec(centre), Vec3::Unit(k)};
+  return std::nullopt;
 }
 
 Outline Ellipsoid::outline(const Shown& shown) const {
@@ -74,7 +121,5 @@ Outline Ellipsoid::outline(const Shown& shown) const {
   for (Vec3& x : out.points) x = vec(centre) + vec(half_axes).cwiseProduct(x);
   return out;
 }
-
-Mat3 Ellipsoid::inverse(const Mat3& A) { return A.inverse(); }
 
 }  // namespace langer

@@ -28,11 +28,11 @@ struct ShapePoint {
 struct Isometry {
   Mat3 turn = Mat3::Identity();
   Vec3 centre = Vec3::Zero();
-  Vec3 operator()(const Vec3& x) const { return centre + turn * (x - centre); }
+  Vec3 operator()(const Vec3& x) const;
 };
 inline constexpr double same_place = 1e-9;  // relative
-inline bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op) { return (op(x) - y).norm() <= same_place * (1 + y.norm()); }
-inline bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op) { return (op.turn * d - e).norm() <= same_place * e.norm(); }
+bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op);
+bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op);
 
 template <class S>
 concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, const Shown& shown) {
@@ -46,14 +46,10 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
 };
 
 // curvature round the axis a at the distance rho from it, where the normal has the component n_rho outwards: n_rho / rho along the circle
-inline Mat3 ring(const Vec3& a, const Vec3& outward, double n_rho, double rho) {
-  if (!(rho > 0) || n_rho == 0) return Mat3::Zero();
-  const Vec3 circle = cross(a, outward);
-  return (n_rho / rho) * circle * circle.transpose();
-}
-inline Mat3 tangent_projection(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }
+Mat3 ring(const Vec3& a, const Vec3& outward, double n_rho, double rho);
+Mat3 tangent_projection(const Vec3& n);
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 // of a vector of any length above 0, one whose square is no number of the machine included
-inline Vec3 direction(const std::array<double, 3>& a) { return vec(a).stableNormalized(); }
+Vec3 direction(const std::array<double, 3>& a);
 
 }  // namespace langer

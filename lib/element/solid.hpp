@@ -17,27 +17,22 @@
 // Refuses (returns false) where some det F is not positive; f and K are then meaningless.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "base/fields.hpp"
+#include "element/formulation.hpp"
 #include "element/geometry.hpp"
 #include "element/viscous_points.hpp"
 #include "material/material.hpp"
 
 namespace langer {
 
-enum class Formulation { mean_dilatation, displacement, linear_dilatation };
-constexpr auto names(Formulation) { return std::array{"mean_dilatation", "displacement", "linear_dilatation"}; }
 // dilatations, each with its pressure, of a cell: t_k, or J - 1 at each Gauss point
 int n_pressures(Formulation f, int n_nodes);
 // that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest compressive one at its Gauss points
 double local_modulus(const ElementGeometry& geometry, const double* p);
 // its change where those pressures change by dp, on the side of the point that has the largest now
 double local_modulus_change(const ElementGeometry& geometry, const double* p, const double* dp);
-// what suits a cell: as many dilatations as its nodes can follow without locking
-Formulation usual_formulation(CellType type);
 
 struct SolidElement {
   VecX f;                         // [N]; dof 3 a + i: node a, direction i

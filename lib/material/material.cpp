@@ -14,6 +14,10 @@
 
 namespace langer {
 
+Vec6 fibre_tensor(const Fibre& fibre, const Vec3& a) {
+  return fibre.kappa * identity6() + (1 - 3 * fibre.kappa) * structural_tensor(a);
+}
+
 std::vector<double> fibre_angles(const Material& material) {
   std::vector<double> alpha;
   for (const Fibre& fibre : material.fibres) alpha.push_back(fibre.alpha_deg);

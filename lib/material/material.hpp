@@ -22,7 +22,6 @@
 #include "material/viscous.hpp"
 #include "material/volume.hpp"
 #include "material/yeoh.hpp"
-#include "tensor/invariants.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -64,9 +63,7 @@ struct Response {
 };
 
 // M of a family with the direction a, components
-inline Vec6 fibre_tensor(const Fibre& fibre, const Vec3& a) {
-  return fibre.kappa * identity6() + (1 - 3 * fibre.kappa) * structural_tensor(a);
-}
+Vec6 fibre_tensor(const Fibre& fibre, const Vec3& a);
 
 // of each family [deg], from which mesh/directions.hpp makes the directions in the cells
 std::vector<double> fibre_angles(const Material& material);

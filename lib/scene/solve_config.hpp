@@ -15,7 +15,7 @@
 #include "base/percent.hpp"
 #include "contact/adhesion.hpp"
 #include "contact/rigid.hpp"
-#include "element/solid.hpp"
+#include "element/formulation.hpp"
 #include "material/at_rest.hpp"
 #include "nonlinear/kinsol.hpp"
 #include "nonlinear/load_path.hpp"
