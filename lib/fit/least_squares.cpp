@@ -178,6 +178,10 @@ class LevenbergMarquardt {
   // Where a least step is told a search ends, too, where a step promises less than this part of the cost: far less than a standard error,
   // and less than runs of scenes are exact to. Data without noise never come to that, their cost falls to 0.
   static constexpr double least_gain_ = 1e-7;
+  // And where no step gains ten times that, though the undamped one promises as much: the model has kinks, as that of a scene where fibres
+  // are taken up or let go at some Gauss point. Then the optimum is known to this part of the standard errors.
+  static constexpr double stalled_gain_ = 1e-6, known_to_ = 0.03;
+  static constexpr int stalled_steps_ = 2;
 
   void iterate(const LeastSquaresOptions& options) {
     for (s_.iterations = 0; s_.iterations < options.iterations; ++s_.iterations) {
@@ -196,6 +200,10 @@ class LevenbergMarquardt {
       if (small_) {
         if (moved_aside()) continue;
         s_.converged = true, s_.why = "optimal within the step asked for";
+        return;
+      }
+      if (options.step > 0 && (!accepted || stalled_ >= stalled_steps_) && is_known_within_errors()) {
+        s_.converged = true, s_.why = "optimal to a thirtieth of the standard errors; the model has kinks";
         return;
       }
       if (!accepted && !moved_aside()) return end("optimal within rounding", "no step lowers the cost");
@@ -228,11 +236,20 @@ class LevenbergMarquardt {
       if (MatX J = s_.J; jacobian(q_, p, J)) {
         mu_ = std::max(1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
         growth_ = 2;
+        stalled_ = gained < stalled_gain_ * s_.cost ? stalled_ + 1 : 0;
         take(p, r, J);
         return true;
       }
     mu_ = std::max(mu_, 1e-15) * growth_, growth_ *= 2;
     return false;
+  }
+
+  //   |dp_i| <= standard error_i |J dp|/s,  s^2 = |r|^2/(m - n)
+  bool is_known_within_errors() const {
+    const Eigen::Index freedom = s_.r.size() - s_.p.size();
+    if (freedom <= 0) return false;
+    const VecX d = damped_step(q_, s_.p, s_.r, s_.J, D_, VecX::Zero(s_.p.size()), 0);
+    return (s_.J * d).squaredNorm() <= known_to_ * known_to_ * 2 * s_.cost / static_cast<double>(freedom);
   }
 
   bool moved_aside() {
@@ -255,7 +272,7 @@ class LevenbergMarquardt {
   LeastSquaresResult s_;
   VecX D_, curvature_;
   double mu_ = 1e-3, growth_ = 2;
-  int asides_ = 0;
+  int asides_ = 0, stalled_ = 0;
   bool small_ = false;
   double good_enough_ = 0;
 };

@@ -154,6 +154,33 @@ TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm"
   CHECK(std::isnan(cov(2, 2)));
 }
 
+TEST_CASE("at a kink of the model a search ends where what is left is far below the standard errors, and only there") {
+  // f = p x + k x^2 |p - c|, and data whose optimum is the kink: from either side J^T r points to it and does not vanish
+  const double c = 2;
+  const VecX x = VecX::LinSpaced(20, 0.05, 1), xx = x.cwiseAbs2();
+  const VecX missed = -2 * (xx - xx.dot(x) / x.squaredNorm() * x);
+  const auto search = [&](double k) {
+    LeastSquares q;
+    q.residual = [&, k](const VecX& p, VecX& r) {
+      r = (p[0] - c) * x + k * std::abs(p[0] - c) * xx - missed;
+      return true;
+    };
+    q.slope = [&, k](const VecX& p, MatX& J) {
+      J = x + (p[0] < c ? -k : k) * xx;
+      return true;
+    };
+    q.start = vec({0.5}), q.lower = vec({-inf}), q.upper = vec({inf}), q.typical = vec({1}), q.size = (c * x + missed).norm();
+    return least_squares(q, {.iterations = 60, .kkt = 1e-11, .step = 1e-8, .good_enough = 1e-5});
+  };
+  const LeastSquaresResult slight = search(0.02), strong = search(0.2);
+  CHECK(slight.converged);
+  CHECK(slight.kkt > 1e-4);
+  CHECK(slight.why == "optimal to a thirtieth of the standard errors; the model has kinks");
+  CHECK(std::abs(slight.p[0] - c) < 0.03 * std::sqrt(covariance(slight)(0, 0)));
+  CHECK_FALSE(strong.converged);
+  CHECK(strong.p[0] == doctest::Approx(c));
+}
+
 TEST_CASE("steps into a region without model are shortened, a start without model is reported") {
   LeastSquares q;  // r = sqrt(p) - 2, defined for p >= 0 only
   q.residual = [](const VecX& p, VecX& r) {
