@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tensor/kinematics.hpp"
+#include "tensor/voigt.hpp"
 
 namespace langer {
 

@@ -10,8 +10,8 @@
 #include "support/laws.hpp"
 
 using namespace langer;
+using test::ExactPath;
 using test::run;
-using test::Run;
 
 TEST_CASE("a cube between two rough plates, held by nothing else") {
   const Mesh mesh = test::cube(4);
@@ -20,7 +20,7 @@ TEST_CASE("a cube between two rough plates, held by nothing else") {
   const RigidContact below{"below", Plane{{0, 0, 0}, {0, 1, 0}}, 0.5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}};
   const RigidContact above{"above", Plane{{0, 1, 0}, {0, -1, 0}}, 0.5, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.2, 0)}}};
   Statics statics(body, {below, above}, {});
-  const Run result = run(statics, 0.1);
+  const ExactPath result = run(statics, 0.1);
   REQUIRE(result.path.complete);
   CHECK(result.path.cut_backs == 0);
   for (int n : result.iterations) CHECK(n <= 7);

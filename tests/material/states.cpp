@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "material/catalogue.hpp"
+#include "tensor/invariants.hpp"
 #include "tensor/voigt.hpp"
 
 using namespace langer;

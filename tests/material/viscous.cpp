@@ -8,6 +8,7 @@
 
 #include "material/catalogue.hpp"
 #include "tensor/kinematics.hpp"
+#include "tensor/voigt.hpp"
 
 using namespace langer;
 

@@ -129,7 +129,7 @@ TEST_CASE("a variant may be another config file") {
 }
 
 TEST_CASE("folders of numbers sort like the numbers, every folder is safe for make") {
-  Axis axis{"alpha", "deg", true, {}, {}};
+  pipeline::Axis axis{"alpha", "deg", true, {}, {}};
   for (const char* label : {"0", "7.5", "30", "180", "0.25"}) axis.points.push_back({label, {}, {}});
   Words names;
   for (std::size_t i = 0; i < axis.points.size(); ++i) names.push_back(member_folder(axis, i));

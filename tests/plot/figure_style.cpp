@@ -66,10 +66,10 @@ HeatMap correlations(int n, const std::string& name) {
   return map;
 }
 
-struct Box {
+struct TextBox {
   double left, right, top, bottom;
 };
-Box box_of(const Label& label) {
+TextBox box_of(const Label& label) {
   const double w = text_width(label.text, label.size), h = label.size;
   const double along = label.anchor == Label::Anchor::start ? 0 : label.anchor == Label::Anchor::middle ? -w / 2 : -w;
   if (label.turned == 90) return {label.at[0] - 0.8 * h, label.at[0] + 0.1 * h, label.at[1] - along - w, label.at[1] - along};
@@ -124,9 +124,9 @@ TEST_CASE("names of parameters in a correlation lie on the page and not on each 
         FigureStyle style;
         if (width > 0) style = column(width);
         const Drawing d = heat_map(correlations(n, name), style.look());
-        std::vector<Box> boxes;
+        std::vector<TextBox> boxes;
         for (const Label& label : test::marks_of<Label>(d)) {
-          const Box b = box_of(label);
+          const TextBox b = box_of(label);
           INFO(width << " mm, " << n << " of " << name << ": " << label.text);
           CHECK(b.left > -2);
           CHECK(b.right < d.width + 2);
@@ -137,7 +137,7 @@ TEST_CASE("names of parameters in a correlation lie on the page and not on each 
         CHECK(boxes.size() == static_cast<std::size_t>(2 * n));
         for (std::size_t i = 0; i < boxes.size(); ++i)
           for (std::size_t k = 0; k < i; ++k) {
-            const Box &a = boxes[i], &b = boxes[k];
+            const TextBox &a = boxes[i], &b = boxes[k];
             const bool apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
             INFO(width << " mm, " << n << " of " << name << ": " << i << " and " << k);
             CHECK(apart);

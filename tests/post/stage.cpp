@@ -71,11 +71,11 @@ std::string folder(const std::string& name) {
   return path.string();
 }
 
-struct Run {
+struct Ended {
   int code;
   std::string said;
 };
-Run post(const std::string& where, const std::string& config, const std::string& options = "") {
+Ended post(const std::string& where, const std::string& config, const std::string& options = "") {
   std::ofstream(where + "/post.yaml") << config;
   const std::string command = "cd " + where + " && " + BIN_DIR + "/langer-post post.yaml --solution solution.h5 -o out/curves.h5 " +
                               options + " > said 2>&1";
@@ -97,7 +97,7 @@ const std::string columns = R"(columns:
 
 TEST_CASE("the table has one row per state, the unloaded one first, and columns named with units") {
   const std::string where = folder("table");
-  const Run run = post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n");
+  const Ended run = post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n");
   INFO(run.said);
   REQUIRE(run.code == 0);
   std::istringstream csv(text_of(where + "/out/curves.csv"));
@@ -123,7 +123,7 @@ TEST_CASE("zero_at takes a column's value at a state from all of them, and wants
   const CurvesFile file = read_curves(where + "/out/curves.h5");
   CHECK(file.curves.columns[1].values == std::vector<double>{-1, -0.5, 0, 0.5, 1});
   CHECK(file.curves.columns[2].values == std::vector<double>{-0.0625, 0, 0.1875, 0.5, 0.9375});
-  const Run between = post(where, "columns:\n- {quantity: u_ind, zero_at: t=0.4}\n");
+  const Ended between = post(where, "columns:\n- {quantity: u_ind, zero_at: t=0.4}\n");
   CHECK(between.code == 2);
   CHECK(between.said.find("post.yaml:2:21: columns[0].zero_at: t=0.4; expected a state of the solution") != std::string::npos);
 }
@@ -148,7 +148,7 @@ TEST_CASE("the summary is the last row with what stands beyond the table, every 
 
 TEST_CASE("snapshots are the states asked for, with fields at points and in cells that fit together") {
   const std::string where = folder("snapshots");
-  const Run run = post(where, columns + "snapshots: [last, 1, t=0.4]\n");
+  const Ended run = post(where, columns + "snapshots: [last, 1, t=0.4]\n");
   INFO(run.said);
   REQUIRE(run.code == 0);
   for (const char* name : {"snapshot_0001.hdf", "snapshot_0002.hdf", "snapshot_0004.hdf"})
@@ -193,10 +193,10 @@ TEST_CASE(
     writer.finish();
   }
   fs::rename(where + "/layers.h5", where + "/solution.h5");
-  const Run run = post(where,
-                       "columns:\n- {quantity: u_ind}\n- {quantity: von_mises, at: P}\n- {quantity: von_mises, at: Q}\n"
-                       "- {quantity: fibre_stretch, at: P}\n- {quantity: fibre_stretch, at: Q}\n- {quantity: von_mises_max}\n"
-                       "- {quantity: von_mises_max_x}\n");
+  const Ended run = post(where,
+                         "columns:\n- {quantity: u_ind}\n- {quantity: von_mises, at: P}\n- {quantity: von_mises, at: Q}\n"
+                         "- {quantity: fibre_stretch, at: P}\n- {quantity: fibre_stretch, at: Q}\n- {quantity: von_mises_max}\n"
+                         "- {quantity: von_mises_max_x}\n");
   INFO(run.said);
   REQUIRE(run.code == 0);
   const std::vector<Column> columns = read_curves(where + "/out/curves.h5").curves.columns;
@@ -224,7 +224,7 @@ TEST_CASE("figures and the picture stand beside the table, without gnuplot it sa
   const std::string config =
       columns + "figures:\n  force: {x: u_ind, y: [force]}\nrender: {field: u_x, cuts: [{axis: z, at: 0.5}]}\n";
   fs::create_directories(where + "/nothing");
-  const Run run = post(where, config, "--set snapshots=[]");
+  const Ended run = post(where, config, "--set snapshots=[]");
   CHECK(run.code == 0);
   CHECK(fs::exists(where + "/out/force.gp"));
   CHECK(text_of(where + "/out/render.svg").find("displacement u<tspan") != std::string::npos);
@@ -245,7 +245,7 @@ TEST_CASE("names that do not exist end with code 2 at their key, all together, a
   const std::string where = folder("names");
   REQUIRE(post(where, columns).code == 0);
   const std::string before = text_of(where + "/out/curves.h5");
-  const Run run = post(where, "columns:\n- {quantity: u_y, at: Q}\n- {quantity: force}\n- {history: enrgy}\n");
+  const Ended run = post(where, "columns:\n- {quantity: u_y, at: Q}\n- {quantity: force}\n- {history: enrgy}\n");
   INFO(run.said);
   CHECK(run.code == 2);
   CHECK(run.said.find("post.yaml:2:19: columns[0].at: the mesh has no nodes called \"Q\"") != std::string::npos);
@@ -266,7 +266,7 @@ TEST_CASE("a solution that is missing, cut short or of another kind ends with co
   CHECK(post(where, columns).code == 3);
   fs::create_directories(where + "/other");
   write_curves(where + "/solution.h5", {}, header().identity);
-  const Run run = post(where, columns);
+  const Ended run = post(where, columns);
   INFO(run.said);
   CHECK(run.code == 3);
   CHECK_FALSE(fs::exists(where + "/out/curves.h5"));

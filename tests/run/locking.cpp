@@ -13,7 +13,7 @@ using namespace langer;
 
 namespace {
 
-struct Scene {
+struct LoadCase {
   std::string name;
   Vec3 move;      // of the upper face, the lower one held
   double turn;    // of it about its middle, bent besides
@@ -26,7 +26,7 @@ struct Found {
   double said = 0;
 };
 
-Found sphere(const Scene& scene, CellType cells, std::optional<Formulation> formulation) {
+Found sphere(const LoadCase& scene, CellType cells, std::optional<Formulation> formulation) {
   test::Indentation indentation;
   const int q = cells == CellType::hex8 ? 1 : 2;
   indentation.cells = cells, indentation.formulation = formulation, indentation.quarter = true, indentation.mu = 0;
@@ -42,7 +42,7 @@ Found sphere(const Scene& scene, CellType cells, std::optional<Formulation> form
   return out;
 }
 
-Found block(const Scene& scene, CellType cells, std::optional<Formulation> formulation) {
+Found block(const LoadCase& scene, CellType cells, std::optional<Formulation> formulation) {
   const int n = cells == CellType::hex8 ? 6 : 3;
   Mesh mesh = test::block(test::even(0, 4, n), test::even(0, 2, n / 2 + n % 2), test::even(0, 4, n));
   test::distort(mesh, 0.08);
@@ -77,7 +77,7 @@ Found block(const Scene& scene, CellType cells, std::optional<Formulation> formu
   return out;
 }
 
-std::vector<Scene> scenes(double d) {
+std::vector<LoadCase> scenes(double d) {
   const Vec3 none = Vec3::Zero();
   return {{"tension", {0, 0.3, 0}, 0, 0, test::neo_hooke(0.5, d)},
           {"compression along fibres", {0, -0.3, 0}, 0, 0, test::table1(30, d, 0.3)},
@@ -102,7 +102,7 @@ TEST_CASE("locking: what is said of displacement and of mean_dilatation on quadr
                           {CellType::hex27, Formulation::mean_dilatation, {1, 1e-4}},
                           {CellType::tet15, Formulation::mean_dilatation, {1e-2}}})
     for (double d : c.d)
-      for (const Scene& scene : scenes(d)) {
+      for (const LoadCase& scene : scenes(d)) {
         const auto run = [&](std::optional<Formulation> f) {
           return scene.sphere > 0 ? sphere(scene, c.cells, f) : block(scene, c.cells, f);
         };

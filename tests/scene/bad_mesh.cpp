@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Run {
+struct Ended {
   int code;
   std::string said;
 };
-Run solve_on(const Mesh& mesh) {
+Ended solve_on(const Mesh& mesh) {
   const fs::path folder = fs::path(BINARY_DIR) / "test_files" / "bad_mesh";
   fs::remove_all(folder);
   fs::create_directories(folder);
@@ -50,7 +50,7 @@ TEST_CASE("a mesh file with a folded, a flat or an inverted cell is refused with
   for (const auto& [mesh, cell] : {std::pair{folded, 5}, {flat, 0}, {inverted, 0}}) {
     const auto wrong = cell;
     CAPTURE(wrong);
-    const Run run = solve_on(mesh);
+    const Ended run = solve_on(mesh);
     INFO(run.said);
     CHECK(run.code == 3);
     CHECK(run.said.find("mesh.h5: cell " + std::to_string(cell) + " is folded or flat: Jacobian ") != std::string::npos);

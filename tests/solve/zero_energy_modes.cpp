@@ -49,7 +49,7 @@ TEST_CASE("extremes: a block free to glide and spin on its base is pressed by a 
         Equilibrium body = test::equilibrium(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation,
                                              number_dofs(mesh.n_nodes(), held).dofs);
         Statics statics(body, {sphere}, {});
-        const test::Run followed = test::run(statics, 0.1);
+        const test::ExactPath followed = test::run(statics, 0.1);
         const PathReport& path = followed.path;
         REQUIRE_MESSAGE(path.complete, path.why);
         CHECK(path.cut_backs == 0);

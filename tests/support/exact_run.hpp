@@ -10,15 +10,15 @@
 
 namespace langer::test {
 
-struct Run {
+struct ExactPath {
   PathReport path;
   std::vector<int> iterations;
 };
 
-inline Run run(Statics& statics, double increment) {
+inline ExactPath run(Statics& statics, double increment) {
   LoadPathOptions options;
   options.first = options.largest = increment;
-  Run result;
+  ExactPath result;
   result.path = load_path(
       options, 0, {}, {},
       [&](double t) {
