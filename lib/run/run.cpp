@@ -69,7 +69,11 @@ RunEnd Run::follow(const RunListener& listener) {
     const auto solve = [&] {
       return equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
     };
-    SolveReport report = statics.bonds().none() ? solve() : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve);
+    const auto jumping = [&](int equilibria) {
+      if (listener.jumping) listener.jumping(t, equilibria);
+    };
+    SolveReport report =
+        statics.bonds().none() ? solve() : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;

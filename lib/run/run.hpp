@@ -15,9 +15,10 @@ constexpr bool at_end_of_path(double t) { return t >= 1 - 1e-10; }  // t is a su
 
 // Somebody who goes along; each may be empty.
 struct RunListener {
-  std::function<Problem(Problem problem, double t)> watched;                   // what the solver is given instead
-  std::function<void(double t, const SolveReport& report)> failed;             // no equilibrium at t: a shorter increment follows
-  std::function<bool(StepRecord& of_part)> of_part;                            // an accepted state; false ends the path there
+  std::function<Problem(Problem problem, double t)> watched;        // what the solver is given instead
+  std::function<void(double t, const SolveReport& report)> failed;  // no equilibrium at t: a shorter increment follows
+  std::function<void(double t, int equilibria)> jumping;            // bonds let go at t: equilibria of it that were looked for
+  std::function<bool(StepRecord& of_part)> of_part;                 // an accepted state; false ends the path there
   std::function<void(StepRecord& whole, const SolveReport& report)> of_whole;  // the same, balanced
 };
 

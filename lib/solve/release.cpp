@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/interrupt.hpp"
+
 namespace langer {
 
 namespace {
@@ -17,14 +19,15 @@ double hardest_work(const std::vector<RigidContact>& contacts) {
 }
 
 // Bonds come loose in parts, each an equilibrium: less damped while that is easy, more where it is not.
-SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve) {
+SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve, const std::function<void(int)>& jumping) {
   constexpr int parts = 400;
   constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
   const double work = hardest_work(statics.contacts());
   SolveReport all;
   Statics::Trial last = statics.kept_trial();
   double damping = work;
-  for (int i = 0; i < parts && damping < stiffest * work; ++i) {
+  for (int i = 0; i < parts && damping < stiffest * work && !interrupted(); ++i) {
+    jumping(i);
     statics.bonds().go_on();
     statics.bonds().damp(damping);
     SolveReport part = solve();
@@ -53,7 +56,8 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve) 
 
 }  // namespace
 
-SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve) {
+SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve,
+                                 const std::function<void(int)>& jumping) {
   const double from = statics.accepted().t;
   SolveReport report = solve();
   const double loosened = report.converged() ? statics.bonds().loosened() : 0;
@@ -70,7 +74,7 @@ SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, co
   if (!held.converged()) return held;
   const double before = statics.stored();
   const VecX u = statics.trial();
-  SolveReport jump = let_go(statics, solve);
+  SolveReport jump = let_go(statics, solve, jumping);
   jump.iterations += report.iterations + held.iterations, jump.again += report.again + held.again;
   if (!jump.converged()) return jump;
   const double of_loads = statics.work_of_loads(u);

@@ -13,6 +13,8 @@ namespace langer {
 
 // begun: an increment to t, which `solve` brings to equilibrium; shortest: an increment of t in which a jump may be.
 // Not converged where a bond loses more than half of its intensity, or nothing converges, in a longer one.
-SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve);
+// jumping: told in a jump how many equilibria were looked for so far. A signal ends it between two of them, not converged.
+SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve,
+                                 const std::function<void(int)>& jumping);
 
 }  // namespace langer

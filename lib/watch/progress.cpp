@@ -128,6 +128,14 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (!live_ || unstable) say_line(line);
 }
 
+void Progress::jumping(double t, int equilibria) {
+  constexpr double between = 10;  // s
+  if (equilibria == 0) said_ = wall_seconds();
+  if (wall_seconds() - said_ < between) return;
+  said_ = wall_seconds();
+  voice_.say("t = {:.6g}: bonds of the adhesion let go in a jump, {} equilibria followed so far", t, equilibria);
+}
+
 void Progress::failed(double t, const SolveReport& report) const {
   voice_.say("no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
 }

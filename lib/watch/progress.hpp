@@ -13,6 +13,7 @@ class Progress {
   void resumed(int steps, double t);
   Problem watched(Problem problem, double t);  // tells each assessment
   void accepted(const StepRecord& record, const SolveReport& report);
+  void jumping(double t, int equilibria);  // says so now and then: a jump may take longer than the steps before it
   void failed(double t, const SolveReport& report) const;
   void finished(const PathReport& path, const Statics& statics, double files) const;  // files: CPU seconds of writing
 
@@ -24,6 +25,7 @@ class Progress {
   int step_ = 0;
   double from_ = 0;  // t of the resumed step
   double start_;     // seconds, when the first step began
+  double said_ = 0;  // seconds, when a jump was told of
 };
 
 // Goes along with the n-th scene of those that an estimate solves: a line for each, its iterations as above. A signal ends it within an

@@ -56,6 +56,7 @@ RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::stri
 RunEnd Recording::along_the_path(Progress& progress) {
   RunListener listener;
   listener.watched = [&](Problem problem, double t) { return progress.watched(std::move(problem), t); };
+  listener.jumping = [&](double t, int equilibria) { progress.jumping(t, equilibria); };
   listener.failed = [&](double t, const SolveReport& report) { progress.failed(t, report); };
   listener.of_part = [&](StepRecord& record) { return watch_.of_part(record); };
   listener.of_whole = [&](StepRecord& record, const SolveReport& report) {
