@@ -52,7 +52,8 @@ struct IndentedDisc {
     v(&IndentedDisc::base, "base", unit::mm, "y of its lower face");
     v(&IndentedDisc::radius, "radius", unit::mm, "of the indenter", required, positive);
     v(&IndentedDisc::depth, "depth", unit::mm, "how deep it is pressed, at most", required, positive);
-    v(&IndentedDisc::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact", between(0.002, 1));
+    v(&IndentedDisc::edge, "edge", unit::none, "length of the cells under the indenter, in radii of the contact",
+      between(0.002, 1));
   }
   Box spans() const { return {{0, base, 0}, {size[0], size[1], 0}}; }
   SectionBox section() const;
