@@ -88,6 +88,18 @@ TEST_CASE("adhesion: a sphere pulled off a soft body, near to JKR though bonds a
   for (const Vec3& r : found.last().contacts.at("ball").r) CHECK(r.isZero(0));
 }
 
+TEST_CASE("adhesion: a sphere is pulled off as hard as off a half-space that boundary elements know") {
+  // python3 tests/peers/half_space.py 1.5 0.57: the radius that is touched at a depth of 0.06 mm
+  constexpr double half_space = 0.01132;
+  std::string scene = pulled("adhesion: {work: 5.0e-4, stiffness: 1.5}, ");
+  const auto put = [&](const std::string& old, const std::string& text) { scene.replace(scene.find(old), old.size(), text); };
+  put("size: [6, 5]", "size: [9, 6]"), put("edge: 0.08", "edge: 0.02"), put("centre: [0, 10, 0]", "centre: [0, 11, 0]");
+  put("d: 0.02", "d: 0.001"), put("[0, 0.14, 0]", "[0, 0.02, 0]");
+  double pull = 0;
+  for (const StepRecord& step : test::run(scene).steps) pull = std::max(pull, -step.force_ind[1]);
+  CHECK(pull == doctest::Approx(half_space).epsilon(0.02));
+}
+
 TEST_CASE("adhesion: work 0 is no adhesion, bit for bit") {
   const test::Ended none = test::run(pulled("friction: 0.3, ")),
                     zero = test::run(pulled("friction: 0.3, adhesion: {work: 0, stiffness: 5}, "));
