@@ -57,8 +57,8 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : now.r[0]) force += r;
     step.way = dc.norm(), step.travel = c.norm(), step.force = of_circle(mesh_, force).norm();
-    if (!now.bonds.empty() && !now.bonds[0].empty()) step.pull = pull_of(contact, mesh_, now, 0, c);
   }
+  if (!now.bonds.empty() && !now.bonds[k].empty()) step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
   double angle = 0;
   if (contact.rotation) {
     angle = contact.rotation->angle.at(now.t) - contact.rotation->angle.at(last_.t);

@@ -7,7 +7,7 @@
 //   balance     (work - stored - dissipated) over the largest work so far: what the steps are too long for [-]
 //   path        length of the way that the first indenter has gone [mm]
 //   hysteresis  work since the first indenter last began to go on after it had come back: at the end of a cycle what that has cost [N mm]
-//   pull_off    greatest pull so far of bonds on the first indenter, towards the body along the normal where they touch [N]
+//   pull_off    greatest pull so far of bonds on an indenter, towards the body along the normal where they touch [N]
 //   relaxation  force of the first indenter over its greatest so far [-]
 // stored counts the work against viscous branches too (element/viscous_points.hpp), whether they still hold it or not.
 #pragma once

@@ -62,7 +62,7 @@ constexpr QuantityLine lines[]{
      history<"energy_released">, {.contact = true, .history = "energy_released"}},
     {"bonded_area", "mm^2", "bonded area", "at rest, times the intensity of its bonds: what has touched and has not come loose",
      history<"bonded_area">, {.contact = true, .history = "bonded_area"}},
-    {"pull_off", "N", "greatest pull so far", "of the bonds on the first indenter towards the body, along the normal where it touches; never negative",
+    {"pull_off", "N", "greatest pull so far", "of the bonds on an indenter towards the body, along the normal where it touches, of several the greatest; never negative",
      [](const StepState& s) { return s.sums.pull_off; }, {.contact = true, .shapes = true, .history = "adhesion_stored"}},
     {"work", "N mm", "work of the indenter and of imposed displacements", "done on the body since rest; positive where indenter and imposed displacements press or pull against it",
      [](const StepState& s) { return s.sums.work; }, {.shapes = true}},

@@ -100,6 +100,17 @@ TEST_CASE("adhesion: a sphere is pulled off as hard as off a half-space that bou
   CHECK(pull == doctest::Approx(half_space).epsilon(0.02));
 }
 
+TEST_CASE("adhesion: the greatest pull is found on whichever indenter adheres") {
+  const std::string alone = plate("{work: 0.02, stiffness: 20}", "[{t: 1, to: [0, 0.1, 0]}]", "path: {steps: 20}\n");
+  std::string beside = alone;
+  beside.replace(beside.find("{plate:"), 7,
+                 "{aside: {on: x_max, rigid: {plane: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
+                 "motion: [{t: 1, to: [0, 0.1, 0]}]}, plate:");
+  const double pull = sums_of(test::run(alone)).back().pull_off;
+  CHECK(pull == doctest::Approx(area * std::sqrt(0.02 * 20)).epsilon(0.02));
+  CHECK(sums_of(test::run(beside)).back().pull_off == doctest::Approx(pull).epsilon(1e-9));
+}
+
 TEST_CASE("adhesion: work 0 is no adhesion, bit for bit") {
   const test::Ended none = test::run(pulled("friction: 0.3, ")),
                     zero = test::run(pulled("friction: 0.3, adhesion: {work: 0, stiffness: 5}, "));
