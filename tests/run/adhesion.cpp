@@ -101,7 +101,7 @@ TEST_CASE("adhesion: a sphere is pulled off as hard as off a half-space that bou
 }
 
 TEST_CASE("adhesion: the greatest pull is found on whichever indenter adheres") {
-  const std::string alone = plate("{work: 0.02, stiffness: 20}", "[{t: 1, to: [0, 0.1, 0]}]", "path: {steps: 20}\n");
+  const std::string alone = plate("{work: 0.02, stiffness: 20}", "[{t: 1, to: [0, 0.1, 0]}]", "path: {steps: 200}\n");
   std::string beside = alone;
   beside.replace(beside.find("{plate:"), 7,
                  "{aside: {on: x_max, rigid: {plane: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
