@@ -109,8 +109,16 @@ class Build:
         to = self.again[o] = self.overlay / (o.replace("/", "_"))
         words = list(words)
         words[words.index("-o") + 1] = str(to)
-        if source == self.file:
-            words[words.index(str(source))] = str(self.overlay / source.relative_to(self.root))
+        if self.file and self.file.suffix == ".cpp":
+            changed = self.overlay / self.file.relative_to(self.root)
+            if source != self.file:  # several sources that are compiled as one
+                together = self.overlay / source.name
+                together.write_text(source.read_text().replace(f'"{self.file}"', f'"{changed}"'))
+                changed = together
+            words[words.index(str(source))] = str(changed)
+        elif "/test_" in o:  # their precompiled header holds the unchanged one
+            for at in [i for i, w in enumerate(words) if w.endswith("cmake_pch.hxx")][::-1]:
+                del words[at - 1: at + 1]
         at = next(i for i, w in enumerate(words) if w.startswith("-I"))
         words[at:at] = [f"-I{self.overlay / 'lib'}"]
         code, out = sh(words, self.build)
@@ -119,7 +127,10 @@ class Build:
     def make(self, entry):
         """a program with the tests of this entry; what the compiler said where it cannot"""
         folder, _, file = entry.partition("/")
-        own = [o for o in self.commands if re.search(rf"/doctest_main\.dir/|/test_{folder}\.dir/.*{file and '/' + file + '.cpp'}\.o$", o)]
+        of = [o for o in self.commands if re.search(rf"/test_{folder}\.dir/.*\.o$", o)]
+        # where several sources are compiled as one, the program has all of the folder and runs those of the file
+        own = [o for o in of if o.endswith(f"/{file}.cpp.o")] or of
+        own += [o for o in self.commands if "/doctest_main.dir/" in o]
         objects = self.needed(own) + own
         todo = [o for o in objects if o not in self.again and str(self.file) in self.depend[o]] if self.file else []
         with ThreadPoolExecutor(self.jobs) as pool:
@@ -135,7 +146,8 @@ class Build:
 
     def test(self, entry, limit):
         """what fails there; empty: nothing"""
-        code, out = sh([self.program, "--abort-after=1", "--no-intro"], self.build / "tests", limit)
+        _, _, file = entry.partition("/")
+        code, out = sh([self.program, "--abort-after=1", "--no-intro", f"--source-file=*{file and f'/{file}.cpp'}"], self.build / "tests", limit)
         folder = entry.split("/")[0]
         if code is None:
             return f"{entry}: longer than {limit:.0f} s"
