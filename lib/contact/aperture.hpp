@@ -1,8 +1,6 @@
 // A plate without an end, with a round hole whose edge is rounded: exact distance, normal and curvature. A body is drawn into the hole.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/fields.hpp"

@@ -18,18 +18,7 @@ ShapePoint Cylinder::at(const Vec3& x) const {
   const Vec3 a = direction(into);
   const auto [along, rho, outward] = about({vec(face), a}, x);
   const double side = rho - (radius - edge), end = edge - along;  // beyond the core sideways and endways
-  if (side <= 0 && end <= 0) {                                    // inside the core: the nearer of end and side
-    if (end >= side) return {end - edge, -a, Mat3::Zero()};
-    return {side - edge, outward, ring(a, outward, 1, rho)};
-  }
-  const double s = std::max(side, 0.0), e = std::max(end, 0.0), distance = std::hypot(s, e);
-  const Vec3 n = (s * outward - e * a) / distance;
-  Mat3 curvature = ring(a, outward, s / distance, rho);
-  if (s > 0 && e > 0) {  // on the rounded edge: curved along the meridian too
-    const Vec3 meridian = (e * outward + s * a) / distance;
-    curvature += meridian * meridian.transpose() / distance;
-  }
-  return {distance - edge, n, curvature};
+  return round_edged({a, outward, rho, Wall::faces_away}, side, end, edge);
 }
 
 bool Cylinder::becomes(const Cylinder& other, const Isometry& op) const {

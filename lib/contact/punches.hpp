@@ -1,9 +1,6 @@
 // A flat-ended cylinder with a rounded edge, and an ellipsoid: exact distance, normal and curvature.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/fields.hpp"
 #include "contact/shape.hpp"
 

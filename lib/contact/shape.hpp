@@ -47,6 +47,16 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
 
 // curvature round the axis a at the distance rho from it, where the normal has the component n_rho outwards: n_rho / rho along the circle
 Mat3 ring(const Vec3& a, const Vec3& outward, double n_rho, double rho);
+// a circular wall round the axis a and the unit vector from the axis through a point at the distance rho [mm]
+enum class Wall { faces_away = 1, faces_axis = -1 };
+struct RoundWall {
+  Vec3 a, outward;
+  double rho;
+  Wall wall;
+};
+// surface of a core with a flat end (normal -a) and a circular wall, thickened by `edge`, from a point that lies `side` in front of
+// the core's wall and `end` in front of its end, both negative inside [mm]; rho > 0 or no wall near
+ShapePoint round_edged(const RoundWall& at, double side, double end, double edge);
 Mat3 tangent_projection(const Vec3& n);
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 // of a vector of any length above 0, one whose square is no number of the machine included
