@@ -1,6 +1,7 @@
 // langer-fit: parameters of a law from measured tests.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
+#include "base/interrupt.hpp"
 #include "export/cards.hpp"
 #include "fit/cross_check.hpp"
 #include "fit/doubts.hpp"

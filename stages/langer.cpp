@@ -1,7 +1,12 @@
 // langer show | new | check | describe | schema | explain | times | crate | doctor | man | completion: what one wants to know beside the stages.
+#include <algorithm>
+
+#include "arguments.hpp"
+#include "base/say.hpp"
 #include "pipeline/effective.hpp"
+#include "pipeline/run_files.hpp"
 #include "post/describe_columns.hpp"
-#include "stage.hpp"
+#include "program.hpp"
 #include "tool/check.hpp"
 #include "tool/crate.hpp"
 #include "tool/doctor.hpp"
@@ -82,25 +87,23 @@ int doctor() {
 }
 
 int command(const Usage& usage, const std::string& name, int argc, char** argv) {
-  CLI::App app{usage.sentence, usage.program};
   Given given;
   const bool places = std::any_of(usage.options.begin(), usage.options.end(), is_place);
   const std::size_t required = static_cast<std::size_t>(
       std::count_if(usage.options.begin(), usage.options.end(), [](const UsageOption& o) { return is_place(o) && o.required; }));
-  if (places) app.add_option("places", given.places);
-  if (usage.find("--as")) app.add_option("--as", given.as);
-  for (const auto& [flag, text] : {std::pair{"--same-as", &given.same_as},
+  Arguments options(usage.program);
+  if (places) options.texts("places", given.places);
+  for (const auto& [name, text] : {std::pair{"--as", &given.as},
+                                   {"--same-as", &given.same_as},
                                    {"--title", &given.crate.title},
                                    {"--author", &given.crate.author},
                                    {"--license", &given.crate.license}})
-    if (usage.find(flag)) app.add_option(flag, *text);
-  if (usage.find("--config")) app.add_flag("--config", given.config);
-  if (usage.find("--failed")) app.add_flag("--failed", given.failed);
-  if (usage.find("--list")) app.add_flag("--list", given.list);
-  if (usage.find("--json")) app.add_flag("--json", given.json);
-  app.set_help_flag("-h,--help");
+    if (usage.find(name)) options.text(name, *text);
+  for (const auto& [name, flag] :
+       {std::pair{"--config", &given.config}, {"--failed", &given.failed}, {"--list", &given.list}, {"--json", &given.json}})
+    if (usage.find(name)) options.flag(name, *flag);
   int code = 0;
-  if (!parsed(app, usage, argc, argv, code)) return code;
+  if (!options.read(usage, argc, argv, code)) return code;
   if (given.list) return put_out(fmt::format("{}\n", fmt::join(schema_kinds(), "\n"))), 0;
   if (given.places.size() < required) {
     std::string missing;

@@ -1,29 +1,32 @@
 // langer-plan pipelines/x.yaml [-o runs/x]: checks everything that a pipeline names, then writes its Makefile and configs.
 #include "pipeline/plan.hpp"
 
-#include "stage.hpp"
+#include <filesystem>
+
+#include "arguments.hpp"
+#include "base/say.hpp"
+#include "program.hpp"
 
 int main(int argc, char** argv) {
   using namespace langer;
-  CLI::App app{"Turns a pipeline into a Makefile.", "langer-plan"};
   std::string file, folder;
   pipeline::Overrides overrides;
   bool quiet = false, verbose = false, dry_run = false;
   PlanFor others;
-  app.add_option("pipeline", file)->required();
-  app.add_option("-o,--output", folder);
-  app.add_option("--set", overrides.settings)->allow_extra_args(false);
-  app.add_option("--sweep", overrides.sweeps)->allow_extra_args(false);
-  app.add_flag("--dry-run", dry_run);
-  app.add_flag("--slurm", others.slurm);
-  app.add_flag("--snakemake", others.snakemake);
-  app.add_flag("--quiet", quiet);
-  app.add_flag("-v,--verbose", verbose);
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("--version", version_line("langer-plan"));
+  Arguments options("langer-plan");
+  options.text("pipeline", file, true);
+  options.text("-o,--output", folder);
+  options.texts("--set", overrides.settings);
+  options.texts("--sweep", overrides.sweeps);
+  options.flag("--dry-run", dry_run);
+  options.flag("--slurm", others.slurm);
+  options.flag("--snakemake", others.snakemake);
+  options.flag("--quiet", quiet);
+  options.flag("-v,--verbose", verbose);
+  options.version();
   return guarded("langer-plan", [&] {
     int code = 0;
-    if (!parsed(app, plan_usage(), argc, argv, code)) return code;
+    if (!options.read(plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
     const PlanReport report =
         dry_run ? check_pipeline(file, folder, overrides) : plan(file, folder, bin, command_line(argc, argv), others, overrides);

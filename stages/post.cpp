@@ -3,9 +3,11 @@
 //   langer-post --solution solution.h5 --export scene.inp --export scene.feb
 #include <set>
 
+#include "arguments.hpp"
 #include "export/export_scene.hpp"
 #include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
+#include "pipeline/effective.hpp"
 #include "plot/pictures.hpp"
 #include "run/contact_state.hpp"
 #include "run/post_config.hpp"
@@ -353,21 +355,20 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
 
 // --export: the solved scene as decks of other programs, and nothing else
 int export_scene(int argc, char** argv) {
-  const Usage usage = usage_of(*find_stage("post"), top_keys<PostConfig>(), "");
-  CLI::App app{usage.sentence, usage.program};
+  const Usage usage = usage_of(*find_stage("post"), find_config_kind("post")->top_keys(), "");
+  Arguments options(usage.program);
   std::string solution, log;
   std::vector<std::string> files;
   bool quiet = false;
-  app.add_option("--solution", solution)->required();
-  app.add_option("--export", files)->required()->allow_extra_args(false);
-  app.add_flag("--quiet", quiet);
-  app.add_option("--log", log);
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("--version", version_line(usage.program));
+  options.text("--solution", solution, true);
+  options.texts("--export", files, true);
+  options.flag("--quiet", quiet);
+  options.text("--log", log);
+  options.version();
   RunLog kept;
   return guarded(usage.program, [&] {
     int code = 0;
-    if (!parsed(app, usage, argc, argv, code)) return code;
+    if (!options.read(usage, argc, argv, code)) return code;
     never_replace(solution);
     if (!log.empty()) kept.open(log, command_line(argc, argv), false);
     need_file(solution);

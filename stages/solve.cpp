@@ -4,6 +4,7 @@
 
 #include "accuracy/model_choice.hpp"
 #include "accuracy/say_errors.hpp"
+#include "base/interrupt.hpp"
 #include "inverse/uncertainty.hpp"
 #include "mirror/mirror.hpp"
 #include "run/body_mesh.hpp"

@@ -115,6 +115,17 @@ std::vector<NamedFile> files_named_by(const Config& config) {
   return files;
 }
 
+// What a result says of its config. Input files count by what they hold, not by where they lie.
+struct ConfigText {
+  std::string full;    // effective YAML
+  std::string hashed;  // the same with input files by name
+  std::vector<NamedFile> files;
+};
+template <Listed Config>
+ConfigText config_text(const Config& config) {
+  return {to_yaml(config), to_yaml(config, file_name), files_named_by(config)};
+}
+
 // The outermost keys that may be absent: what a config switches on, for --dry-run.
 struct ConfigPart {
   std::string key;

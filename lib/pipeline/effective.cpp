@@ -6,12 +6,13 @@
 #include "fit/doubts.hpp"
 #include "inverse/sample_config.hpp"
 #include "material/at_rest.hpp"
+#include "pipeline/stage_config.hpp"
 #include "report/report_config.hpp"
 #include "run/post_config.hpp"
 #include "scene/config_io.hpp"
 #include "scene/mesh_config.hpp"
 #include "scene/solve_config.hpp"
-#include "study/fit_config.hpp"
+#include "study/config_io.hpp"
 #include "study/sensitivity_config.hpp"
 #include "sweep/gather_config.hpp"
 #include "sweep/tune_config.hpp"
@@ -47,7 +48,7 @@ ConfigKind kind() {
   return {check<Config>, describe<Config>, top_keys<Config>, json_schema<Config>};
 }
 
-// a new stage stands here
+// a new stage stands here, and below as a type
 const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
       {"mesh", kind<MeshConfig>()},
@@ -85,5 +86,22 @@ Effective effective_config(const StageSpec& stage, Tree config, const std::strin
 Effective effective_port_file(const Port& port, Tree file, const std::string& folder) {
   return find_config_kind(port.name)->check(std::move(file), folder);
 }
+
+template <class Config>
+ReadConfig read_stage_config(Tree tree, Config& config) {
+  Loaded<Config> loaded = read_config<Config>(std::move(tree));
+  config = std::move(loaded.config);
+  return {std::move(loaded.where), std::move(loaded.notices), config_text(config), parts_of(config)};
+}
+
+template ReadConfig read_stage_config(Tree, MeshConfig&);
+template ReadConfig read_stage_config(Tree, FitConfig&);
+template ReadConfig read_stage_config(Tree, SampleConfig&);
+template ReadConfig read_stage_config(Tree, SensitivityConfig&);
+template ReadConfig read_stage_config(Tree, SolveConfig&);
+template ReadConfig read_stage_config(Tree, PostConfig&);
+template ReadConfig read_stage_config(Tree, GatherConfig&);
+template ReadConfig read_stage_config(Tree, ReportConfig&);
+template ReadConfig read_stage_config(Tree, TuneConfig&);
 
 }  // namespace langer

@@ -85,6 +85,19 @@ std::string content_of(const std::string& path) {
   return fnv1a(bytes.str());
 }
 
+Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where, const InputFiles& inputs,
+                     const std::string& command) {
+  Identity identity{stage, config.full, fnv1a(config.hashed), {}, command};
+  for (const auto& [port, files] : inputs)
+    for (std::size_t i = 0; i < files.size(); ++i) identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
+  for (const NamedFile& file : config.files) {
+    need_file(file.path, where(file.key), file.key);
+    identity.inputs[file.key] = content_of(file.path);
+    never_replace(file.path);
+  }
+  return identity;
+}
+
 std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
   std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage, identity.config_hash);
   for (const Summary& r : results)

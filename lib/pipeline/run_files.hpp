@@ -31,20 +31,9 @@ std::set<std::string> files_of(const Tree& tree);  // that its parts were read f
 // from the bytes of any other file.
 std::string content_of(const std::string& path);
 
-// Input paths count by what the files hold, not by where they lie.
-template <Listed Config>
-Identity identity_of(const std::string& stage, const Config& config, const Where& where, const InputFiles& inputs,
-                     const std::string& command) {
-  Identity identity{stage, to_yaml(config), fnv1a(to_yaml(config, file_name)), {}, command};
-  for (const auto& [port, files] : inputs)
-    for (std::size_t i = 0; i < files.size(); ++i) identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
-  for (const NamedFile& file : files_named_by(config)) {
-    need_file(file.path, where(file.key), file.key);
-    identity.inputs[file.key] = content_of(file.path);
-    never_replace(file.path);
-  }
-  return identity;
-}
+// Reads what the config names. Throws Failure(input) where such a file is missing.
+Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where, const InputFiles& inputs,
+                     const std::string& command);
 
 // one JSON object: stage, config_hash and the results by column name (null where not finite)
 std::string json_text(const Identity& identity, const std::vector<Summary>& results);

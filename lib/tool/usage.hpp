@@ -1,5 +1,5 @@
 // What every program takes and gives, as one table: its --help, its man page and the shell's completion come from it, and the
-// argument parser refuses to know an option that the table lacks (stages/stage.hpp).
+// argument parser refuses to know an option that the table lacks (stages/common/arguments.cpp).
 #pragma once
 
 #include <string>

@@ -19,6 +19,7 @@
 #include "inverse/sensitivity.hpp"
 #include "run/body_mesh.hpp"
 #include "scene/config_io.hpp"
+#include "study/config_io.hpp"
 #include "study/fit_report.hpp"
 
 using namespace langer;

@@ -6,7 +6,7 @@
 #include "run/continued.hpp"
 #include "scene/config_io.hpp"
 #include "scene/solve_config.hpp"
-#include "study/fit_config.hpp"
+#include "study/config_io.hpp"
 
 using namespace langer;
 
@@ -40,7 +40,7 @@ std::string refusal(const std::string& text) {
 
 template <class Config>
 std::string hash(const Loaded<Config>& loaded) {
-  return identity_of("stage", loaded.config, loaded.where, {}, "").config_hash;
+  return identity_of("stage", config_text(loaded.config), loaded.where, {}, "").config_hash;
 }
 
 const std::string solve =

@@ -22,7 +22,7 @@
 #include "scene/config_io.hpp"
 #include "scene/make_mesh.hpp"
 #include "scene/scene.hpp"
-#include "study/fit_config.hpp"
+#include "study/config_io.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;

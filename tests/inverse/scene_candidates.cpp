@@ -12,6 +12,7 @@
 #include "base/random.hpp"
 #include "inverse/inverse_fit.hpp"
 #include "scene/config_io.hpp"
+#include "study/config_io.hpp"
 #include "study/fit_report.hpp"
 #include "study/study.hpp"
 

@@ -11,6 +11,7 @@
 #include "mesh/select.hpp"
 #include "run/body_mesh.hpp"
 #include "scene/config_io.hpp"
+#include "study/config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

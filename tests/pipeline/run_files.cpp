@@ -39,7 +39,7 @@ struct Folder {
 
 Identity identity(const std::string& config_file, const InputFiles& inputs = {}) {
   const auto loaded = read_config<Small>(load_yaml(config_file));
-  return identity_of("fit", loaded.config, loaded.where, inputs, "langer-fit");
+  return identity_of("fit", config_text(loaded.config), loaded.where, inputs, "langer-fit");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "fit/stiffness_at_rest.hpp"
 #include "material/at_rest.hpp"
 #include "scene/config_io.hpp"
-#include "study/fit_config.hpp"
+#include "study/config_io.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/reader.hpp"
-#include "scene/solve_config.hpp"
+#include "scene/config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/reader.hpp"
-#include "study/fit_config.hpp"
+#include "study/config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

@@ -1,0 +1,127 @@
+#include "program.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+#ifdef LANGER_SANITIZE
+#include <sanitizer/lsan_interface.h>
+#endif
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/interrupt.hpp"
+#include "base/memory.hpp"
+#include "base/say.hpp"
+#include "base/stopwatch.hpp"
+#include "base/traps.hpp"
+#include "base/version.hpp"
+#include "pipeline/run_files.hpp"
+
+namespace langer {
+
+void put_out(const std::string& text) {
+  errno = 0;
+  if ((std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) && errno != EPIPE)
+    throw Failure(Exit::input, Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+}
+
+std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
+
+std::string command_line(int argc, char** argv) {
+  std::string line = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+RunLog::~RunLog() {
+  if (said::log) std::fclose(std::exchange(said::log, nullptr));
+}
+
+void RunLog::open(const std::string& path, const std::string& command, bool goes_on) {
+  need_own_log(path);
+  std::error_code failed;  // a folder that cannot be made has no file either
+  if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder, failed);
+  said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
+  if (!said::log)
+    throw Failure(Exit::input, Error{{path},
+                                     "",
+                                     fmt::format("cannot be written ({})", std::strerror(errno)),
+                                     "a file in a folder that may be written to",
+                                     "another name for --log"});
+  fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
+  std::fflush(said::log);
+}
+
+namespace {
+
+// of programs that were started here and have ended: gnuplot
+double cpu_seconds_of_children() {
+  rusage used{};
+  if (getrusage(RUSAGE_CHILDREN, &used) != 0) return 0;
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+// read by the table of a run's times (pipeline/run_state.hpp)
+void end_log(int code) {
+  if (said::log)
+    fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(),
+               cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
+}
+
+// The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
+// (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
+[[noreturn]] void leave(int code) {
+  std::fflush(nullptr);
+#ifdef LANGER_SANITIZE
+  __lsan_do_leak_check();
+#endif
+  _exit(code);
+}
+
+// Runs the body and turns what it throws into a message and an exit code.
+int exit_code_after(const std::string& program, const std::function<int()>& body) {
+  wall_seconds();
+  const auto no_memory = [&](const char* what) {
+    say_line("{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)", program, what);
+    return static_cast<int>(Exit::input);
+  };
+  listen_to_signals();
+  set_traps();
+  try {
+    return body();
+  } catch (const Failure& failure) {
+    say_error(failure.what());
+    return static_cast<int>(failure.code());
+  } catch (const std::bad_alloc&) {
+    return no_memory("");
+  } catch (const std::system_error& e) {
+    if (e.code() == std::errc::resource_unavailable_try_again || e.code() == std::errc::not_enough_memory)
+      return no_memory(": no further thread can be started");
+    say_line("{}: {}", program, e.what());
+    return static_cast<int>(Exit::input);
+  } catch (const std::exception& e) {
+    say_line("{} {} ({}): {}\n  this is a bug, please report it with the command and its files", program, version, revision,
+             e.what());
+  }
+  return static_cast<int>(Exit::bug);
+}
+
+}  // namespace
+
+int guarded(const std::string& program, const std::function<int()>& body) {
+  const int code = exit_code_after(program, body);
+  end_log(code);
+  leave(code);
+}
+
+}  // namespace langer

@@ -1,0 +1,145 @@
+#include "stage.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "arguments.hpp"
+#include "base/memory.hpp"
+#include "base/stopwatch.hpp"
+#include "pipeline/effective.hpp"
+#include "pipeline/ports.hpp"
+#include "store/lock.hpp"
+
+namespace langer {
+
+namespace {
+
+// -v: what this run is made from
+void say_inputs(const Identity& identity, const std::string& program) {
+  say_line("{}: {}, config {}", identity.stage, version_line(program), identity.config_hash);
+  for (const auto& [port, id] : identity.inputs) say_line("{}: {} {}", identity.stage, port, id);
+}
+
+// inputs are files of ours of a kind that the port takes
+void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
+  for (const auto& [port, files] : inputs)
+    for (const std::string& file : files) {
+      if (std::filesystem::path(file).extension() != ".h5") continue;
+      const std::string stage = read_origin(file).identity.stage;
+      const std::vector<std::string>& makers = spec.port(port)->made_by;
+      if (std::find(makers.begin(), makers.end(), stage) == makers.end())
+        throw Failure(Exit::input, Error{{file}, "", "made by langer-" + stage, "a file of langer-" + list_words(makers), ""});
+    }
+}
+
+// --dry-run of the stages without a forecast
+void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output, const InputFiles& inputs) {
+  say_line("{}: dry run, nothing is computed or written", spec.name);
+  const auto line = [](const std::string& part, const std::string& says) { say_line("  {:<14}{}", part, says); };
+  for (const auto& [port, files] : inputs) line(port, fmt::format("{}", fmt::join(files, ", ")));
+  for (const ConfigPart& p : parts)
+    line(p.key, p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
+  line("makes", output.empty() ? std::string(spec.output) : output);
+}
+
+// What a stage's command line gives beside its job.
+struct CommandLine {
+  std::string config_file, log;
+  std::vector<std::string> settings;
+};
+
+void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandLine& given) {
+  options.text("config", given.config_file, true);
+  for (const Port& port : spec.inputs) {
+    std::vector<std::string>& files = task.inputs[port.name];
+    const std::string name = "--" + std::string(port.name);
+    port.several ? options.texts(name, files, port.required) : options.text(name, files, port.required);
+  }
+  options.text("-o,--output", task.output);
+  options.flag("--dry-run", task.dry_run);
+  options.texts("--set", given.settings);
+  options.flag("--quiet", task.quiet);
+  options.flag("-v,--verbose", task.verbose);
+  options.flag("--json", task.json);
+  options.text("--log", given.log);
+  options.flag("--describe");
+  options.version();
+}
+
+// Config and inputs of a task whose options are read; nothing of it is written yet.
+ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given, const std::string& command,
+                     const StageWork& own) {
+  std::erase_if(task.inputs, [](const auto& port) { return port.second.empty(); });
+  for (const auto& [port, files] : task.inputs)
+    for (const std::string& file : files) need_file(file);
+  Tree tree = load_yaml(given.config_file);
+  for (const std::string& file : files_of(tree)) never_replace(file);
+  for (const std::string& setting : given.settings) apply_setting(tree, setting);
+  std::vector<std::string> ports;
+  for (const auto& [port, files] : task.inputs) ports.push_back(port);
+  need_one_source(spec, tree, ports);
+  ReadConfig config = own.read(std::move(tree));
+  task.where = config.where;
+  if (!task.dry_run) need_output(task.output, given.config_file, task.inputs);
+  task.identity = identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
+  for (const std::string& notice : config.notices) task.warn("{}", notice);
+  if (!task.dry_run) need_replaceable(task.output);  // by now it is known what the config names
+  begin_beside(task.output);
+  return config;
+}
+
+void need_own_files(const CommandLine& given, const Task& task) {
+  never_replace(given.config_file);
+  for (const auto& [port, files] : task.inputs) std::for_each(files.begin(), files.end(), never_replace);
+  if (!given.log.empty() && std::filesystem::weakly_canonical(given.log) == std::filesystem::weakly_canonical(task.output))
+    throw Failure(Exit::input, Error{{given.log}, "", "is the output too", "another name for --log", ""});
+}
+
+int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept, const std::string& command,
+        const StageWork& own) {
+  need_own_files(given, task);
+  if (!given.log.empty()) kept.open(given.log, command, std::filesystem::exists(task.output + ".part"));
+  const ReadConfig config = read_task(task, spec, given, command, own);
+  if (task.verbose) say_inputs(task.identity, "langer-" + std::string(spec.name));
+  if (task.dry_run && !spec.forecasts) {
+    need_kinds(spec, task.inputs);
+    if (!task.quiet) say_dry_run(spec, config.parts, task.output, task.inputs);
+    if (task.json) put_out(json_text(task.identity, {}));
+    return static_cast<int>(Exit::ok);
+  }
+  std::optional<OutputLock> lock;
+  if (!task.dry_run) lock.emplace(task.output, task.identity.command);
+  const std::vector<Summary> results = own.work();
+  if (task.verbose)
+    say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
+  if (task.json) put_out(json_text(task.identity, results));
+  return static_cast<int>(Exit::ok);
+}
+
+}  // namespace
+
+int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own) {
+  const StageSpec& spec = *find_stage(name);
+  const ConfigKind& kind = *find_config_kind(name);
+  const std::string program = "langer-" + name;
+  Arguments options(program);
+  CommandLine given;
+  add_options(options, spec, task, given);
+  RunLog kept;
+  return guarded(program, [&] {
+    // --describe needs none of the required arguments
+    if (std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string(a) == "--describe"; })) {
+      put_out(kind.reference());
+      return static_cast<int>(Exit::ok);
+    }
+    int code = 0;
+    if (!options.read(usage_of(spec, kind.top_keys(), ""), argc, argv, code)) return code;
+    if (task.output.empty() && !task.dry_run) {
+      say_error(fmt::format("{}: --output is required\n  hint: {} --help", program, program));
+      return static_cast<int>(Exit::config);
+    }
+    return run(task, spec, given, kept, command_line(argc, argv), own);
+  });
+}
+
+}  // namespace langer
