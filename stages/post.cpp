@@ -4,7 +4,8 @@
 #include <set>
 
 #include "arguments.hpp"
-#include "export/export_scene.hpp"
+#include "base/counted.hpp"
+#include "export/write_decks.hpp"
 #include "hdf5/seal.hpp"
 #include "material/ellipticity.hpp"
 #include "pipeline/effective.hpp"
@@ -347,8 +348,9 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   identity.solution_cost = header.identity.solution_cost;
   add_errors_of(solution.reader, curves.summary);
   write_curves(job.output, curves, identity);
-  job.say("{} rows, {} columns in {}; {} snapshots, {} figures{}", table.t.size(), curves.columns.size(),
-          csv_file.filename().string(), snapshots.size(), config.figures.size() + config.maps.size() + renders.size(),
+  job.say("{}, {} in {}; {}, {}{}", counted(table.t.size(), "row"), counted(curves.columns.size(), "column"),
+          csv_file.filename().string(), counted(snapshots.size(), "snapshot"),
+          counted(config.figures.size() + config.maps.size() + renders.size(), "figure"),
           config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
   return curves.summary;
 }
@@ -372,19 +374,9 @@ int export_scene(int argc, char** argv) {
     never_replace(solution);
     if (!log.empty()) kept.open(log, command_line(argc, argv), false);
     need_file(solution);
-    for (const std::string& file : files)
-      if (const auto ending = std::filesystem::path(file).extension(); ending != ".inp" && ending != ".feb")
-        throw Failure(
-            Exit::config,
-            Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
-    for (const std::string& file : files) need_own_text(file, written_by);
-    const Deck deck = deck_of(SolutionReader(solution), solution);
-    for (const std::string& file : files) {
-      const bool calculix = std::filesystem::path(file).extension() == ".inp";
-      const DeckText text = calculix ? calculix_deck(deck) : febio_deck(deck);
-      write_text_file(file, text.text);
-      if (!quiet) say_line("post: {} for {}", file, calculix ? "CalculiX" : "FEBio 4");
-      for (const std::string& line : text.warnings) say_line("post: warning: {}", line);
+    for (const WrittenDeck& deck : write_decks(solution, files)) {
+      if (!quiet) say_line("post: {} for {}", deck.file, deck.program);
+      for (const std::string& line : deck.warnings) say_line("post: warning: {}", line);
     }
     return static_cast<int>(Exit::ok);
   });

@@ -1,7 +1,9 @@
 // langer-report: one page that shows what a run has made; opens offline in any browser.
 //   langer-report report.yaml --solution solution.h5 --curves curves.h5 -o report.html
+#include <algorithm>
 #include <filesystem>
 
+#include "base/counted.hpp"
 #include "hdf5/seal.hpp"
 #include "report/page.hpp"
 #include "report/report_config.hpp"
@@ -37,11 +39,12 @@ std::vector<Summary> report_on(const Job<ReportConfig>& job) {
     for (const Source& source : of[port]) add_origin(page, source);
   const std::string text = html(page);
   write_text_file(job.output, text);
-  const auto warnings =
-      std::count_if(page.verdicts.begin(), page.verdicts.end(), [](const Verdict& v) { return v.level == Level::warning; });
-  job.say("{}: {:.1f} MB, {} warnings, {} charts, {} tables, {} bodies{}", std::filesystem::path(job.output).filename().string(),
-          static_cast<double>(text.size()) * 1e-6, warnings, page.charts.size() + page.polars.size(), page.tables.size(),
-          page.bodies.size(), has_three() ? "" : " (built without three.js)");
+  const auto warnings = static_cast<std::size_t>(
+      std::count_if(page.verdicts.begin(), page.verdicts.end(), [](const Verdict& v) { return v.level == Level::warning; }));
+  job.say("{}: {:.1f} MB, {}, {}, {}, {}{}", std::filesystem::path(job.output).filename().string(),
+          static_cast<double>(text.size()) * 1e-6, counted(warnings, "warning"),
+          counted(page.charts.size() + page.polars.size(), "chart"), counted(page.tables.size(), "table"),
+          counted(page.bodies.size(), "body"), has_three() ? "" : " (built without three.js)");
   return {{"warnings", static_cast<double>(warnings), "-"}};
 }
 

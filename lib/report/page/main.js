@@ -29,7 +29,7 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
   sorted.forEach(v => alike.set(key(v), (alike.get(key(v)) || []).concat(v)));
   // what holds is folded where there is much of it: it shall not stand before the picture
   const much = 3;
-  const line = v => L.el('div', { class: 'verdict ' + v.level, role: 'listitem' }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, v.text));
+  const line = v => L.el('div', { class: 'verdict ' + v.level, role: 'listitem' }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, ...v.text.split('`').map((part, i) => i % 2 ? L.el('code', {}, part) : part)));
   const rows = [...alike.values()].map(group => {
     if (group.length === 1) return line(group[0]);
     const same = group.every(v => v.text === group[0].text), row = line({ ...group[0], of: `${group.length} members` });
