@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "export/export_scene.hpp"
+#include "hdf5/replace.hpp"
 #include "hdf5/seal.hpp"
 
 namespace langer {

@@ -79,7 +79,7 @@ TEST_CASE("every step has an error bar, the last one that of the end, and bars h
     REQUIRE(bars.size() == path.size());
     REQUIRE(path.size() == 8);
     CHECK(bars.back() == doctest::Approx(estimate.at_end[0].total()).epsilon(1e-12));
-    const SolveConfig finer = disc(0.04, friction, friction > 0 ? 0.02 : 0.125);
+    const SolveConfig finer = disc(0.05, friction, friction > 0 ? 0.03125 : 0.125);
     const std::vector<StepForces> right = solved_path(finer, finer.material, nowhere).path;
     int held = 0;
     for (std::size_t i = 0; i < path.size(); ++i) {

@@ -18,25 +18,29 @@ namespace {
 
 enum class State { open, stick, slip };
 
+// of three contacts at most, without the heap
+using SmallVec = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
+using SmallMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+
 // Newton's method for one combination. Unknowns z: three forces for a contact that sticks, normal force and direction for one
 // that slips. What must vanish: x where it sticks; where it slips x_n, and x_t across the direction of slip.
 class Combination {
  public:
-  Combination(const LocalProblem& p, std::vector<State> states) : p_(p), states_(std::move(states)) {
+  Combination(const LocalProblem& p, std::vector<State> states) : p_(p), W_(p.W), q_(p.q), states_(std::move(states)) {
     for (State state : states_) {
       if (state == State::slip) angles.push_back(n_ + 1);
       n_ += state == State::stick ? 3 : state == State::slip ? 2 : 0;
     }
   }
 
-  VecX solve(const VecX& directions) const {
-    VecX z = VecX::Zero(n_);
+  SmallVec solve(const SmallVec& directions) const {
+    SmallVec z = SmallVec::Zero(n_);
     for (std::size_t a = 0; a < angles.size(); ++a) z[angles[a]] = directions[static_cast<Eigen::Index>(a)];
     for (int iteration = 0; iteration < 20 && n_ > 0; ++iteration) {
       auto [f, J] = linearised(z);
       if (iteration == 0)  // the forces that these directions ask for; they do not turn yet
         for (int a : angles) J.row(a).setZero(), J.col(a).setZero(), J(a, a) = 1, f[a] = 0;
-      const VecX step = Eigen::CompleteOrthogonalDecomposition<MatX>(J).solve(f);
+      const SmallVec step = Eigen::CompleteOrthogonalDecomposition<SmallMat>(J).solve(f);
       z -= step;
       if (iteration > 0 && step.norm() < 1e-14 * (1 + z.norm())) break;
     }
@@ -46,8 +50,8 @@ class Combination {
   std::vector<int> angles;  // places of directions among the unknowns
 
  private:
-  VecX reactions(const VecX& z) const {
-    VecX r = VecX::Zero(p_.q.size());
+  SmallVec reactions(const SmallVec& z) const {
+    SmallVec r = SmallVec::Zero(p_.q.size());
     for (int i = 0, at = 0; i < p_.n_contacts(); ++i) {
       if (states_[i] == State::stick) r.segment<3>(3 * i) = z.segment<3>(at), at += 3;
       if (states_[i] == State::slip) {
@@ -58,8 +62,8 @@ class Combination {
     return r;
   }
 
-  std::pair<VecX, MatX> linearised(const VecX& z) const {
-    MatX dr = MatX::Zero(p_.q.size(), n_);  // of r by z
+  std::pair<SmallVec, SmallMat> linearised(const SmallVec& z) const {
+    SmallMat dr = SmallMat::Zero(p_.q.size(), n_);  // of r by z
     for (int i = 0, at = 0; i < p_.n_contacts(); ++i) {
       if (states_[i] == State::stick) dr.block<3, 3>(3 * i, at).setIdentity(), at += 3;
       if (states_[i] == State::slip) {
@@ -69,10 +73,10 @@ class Combination {
         at += 2;
       }
     }
-    const VecX x = p_.W * reactions(z) + p_.q;
-    const MatX dx = p_.W * dr;
-    VecX f(n_);
-    MatX J(n_, n_);
+    const SmallVec x = W_ * reactions(z) + q_;
+    const SmallMat dx = W_ * dr;
+    SmallVec f(n_);
+    SmallMat J(n_, n_);
     for (int i = 0, at = 0; i < p_.n_contacts(); ++i) {
       if (states_[i] == State::stick)
         f.segment<3>(at) = x.segment<3>(3 * i), J.middleRows<3>(at) = dx.middleRows<3>(3 * i), at += 3;
@@ -88,12 +92,14 @@ class Combination {
   }
 
   const LocalProblem& p_;
+  const SmallMat W_;
+  const SmallVec q_;
   std::vector<State> states_;
   int n_ = 0;
 };
 
-std::vector<VecX> every_solution(const LocalProblem& p) {
-  std::vector<VecX> found;
+std::vector<SmallVec> every_solution(const LocalProblem& p) {
+  std::vector<SmallVec> found;
   const int k = p.n_contacts();
   for (int code = 0; code < std::pow(3, k); ++code) {
     std::vector<State> states;
@@ -102,9 +108,9 @@ std::vector<VecX> every_solution(const LocalProblem& p) {
     const auto n = static_cast<Eigen::Index>(combination.angles.size());
     const int each = n == 1 ? 200 : n == 2 ? 16 : 6;  // the basin of a nearly jammed contact is narrow
     for (int start = 0; start < std::pow(each, n); ++start) {
-      VecX directions(n);
+      SmallVec directions(n);
       for (int a = 0, s = start; a < n; ++a, s /= each) directions[a] = 2 * M_PI * (s % each + 0.3) / each;
-      const VecX r = combination.solve(directions);
+      const SmallVec r = combination.solve(directions);
       if (r.allFinite() && test::law_defect(p, r) <= 1e-9 * std::max(1.0, r.lpNorm<Eigen::Infinity>())) found.push_back(r);
     }
   }
@@ -126,8 +132,8 @@ TEST_CASE("a thousand random problems have the solution that a search through al
       continue;
     }
     double nearest = 1e300;
-    for (const VecX& s : all) nearest = std::min(nearest, (p.W * (r - s)).lpNorm<Eigen::Infinity>());
-    several += std::any_of(all.begin(), all.end(), [&](const VecX& s) { return (p.W * (s - all[0])).norm() > 1e-6; });
+    for (const auto& s : all) nearest = std::min(nearest, (p.W * (r - s)).lpNorm<Eigen::Infinity>());
+    several += std::any_of(all.begin(), all.end(), [&](const auto& s) { return (p.W * (s - all[0])).norm() > 1e-6; });
     const double scale = std::max(1.0, (p.W * r).lpNorm<Eigen::Infinity>());
     if (!(nearest <= 1e-8 * scale)) {
       ++wrong;

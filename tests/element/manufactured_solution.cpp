@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 #include <cmath>
 
 #include "assembly/equilibrium.hpp"
+#include "linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -50,16 +50,14 @@ VecX balanced(Equilibrium& body, const VecX& F) {
   const Dofs& dofs = body.dofs();
   VecX u(dofs.n);
   for (int n = 0; n < body.mesh().n_nodes(); ++n) u.segment<3>(3 * n) = chosen(body.mesh().X[n]);
-  const Pattern& pattern = body.pattern();
+  LinearSolver solver(body.pattern());
   for (int k = 0; k < 12; ++k) {
     body.pressures_from(u);
     REQUIRE(body.assemble(u, true));
     const VecX r = (F - body.f_int())(dofs.free);
     if (r.norm() < 1e-10 * F.norm()) return u;
-    const Eigen::Map<const Eigen::SparseMatrix<double>> K(dofs.n_free(), dofs.n_free(), pattern.nnz(), pattern.column_start.data(),
-                                                          pattern.row.data(), body.K().data());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(K);
-    const VecX du = factor.solve(r);
+    REQUIRE(solver.factorize(body.K()));
+    const VecX du = solver.solve(r);
     for (int row = 0; row < dofs.n_free(); ++row) u[dofs.free[row]] += du[row];
   }
   FAIL("Newton's method does not converge");

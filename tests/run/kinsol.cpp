@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "scene/config_io.hpp"
 #include "scene/scene.hpp"
@@ -46,12 +47,14 @@ Mesh mesh_for(const std::string& name, const SolveConfig& config) {
 TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
   const Material skin = read_config<Material>(load_yaml(configs + "material/abdomen_hgo_yeoh.yaml")).config;
   int scenes = 0;
-  for (const auto& entry : fs::directory_iterator(configs + "solve")) {
-    const std::string name = entry.path().stem();
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(configs + "solve")) files.insert(entry.path());
+  for (const fs::path& file : files) {
+    const std::string name = file.stem();
     if (name.starts_with("accuracy_")) continue;  // those of refinement_ on meshes of their own
     if (name.starts_with("which_")) continue;     // the others' scenes on one skin
     CAPTURE(name);
-    const SolveConfig config = read_config<SolveConfig>(load_yaml(entry.path().string())).config;
+    const SolveConfig config = read_config<SolveConfig>(load_yaml(file.string())).config;
     // bonds are newton's alone: tests/config/bad/adhesion_kinsol.yaml
     if (std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.adhesion.has_value(); }))
       continue;
@@ -69,8 +72,8 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
     double size = 0;
     for (const StepRecord& step : expected)
       for (const Vec3& u : step.u) size = std::max(size, u.norm());
-    for (KinsolStrategy strategy :
-         {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
+    constexpr KinsolStrategy in_turn[] = {KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point};
+    for (KinsolStrategy strategy : {KinsolStrategy::newton, in_turn[scenes % 3]}) {
       CAPTURE(static_cast<int>(strategy));
       how.solver = KinsolOptions{.strategy = strategy, .relative = 1e-10};
       const std::vector<StepRecord> found = solved(mesh, scene, part, how).steps;
