@@ -11,6 +11,7 @@
 #include "geometry/exchange.hpp"
 #include "geometry/gmsh/load.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/raise.hpp"
 #include "mesh/reference.hpp"
 
@@ -157,10 +158,20 @@ Mesh read_msh(const std::string& path, std::vector<std::string>& notes) {
 }
 
 Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells, std::vector<std::string>& notes) {
-  const Model model = mesh_by_gmsh(path, facets, edge, reference(cells).hexahedron());
-  MshReader reader(path, notes);
-  if (!model.has_volumes) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
-  return reader.made_of(model);
+  gmsh_module::SolidOrder order{facets, edge, reference(cells).hexahedron()};
+  const auto meshed = [&] {
+    const Model model = mesh_by_gmsh(path, order);
+    MshReader reader(path, notes);
+    if (!model.has_volumes) reader.refuse("no solid body", facets ? "triangles that enclose one" : "a STEP file with a solid");
+    return reader.made_of(model);
+  };
+  const std::vector<std::string> before = notes;
+  Mesh mesh = meshed();
+  if (!order.hexahedra || quality(mesh).least_jacobian > 0) return mesh;
+  order.straight = true;
+  notes = before;
+  notes.push_back("the edges of tetrahedra stay straight where they are split: nodes on the surface would fold cells");
+  return meshed();
 }
 
 namespace {

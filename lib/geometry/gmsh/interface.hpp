@@ -32,11 +32,19 @@ struct Model {
   std::vector<Group> groups;
 };
 
+// How a solid is meshed. gmsh puts the new nodes that a split of tetrahedra makes on the surface, which may fold a flat one; `straight`
+// leaves them between the old ones.
+struct SolidOrder {
+  bool facets = false;  // triangles (.stl) that enclose it, else a .step
+  double edge = 1;      // [mm]
+  bool hexahedra = true, straight = false;
+};
+
 // Both throw std::runtime_error: gmsh's last words.
 struct Functions {
   const char* made_with;                   // version of the source; the program's own, or they do not fit together
   Model (*read)(const std::string& path);  // a .msh of any version
-  Model (*solid)(const std::string& path, bool facets, double edge, bool hexahedra);  // a .step, or triangles (.stl), meshed
+  Model (*solid)(const std::string& path, const SolidOrder& order);  // meshed
 };
 
 inline constexpr const char* symbol = "langer_gmsh_module";  // const Functions, of C linkage

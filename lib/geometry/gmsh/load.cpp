@@ -54,8 +54,8 @@ gmsh_module::Model read_by_gmsh(const std::string& path) {
   return asked(path, "read", [&](const auto& gmsh) { return gmsh.read(path); });
 }
 
-gmsh_module::Model mesh_by_gmsh(const std::string& path, bool facets, double edge, bool hexahedra) {
-  return asked(path, "mesh", [&](const auto& gmsh) { return gmsh.solid(path, facets, edge, hexahedra); });
+gmsh_module::Model mesh_by_gmsh(const std::string& path, const gmsh_module::SolidOrder& order) {
+  return asked(path, "mesh", [&](const auto& gmsh) { return gmsh.solid(path, order); });
 }
 
 }  // namespace langer

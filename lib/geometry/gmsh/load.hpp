@@ -9,6 +9,6 @@
 namespace langer {
 
 gmsh_module::Model read_by_gmsh(const std::string& path);
-gmsh_module::Model mesh_by_gmsh(const std::string& path, bool facets, double edge, bool hexahedra);
+gmsh_module::Model mesh_by_gmsh(const std::string& path, const gmsh_module::SolidOrder& order);
 
 }  // namespace langer

@@ -68,11 +68,11 @@ void name_group(int dim, int tag, const char* kind) {
   gmsh::model::setPhysicalName(dim, gmsh::model::addPhysicalGroup(dim, {tag}), kind + std::to_string(tag));
 }
 
-Model solid(const std::string& path, bool facets, double edge, bool hexahedra) {
+Model solid(const std::string& path, const SolidOrder& order) {
   const GmshSession session;
   try {
     gmsh::vectorpair shapes, surfaces, volumes;
-    if (facets) {
+    if (order.facets) {
       gmsh::merge(path);
       constexpr double edge_angle = 40 * std::numbers::pi / 180;  // faces meet where triangles turn by more
       gmsh::model::mesh::classifySurfaces(edge_angle, true, true);
@@ -94,8 +94,10 @@ Model solid(const std::string& path, bool facets, double edge, bool hexahedra) {
       for (const auto& [dim, tag] : volumes) name_group(3, tag, "body_");
     gmsh::model::getEntities(surfaces, 2);
     for (const auto& [dim, tag] : surfaces) name_group(2, tag, "face_");
-    const double whole = hexahedra ? 2 * edge : edge;  // for hexahedra every tetrahedron is split into four, of half its size
-    if (hexahedra) gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);
+    const double whole =
+        order.hexahedra ? 2 * order.edge : order.edge;  // for hexahedra every tetrahedron is split into four, of half its size
+    if (order.hexahedra) gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);
+    if (order.straight) gmsh::option::setNumber("Mesh.SecondOrderLinear", 1);  // those of subdivision as well
     gmsh::option::setNumber("Mesh.MeshSizeMin", whole);
     gmsh::option::setNumber("Mesh.MeshSizeMax", whole);
     gmsh::model::mesh::generate(3);
