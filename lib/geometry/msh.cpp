@@ -1,8 +1,10 @@
 // Gmsh's meshes, read by gmsh, written by ourselves: physical groups are bodies, facet sets and node sets.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -168,10 +170,18 @@ Mesh read_solid(const std::string& path, bool facets, double edge, CellType cell
   const std::vector<std::string> before = notes;
   Mesh mesh = meshed();
   if (!order.hexahedra || quality(mesh).least_jacobian > 0) return mesh;
+  const std::vector<std::string> of_curved = std::exchange(notes, before);
   order.straight = true;
-  notes = before;
-  notes.push_back("the edges of tetrahedra stay straight where they are split: nodes on the surface would fold cells");
-  return meshed();
+  Mesh straight = meshed();
+  const double volume = quality(mesh).volume, lost = std::abs(quality(straight).volume / volume - 1);
+  if (!(lost < 0.01)) {  // another body: the folded cells are refused
+    notes = of_curved;
+    return mesh;
+  }
+  notes.push_back(fmt::format(
+      "nodes on the surface would fold cells: the edges of split tetrahedra stay straight, which changes the volume by {:.2g} %",
+      100 * lost));
+  return straight;
 }
 
 namespace {
