@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/counted.hpp"
+
 namespace langer::pipeline {
 
 namespace {
@@ -100,8 +102,7 @@ std::vector<SlurmFile> slurm_files(const std::string& run, const std::vector<Ste
       submit += fmt::format("id=$(sbatch --parsable{} \"$@\" slurm/{}.sbatch)\n", options, jobs->node);
       submit += fmt::format("{0}=${{{0}}}:${{id%%;*}}\n", name);
     }
-    submit += fmt::format("echo \"{}: {}, job ${{{}#:}}\"\n", jobs->node,
-                          jobs->steps.size() == 1 ? "1 step" : fmt::format("{} steps", jobs->steps.size()), name);
+    submit += fmt::format("echo \"{}: {}, job ${{{}#:}}\"\n", jobs->node, counted(jobs->steps.size(), "step"), name);
   }
   files.push_back({"slurm/submit", submit, true});
   return files;
