@@ -1,0 +1,34 @@
+// Bodies of which every node is moved as told: nothing is to be solved, and the reactions are those of the law.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/section.hpp"
+
+using namespace langer;
+
+TEST_CASE("a body whose every node is moved has the reactions of its law: confined compression, a layer in shear") {
+  const double a1 = 0.05, d = 0.01, l = 0.9;
+  const std::string law = "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.01}}}\npath: {steps: 2}\n";
+  const std::string one = "mesh: {geometry: {block: {size: [2, 1, 3], divisions: [1, 1, 1]}}}\n";
+  // F = diag(1, l, 1), J = l: P_yy = 2 a1 J^(-5/3) (l^2 - (l^2 + 2) / 3) + 2 (J - 1) / d
+  const double P = 2 * a1 * std::pow(l, -5.0 / 3) * (l * l - (l * l + 2) / 3) + 2 * (l - 1) / d;
+  for (const char* solver : {"newton", "kinsol"})
+    for (const char* homogeneous : {"auto", "off"}) {
+      CAPTURE(solver);
+      CAPTURE(homogeneous);
+      const test::Ended end = test::run(
+          one + law +
+          "supports: [{on: x_min, hold: [x]}, {on: x_max, hold: [x]}, {on: z_min, hold: [z]}, {on: z_max, hold: [z]}, {on: bottom, hold: "
+          "[y]}]\nloads: [{on: top, displacement: {y: -0.1}}]\nhomogeneous: " +
+          homogeneous + "\nsolver: {" + solver + ": {}}\n");
+      CHECK(end.reaction("top")[1] == doctest::Approx(6 * P).epsilon(1e-12));
+      CHECK(end.reaction("x_max")[0] == doctest::Approx(-end.reaction("x_min")[0]).epsilon(1e-12));
+    }
+  // F = 1 + gamma e_x e_y, J = 1: P_xy = 2 a1 gamma
+  const test::Ended sheared =
+      test::run("mesh: {geometry: {block: {size: [4, 1, 3], divisions: [4, 1, 3]}}}\n" + law +
+                "supports: [{on: bottom, hold: [x, y, z]}, {on: top, hold: [y, z]}]\nloads: [{on: top, displacement: {x: 0.2}}]\n");
+  CHECK(sheared.reaction("top")[0] == doctest::Approx(12 * 2 * a1 * 0.2).epsilon(1e-12));
+  CHECK(sheared.reaction("bottom")[0] == doctest::Approx(-12 * 2 * a1 * 0.2).epsilon(1e-12));
+}
