@@ -7,7 +7,6 @@
 #include "base/interrupt.hpp"
 #include "inverse/uncertainty.hpp"
 #include "mirror/mirror.hpp"
-#include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 #include "run/run_words.hpp"
 #include "run/step_record.hpp"
@@ -23,7 +22,7 @@ using Law = std::optional<Material>;
 std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material, const ParameterKnowledge& known,
                                              ModelChoice& model) {
   const SolveConfig config = model.config();
-  Run run(body_mesh(config, job.has("mesh") ? job.input("mesh") : "", job.where), config, material, job.where, model.at_a_point());
+  Run run(model.mesh(), config, material, job.where, model.at_a_point());
   const double jump = say_scene(job.voice(), run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run) return say_forecast(job.voice(), config, material, job.where, run, watch);
@@ -43,7 +42,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
   }
   std::optional<EndsSoon> all_is_kept(std::in_place);
   const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
-  const bool again = model.another(estimate.at_end);
+  const bool again = model.another(estimate, run.mesh);
   if (again && interrupted()) recording.stopped_in_estimate();
   if (again) return {};
   all_is_kept.reset();
@@ -69,7 +68,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
     const MirrorTask task{own, material, job.where, job.identity, mesh, job.input("mirror"), job.output};
     if (const auto image = take_image(job.voice(), task)) return *image;
   }
-  ModelChoice model(job.voice(), job.config, !mesh.empty(), material, job.where, job.dry_run);
+  ModelChoice model(job.voice(), job.config, mesh, material, job.where, job.dry_run);
   for (;;) {
     try {
       if (const auto results = solve_by(job, material, known, model)) return *results;

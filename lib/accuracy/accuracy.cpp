@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/adaptive_cells.hpp"
 #include "accuracy/footprint.hpp"
 #include "accuracy/level_cost.hpp"
 #include "watch/progress.hpp"
@@ -21,6 +22,7 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 
 // where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
 constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};
 constexpr double enough_for_coarsest = 2;  // [%]
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
 constexpr double finest_of_block = 0.04, finest_of_disc = 0.01;  // finer ones were never tried
@@ -61,12 +63,13 @@ AccuracyLevel the_configs_own(const SolveConfig& config) {
 }
 
 // in thin layers with cells that are short enough for some layers of them
-AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wanted) {
+AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wanted, bool cut) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
   AccuracyLevel level = is_section(geometry)                                   ? of_disc
+                        : cut                                                  ? to_be_cut
                         : has_friction(config) && wanted < enough_for_coarsest ? coarsest_with_friction
                                                                                : coarsest;
   *edge = level.edge;
@@ -127,14 +130,14 @@ const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
   return plain ? smooth : others;
 }
 
-std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material) {
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts) {
   if (!config.accuracy && !config.fidelity) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
     chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
-    chosen.shown = false;
+    chosen.shown = false, chosen.cut = cuts && chosen.level.cells == CellType::hex8 && why_not_cut(config).empty();
     chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
     return chosen;
   }
@@ -145,13 +148,16 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
   const bool elastic = !config.path.seconds;  // as the study's bodies
-  chosen.shown = of_the_studys_kind(config, print) && elastic;
+  chosen.cut = cuts && config.mesh->cells == CellType::hex8 && !is_section(geometry) && elastic && why_not_cut(config).empty();
+  chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
-  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest, chosen.wanted) : chosen.met ? *level : levels.back();
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest, chosen.wanted, chosen.cut)
+                 : chosen.met  ? *level
+                               : levels.back();
   if (!plain && !has_friction(config)) chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
   if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))
@@ -197,9 +203,15 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
 }
 
 Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
-    : voice_(voice), config_(config), material_(material), where_(std::move(where)), chosen_(choose_accuracy(config_, material)) {
+    : voice_(voice),
+      config_(config),
+      material_(material),
+      where_(std::move(where)),
+      chosen_(choose_accuracy(config_, material, true)) {
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
+  if (chosen_->cut)
+    voice_.say("accuracy: cells are cut where the error comes from, until it is within that{}", dry ? " (not with --dry-run)" : "");
   begins_ = !chosen_->shown && chosen_->level.in_contact_radii && config_.estimate == EstimateBy::refinement;
   if (begins_)
     voice_.say("accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
@@ -239,7 +251,7 @@ std::string Accuracy::not_begun(const AccuracyLevel& level) const {
   const LevelCost cost = level_cost(config, material_, where_);
   voice_.say("accuracy: {}: {}, by the forecast", in_words(level), in_words(cost));
   const std::string why = too_dear(cost, left);
-  return why.empty() ? "" : fmt::format("{} {}", in_words(level), why);
+  return why.empty() ? "" : fmt::format("a next level, {}, {}", in_words(level), why);
 }
 
 bool Accuracy::begin_anew(const Failure& failure) {
@@ -278,6 +290,22 @@ bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
   return true;
 }
 
+std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_) return std::nullopt;
+  if (forces_judged(estimates).empty()) return 0.0;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  return found.met ? std::nullopt : std::optional(chosen_->wanted / found.percent);
+}
+
+std::string Accuracy::not_begun(const Mesh& mesh) {
+  const double left = seconds_left();
+  if (std::isinf(left) && mesh.n_cells() < worth_a_forecast) return "";
+  const LevelCost cost = level_cost(config_, mesh, material_, where_);
+  voice_.say("accuracy: {} cells: {}, by the forecast", mesh.n_cells(), in_words(cost));
+  const std::string why = too_dear(cost, left);
+  return why.empty() ? "" : "a next level " + why;
+}
+
 std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {
   if (!chosen_) return {};
   const ReachedAccuracy found = reached(*chosen_, estimates);
@@ -295,7 +323,7 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
     return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
   throw Failure(Exit::not_accurate,
-                Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; a next level, " + not_begun_),
+                Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),
                       fmt::format("at most {:g} %", chosen_->wanted),
                       fmt::format("kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
                                   "mesh.geometry with estimate, in place of {}",

@@ -35,13 +35,15 @@ struct ChosenLevel {
   std::string words;
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
+  bool cut = false;       // cells, where the error comes from (accuracy/adaptive_cells.hpp)
 };
 // Puts the level's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
 // is wanted. Scenes that are not of the study's kind get the coarsest hex8, or the config's own cells and increments where these are
 // no lengths in contact radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if the config
 // has them; what does not is named in `words`.
-// material: of the bodies that the config names none for
-std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material);
+// material: of the bodies that the config names none for. cuts: who solves it cuts cells where the error comes from, if the scene is one
+// for that (accuracy/adaptive_cells.hpp): then with coarse cells.
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts = false);
 
 // What was reached of it: the largest estimated error of a force; what the level promises where nothing was estimated.
 struct ReachedAccuracy {
@@ -76,8 +78,14 @@ class Accuracy {
   Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry);
 
   const SolveConfig& config() const { return config_; }  // to be solved
+  bool cuts() const { return chosen_ && chosen_->cut; }  // cells, where the error comes from
   // Whether to solve again, with config() as it is now. Says so.
   bool refine(const std::vector<ErrorEstimate>& estimates);
+  // The share of what was reached that is wanted, where that is less; 0 where it is not known. Nothing where it is met, or none is asked for.
+  std::optional<double> wanted_of(const std::vector<ErrorEstimate>& estimates) const;
+  // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where it may be. Says what it takes.
+  std::string not_begun(const Mesh& mesh);
+  void ends_here(const std::string& why) { not_begun_ = why; }  // no next level, and why
   // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says so.
   bool begin_anew(const Failure& failure);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached

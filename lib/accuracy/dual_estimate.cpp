@@ -1,5 +1,6 @@
 #include "accuracy/dual_estimate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -19,6 +20,7 @@ namespace {
 constexpr double of_others = 0.1, of_quadratic = 0.2, of_clamped = 0.6;
 constexpr double too_rough = 0.25;  // the sum itself, of the quantity
 constexpr double most_alone = 0.2;  // of the volume
+constexpr double balanced = 1e-4;   // dual solutions: on fine meshes of nearly incompressible bodies rounding leaves more than 1e-7
 
 Failure not_known(const std::string& why) {
   return Failure(Exit::not_converged,
@@ -146,6 +148,38 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, c
   return out;
 }
 
+// those with a node that an indenter touches
+std::vector<int> touched_cells(const Run& run, const StepRecord& last) {
+  std::vector<char> touched(run.mesh.X.size(), 0);
+  for (const RigidContact& contact : run.scene.contacts) {
+    const std::vector<Vec3>& r = last.contacts.at(contact.name).r;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (!r[i].isZero(0)) touched[static_cast<std::size_t>(contact.nodes[i])] = 1;
+  }
+  std::vector<int> cells;
+  for (int e = 0; e < run.mesh.n_cells(); ++e)
+    if (std::ranges::any_of(run.mesh.cell(e), [&](int n) { return touched[static_cast<std::size_t>(n)] != 0; })) cells.push_back(e);
+  return cells;
+}
+
+// `smooth` times what the fields tell of each, and `of_contact` in equal parts of those that are touched
+std::vector<double> parts_of(const EnergyErrors::Derivative& d, double smooth, const std::vector<int>& touched, double of_contact) {
+  std::vector<double> parts;
+  for (double of_cell : d.of_cell) parts.push_back(smooth * std::abs(of_cell));
+  for (int e : touched) parts[static_cast<std::size_t>(e)] += of_contact / static_cast<double>(touched.size());
+  return parts;
+}
+
+// a layer of one cell, which all are in
+PathErrors in_one_layer(const SolveConfig& config, const Mesh& mesh) {
+  const std::string why = "a layer of one cell tells nothing of smooth fields across it";
+  if (!asks_for_accuracy(config)) throw not_known(why);
+  PathErrors out;
+  out.not_known = {"errors are not known: " + why};
+  out.of_cells.assign(static_cast<std::size_t>(mesh.n_cells()), 1);
+  return out;
+}
+
 }  // namespace
 
 PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found) {
@@ -158,17 +192,19 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   for (std::size_t i = 0; i < found.size(); ++i) {
     auto question = questions.of(i, found[i]);
     if (!question) continue;
-    const auto answer = tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest());
+    const auto answer = tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest(), balanced);
     if (!answer) continue;
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
   if (duals.empty()) throw not_known("a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
-  if (errors.alone > most_alone) throw not_known("a layer of one cell tells nothing of smooth fields across it");
+  if (errors.alone > most_alone) return in_one_layer(config, run.mesh);
+  PathErrors out;
   const bool quadratic = run.mesh.cell().second_order();
   const std::vector<StepForces> end{step_forces(config, run.scene, run.mesh, last)};
-  PathErrors out;
+  const std::vector<Valued> judged = forces_judged(found);
+  double worst = 0;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const Valued& q = found[asked[k].quantity];
     const auto& d = errors.along[k];
@@ -181,6 +217,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     ErrorEstimate e{q, asked[k].sign * d.sum() / times, 0, 0, last.residual * std::abs(q.value)};
     if (q.of_force()) e.order = order_of_force(config);
     e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * size;
+    const double smooth = e.total();
     if (!asked[k].of_set && q.of_force())  // smooth fields do not know that nodes touch one by one
       e.scatter = std::max(e.scatter, 0.5 * std::abs(q.value) *
                                           one_by_one(touching_at(end, end[0].touching.contains(q.name) ? q.name : "force", last.t),
@@ -191,8 +228,14 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
                       e.in_percent(size)));
     else
       out.at_end.push_back(e);
+    const bool is_judged = std::ranges::any_of(judged, [&](const Valued& v) { return v.name == q.name; });
+    if (const double percent = e.in_percent(e.total()); is_judged && percent > worst) {
+      worst = percent;
+      out.of_cells = parts_of(d, smooth / d.size, touched_cells(run, last), e.total() - smooth);
+      for (double& part : out.of_cells) part /= std::max(std::abs(q.value), 1e-300);
+    }
   }
-  if (out.at_end.empty()) throw not_known(out.not_known.front());
+  if (out.at_end.empty() && !asks_for_accuracy(config)) throw not_known(out.not_known.front());
   return out;
 }
 

@@ -12,8 +12,9 @@
 
 namespace langer {
 
-// of the state that `run` was left at, `last` that of the whole body. Throws Failure(not_converged) where no error is known, saying why;
-// a quantity for which the cells are too long is left out, with a sentence in not_known.
+// Of the state that `run` was left at, `last` that of the whole body. Throws Failure(not_converged) where no error is known, saying why;
+// a quantity for which the cells are too long is left out, with a sentence in not_known. Where an accuracy is asked for and cells are
+// too long for every quantity, all are left out, and PathErrors::of_cells tells which cells are to be cut.
 PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found);
 
 }  // namespace langer

@@ -14,6 +14,8 @@ struct LevelCost {
   double bytes = 0, free = 0;
 };
 LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where);
+// on this mesh, without an estimate
+LevelCost level_cost(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Run::Where& where);
 std::string in_words(const LevelCost& cost);  // "about 40 s of CPU and 430 MB"
 
 // that the shell's ulimit -t and the job of a cluster leave this program; infinity where nothing limits it

@@ -1,26 +1,32 @@
 #include "accuracy/model_choice.hpp"
 
+#include <fmt/format.h>
+
+#include "run/body_mesh.hpp"
 #include "run/run_words.hpp"
 
 namespace langer {
 
 namespace {
 
-SolveConfig of_scene(SolveConfig config, bool has_file) {
-  if (has_file) config.mesh.reset();
+constexpr double margin = 0.8;  // of what is wanted: parts do not fall as told
+
+SolveConfig of_scene(SolveConfig config, const std::string& file) {
+  if (!file.empty()) config.mesh.reset();
   return config;
 }
 
 }  // namespace
 
-ModelChoice::ModelChoice(const Voice& voice, const SolveConfig& config, bool has_file, const std::optional<Material>& material,
-                         Where where, bool dry)
+ModelChoice::ModelChoice(const Voice& voice, const SolveConfig& config, const std::string& file,
+                         const std::optional<Material>& material, Where where, bool dry)
     : voice_(voice),
       asked_(config),
+      file_(file),
       material_(material),
       where_(std::move(where)),
       dry_(dry),
-      section_(voice, of_scene(config, has_file), material, where_, dry),
+      section_(voice, of_scene(config, file), material, where_, dry),
       accuracy_(of_model()),
       at_a_point_(config.homogeneous == Homogeneous::automatic) {}
 
@@ -28,9 +34,45 @@ Accuracy ModelChoice::of_model() const {
   return Accuracy(voice_, section_.taken() ? section_.config() : asked_, material_, where_, dry_);
 }
 
-bool ModelChoice::another(const std::vector<ErrorEstimate>& errors) {
-  if (section_.accurate(errors)) return accuracy_.refine(errors);
-  accuracy_ = of_model();
+Mesh ModelChoice::mesh() {
+  if (cells_) return cells_->mesh();
+  Mesh mesh = body_mesh(config(), file_, where_);
+  if (!accuracy_.cuts() || !why_not_cut(mesh).empty()) return mesh;
+  cells_.emplace(mesh);
+  if (const int times = cells_->shorten_under(config()); times > 0)
+    voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times, times == 1 ? "" : "s",
+               cells_->mesh().n_cells(), mesh.n_cells());
+  return cells_->mesh();
+}
+
+bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
+  if (!section_.accurate(errors.at_end)) {
+    accuracy_ = of_model();
+    return true;
+  }
+  return errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
+}
+
+bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
+  const std::optional<double> wanted = accuracy_.wanted_of(errors.at_end);
+  if (!wanted) return false;
+  if (!cells_) {
+    const std::string of_scene = why_not_cut(config());
+    accuracy_.ends_here("its cells are not cut: " + (of_scene.empty() ? why_not_cut(mesh) : of_scene));
+    return false;
+  }
+  const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
+  std::string why = cells_->cut(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order);
+  if (why.empty()) {
+    why = accuracy_.not_begun(cells_->mesh());
+    if (!why.empty()) cells_->undo();
+  }
+  if (!why.empty()) {
+    accuracy_.ends_here(why);
+    return false;
+  }
+  voice_.say("accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}", cells_->n_cut(),
+             mesh.n_cells(), cells_->mesh().n_cells());
   return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accuracy/accuracy.hpp"
+#include "accuracy/adaptive_cells.hpp"
 #include "accuracy/section_in_place.hpp"
 
 namespace langer {
@@ -10,14 +11,16 @@ namespace langer {
 class ModelChoice {
  public:
   using Where = Accuracy::Where;
-  // config as it was written; has_file: the mesh is that of a file, not the config's. material: of the bodies that the config names none for
-  ModelChoice(const Voice& voice, const SolveConfig& config, bool has_file, const std::optional<Material>& material, Where where,
-              bool dry);
+  // config as it was written; file: of the mesh, empty where it is the config's. material: of the bodies that the config names none for
+  ModelChoice(const Voice& voice, const SolveConfig& config, const std::string& file, const std::optional<Material>& material,
+              Where where, bool dry);
 
   const SolveConfig& config() const { return accuracy_.config(); }  // to be solved
+  Mesh mesh();                                                      // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
-  // Whether config() is another one now: the errors of its solution are too large, or it found no equilibrium. Says so.
-  bool another(const std::vector<ErrorEstimate>& errors);
+  // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too large, or it found no
+  // equilibrium. Says so.
+  bool another(const PathErrors& errors, const Mesh& mesh);
   bool another(const Failure& failure) { return accuracy_.begin_anew(failure); }
   // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept. Says so.
   void leave_point();
@@ -30,14 +33,17 @@ class ModelChoice {
 
  private:
   Accuracy of_model() const;
+  bool cut(const PathErrors& errors, const Mesh& mesh);
 
   Voice voice_;
   SolveConfig asked_;
+  std::string file_;
   std::optional<Material> material_;
   Where where_;
   bool dry_;
   SectionInPlace section_;
   Accuracy accuracy_;
+  std::optional<AdaptiveCells> cells_;
   bool at_a_point_;
 };
 

@@ -213,11 +213,12 @@ struct SolveConfig {
     v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
-      "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other "
-      "increments; wants a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is "
-      "taken where accuracy or fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. dual, on any mesh of an elastic body, without "
-      "friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration. recovery, on "
-      "any mesh and at once: what the stress lacks to be smooth; of force and stress, and in an indentation some times too large");
+      "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
+      "a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is taken where accuracy or "
+      "fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. dual, on any mesh of an elastic "
+      "body, without friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration; beside "
+      "accuracy hex8 are cut where the error comes from. recovery, on any mesh and at once: what the stress lacks to be smooth; of force and "
+      "stress, and in an indentation some times too large");
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
@@ -296,8 +297,7 @@ struct SolveConfig {
         found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
     }
     if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && estimate != EstimateBy::dual)
-      found.push_back(
-          {key, other_mesh, laid_out, "their cells are what accuracy chooses; estimate: dual beside it judges any mesh as it is"});
+      found.push_back({key, other_mesh, laid_out, "accuracy chooses their cells; estimate: dual beside it cuts those of any mesh"});
     complain_of_cuts(found);
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;

@@ -241,8 +241,8 @@ VecX StateTangent::on_free_rows(const ParameterChange& change) const {
 }
 
 std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& change, const StateDerivative& before,
-                                                        const StateDerivative& earlier) const {
-  constexpr double exact = 1e-12, enough = 1e-7;
+                                                        const StateDerivative& earlier, double enough) const {
+  constexpr double exact = 1e-12;
   if (!solvable_) return std::nullopt;
   StateDerivative out = of_rest();
   if (change.prescribed.size() > 0) out.u = change.prescribed;

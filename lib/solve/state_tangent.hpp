@@ -41,9 +41,10 @@ class StateTangent {
   // Refers to statics.
   StateTangent(Statics& statics, const BodyState& earlier);
 
-  // before, earlier: derivatives of the two states before. Nothing where the tangent is singular, or the corrections do not end.
+  // before, earlier: derivatives of the two states before. Nothing where the tangent is singular, or the corrections end further from
+  // balance than `enough`, relative to what the change loads the body with.
   std::optional<StateDerivative> derivative(const ParameterChange& change, const StateDerivative& before,
-                                            const StateDerivative& earlier) const;
+                                            const StateDerivative& earlier, double enough = 1e-7) const;
   // Of what the body bears at supports and contact nodes (Statics::reactions), one for each. energies: if given, takes what the movement
   // adds to the derivative of the stored energy [N mm].
   std::vector<VecX> reactions(const std::vector<ParameterChange>& changes, const std::vector<StateDerivative>& derivatives,

@@ -1,0 +1,123 @@
+#include "accuracy/adaptive_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "accuracy/footprint.hpp"
+#include "mesh/bounding_box.hpp"
+#include "scene/hanging.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double fewest = 0.3, most = 0.9;  // shares of the sum
+constexpr double fewest_cells = 1.0 / 7;    // of all: a level that does not double them tells little more than the one before
+constexpr double alike = 1e-4;              // relative
+constexpr int most_after = 150'000;         // more were never tried
+
+constexpr double across = 0.5;  // length of a cell under an indenter, in half widths of what touches
+constexpr int most_at_first = 20'000;
+
+double longest_edge_in_plan(const Mesh& mesh, int e) {
+  double longest = 0;
+  for (int a : mesh.cell(e))
+    for (int b : mesh.cell(e)) {
+      const Vec3 d = mesh.X[static_cast<std::size_t>(a)] - mesh.X[static_cast<std::size_t>(b)];
+      longest = std::max({longest, std::abs(d[0]), std::abs(d[2])});
+    }
+  return longest;
+}
+
+// one for each indenter that reaches the top
+std::vector<Footprint> footprints(const SolveConfig& config, const Mesh& mesh) {
+  const BoundingBox body = bounding_box(mesh.X);
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    box.origin[k] = body.low[axis], box.size[k] = body.size()[axis];
+  }
+  std::vector<Footprint> out;
+  for (const auto& contact : config.contacts) {
+    SolveConfig alone;
+    alone.contacts = {contact};
+    if (const auto print = footprint(alone, box)) out.push_back(*print);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order) {
+  std::vector<std::size_t> by_size(parts.size());
+  std::iota(by_size.begin(), by_size.end(), 0);
+  std::ranges::stable_sort(by_size, [&](std::size_t a, std::size_t b) { return parts[a] > parts[b]; });
+  const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
+  const double enough = sum * std::clamp((1 - wanted) / (1 - std::pow(2, -order)), fewest, most);
+  std::vector<char> marked(parts.size(), 0);
+  double so_far = 0, last = 0;
+  std::size_t n = 0;
+  for (std::size_t e : by_size) {
+    const bool are_enough = so_far >= enough && static_cast<double>(n) >= fewest_cells * static_cast<double>(parts.size());
+    if (parts[e] == 0 || (are_enough && parts[e] < (1 - alike) * last)) break;
+    marked[e] = 1, ++n;
+    so_far += parts[e], last = parts[e];
+  }
+  return marked;
+}
+
+std::string why_not_cut(const SolveConfig& config) {
+  if (config.estimate != EstimateBy::dual) return "cells are cut by the parts of a dual solution";
+  if (has_friction(config)) return "a dual solution knows no friction";
+  if (config.path.seconds) return "a dual solution is that of an elastic body";
+  Mesh cut;
+  cut.hanging.resize(1);
+  const std::vector<Error> errors = hanging_errors(config, cut, {}, [](const std::string&) { return Place{}; });
+  return errors.empty() ? "" : errors.front().found.substr(0, errors.front().found.find(", beside"));
+}
+
+std::string why_not_cut(const Mesh& mesh) {
+  if (mesh.section) return "sections have no cuts";
+  if (mesh.type != CellType::hex8) return "hex8 alone are cut";
+  return mesh.hanging.empty() ? "" : "the mesh has cuts of its own";
+}
+
+int AdaptiveCells::shorten_under(const SolveConfig& config) {
+  const double top = bounding_box(mesh().X).high[1];
+  const std::vector<Footprint> prints = footprints(config, mesh());
+  int times = 0;
+  for (;; ++times) {
+    std::vector<char> marked(static_cast<std::size_t>(mesh().n_cells()), 0);
+    for (const Footprint& print : prints) {
+      const double half = std::max(print.half(0), print.half(1));
+      const CutRegion region{{print.low[0], top - half, print.low[1]}, {print.high[0], top, print.high[1]}};
+      for (int e = 0; e < mesh().n_cells(); ++e)
+        if (longest_edge_in_plan(mesh(), e) > across * half && has_part_of(region, mesh(), e))
+          marked[static_cast<std::size_t>(e)] = 1;
+    }
+    const auto n = std::ranges::count(marked, 1);
+    if (n == 0 || mesh().n_cells() + 7 * n > most_at_first) return times;
+    cells_.cut(std::move(marked));
+  }
+}
+
+std::string AdaptiveCells::cut(const std::vector<double>& parts, double wanted, double order) {
+  before_ = cells_;
+  const int n = mesh().n_cells();
+  cells_.cut(largest_parts(parts, wanted, order));
+  n_cut_ = (mesh().n_cells() - n) / 7;
+  if (mesh().n_cells() <= most_after) return "";
+  std::string why = fmt::format("a next level would have {} cells, of at most {}", mesh().n_cells(), most_after);
+  undo();
+  return why;
+}
+
+void AdaptiveCells::undo() {
+  cells_ = std::move(*before_);
+  before_.reset(), n_cut_ = 0;
+}
+
+}  // namespace langer

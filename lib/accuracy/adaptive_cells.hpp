@@ -1,0 +1,43 @@
+// Cells cut where the error of a force comes from, until an accuracy is reached: from the dual estimate of one mesh to the next one.
+// [D96] marks the cells with the largest parts, as many as cutting them takes the sum to what is wanted; what 2:1 asks for is cut beside
+// them (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/cut.hpp"
+#include "scene/solve_config.hpp"
+
+namespace langer {
+
+// The cells with the largest parts, so that `wanted` times their sum is left where each cut takes a part to 2^-order of it; at least three
+// tenths of the sum and a seventh of the cells, at most nine tenths. Parts that are alike, as symmetry makes them, are marked together.
+std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order);
+
+// Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose errors a dual solution tells, and
+// nothing that hanging nodes do not know (scene/hanging.hpp).
+std::string why_not_cut(const SolveConfig& config);
+std::string why_not_cut(const Mesh& mesh);
+
+class AdaptiveCells {
+ public:
+  explicit AdaptiveCells(const Mesh& mesh) : cells_(mesh) {}
+
+  const Mesh& mesh() const { return cells_.mesh(); }
+  // Under each indenter that reaches the top, until cells there are at most half as long as what touches is to its side: with longer
+  // ones the first solution tells nothing. How many times they are cut; 0: they are short enough.
+  int shorten_under(const SolveConfig& config);
+  // Of the parts of each cell. Nothing and the reason where that makes too many.
+  std::string cut(const std::vector<double>& parts, double wanted, double order);
+  int n_cut() const { return n_cut_; }  // by the last cut
+  void undo();                          // the last cut
+
+ private:
+  CutMesh cells_;
+  std::optional<CutMesh> before_;
+  int n_cut_ = 0;
+};
+
+}  // namespace langer
