@@ -131,13 +131,15 @@ const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
 }
 
 std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts) {
-  if (!config.accuracy && !config.fidelity) return std::nullopt;
+  if (!asks_for_accuracy(config)) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
   chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  const bool may_be_cut = !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
+  chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
     chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
-    chosen.shown = false, chosen.cut = cuts && chosen.level.cells == CellType::hex8 && why_not_cut(config).empty();
+    chosen.shown = false;
     chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
     return chosen;
   }
@@ -148,7 +150,6 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
   const bool elastic = !config.path.seconds;  // as the study's bodies
-  chosen.cut = cuts && config.mesh->cells == CellType::hex8 && !is_section(geometry) && elastic && why_not_cut(config).empty();
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
   const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
@@ -244,14 +245,23 @@ SolveConfig Accuracy::with(const AccuracyLevel& level) const {
   return config;
 }
 
+std::string Accuracy::not_begun(const std::string& level, double cells, const std::function<LevelCost()>& cost) const {
+  const double left = seconds_left();
+  if (std::isinf(left) && cells < worth_a_forecast) return "";
+  const LevelCost forecast = cost();
+  voice_.say("accuracy: {}: {}, by the forecast", level, in_words(forecast));
+  const std::string why = too_dear(forecast, left);
+  return why.empty() ? "" : fmt::format("a next level, {}, {}", level, why);
+}
+
 std::string Accuracy::not_begun(const AccuracyLevel& level) const {
   const SolveConfig config = with(level);
-  const double left = seconds_left();
-  if (std::isinf(left) && n_cells(config.mesh->geometry) < worth_a_forecast) return "";
-  const LevelCost cost = level_cost(config, material_, where_);
-  voice_.say("accuracy: {}: {}, by the forecast", in_words(level), in_words(cost));
-  const std::string why = too_dear(cost, left);
-  return why.empty() ? "" : fmt::format("a next level, {}, {}", in_words(level), why);
+  return not_begun(in_words(level), n_cells(config.mesh->geometry), [&] { return level_cost(config, material_, where_); });
+}
+
+std::string Accuracy::not_begun(const Mesh& mesh) const {
+  return not_begun(fmt::format("{} cells", mesh.n_cells()), mesh.n_cells(),
+                   [&] { return level_cost(config_, mesh, material_, where_); });
 }
 
 bool Accuracy::begin_anew(const Failure& failure) {
@@ -295,15 +305,6 @@ std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& esti
   if (forces_judged(estimates).empty()) return 0.0;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   return found.met ? std::nullopt : std::optional(chosen_->wanted / found.percent);
-}
-
-std::string Accuracy::not_begun(const Mesh& mesh) {
-  const double left = seconds_left();
-  if (std::isinf(left) && mesh.n_cells() < worth_a_forecast) return "";
-  const LevelCost cost = level_cost(config_, mesh, material_, where_);
-  voice_.say("accuracy: {} cells: {}, by the forecast", mesh.n_cells(), in_words(cost));
-  const std::string why = too_dear(cost, left);
-  return why.empty() ? "" : "a next level " + why;
 }
 
 std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accuracy/error_estimate.hpp"
+#include "accuracy/level_cost.hpp"
 #include "base/voice.hpp"
 #include "scene/solve_config.hpp"
 
@@ -84,7 +85,7 @@ class Accuracy {
   // The share of what was reached that is wanted, where that is less; 0 where it is not known. Nothing where it is met, or none is asked for.
   std::optional<double> wanted_of(const std::vector<ErrorEstimate>& estimates) const;
   // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where it may be. Says what it takes.
-  std::string not_begun(const Mesh& mesh);
+  std::string not_begun(const Mesh& mesh) const;
   void ends_here(const std::string& why) { not_begun_ = why; }  // no next level, and why
   // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says so.
   bool begin_anew(const Failure& failure);
@@ -97,7 +98,8 @@ class Accuracy {
   bool shorter_cells();
   SolveConfig with(const AccuracyLevel& level) const;
   OrdersSeen orders_since_before(const std::vector<ErrorEstimate>& estimates);
-  std::string not_begun(const AccuracyLevel& level) const;  // why; empty where it may be
+  std::string not_begun(const AccuracyLevel& level) const;  // as that of a mesh
+  std::string not_begun(const std::string& level, double cells, const std::function<LevelCost()>& cost) const;
 
   Voice voice_;
   SolveConfig config_;

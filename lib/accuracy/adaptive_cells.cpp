@@ -1,12 +1,11 @@
 #include "accuracy/adaptive_cells.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "accuracy/footprint.hpp"
+#include "element/geometry.hpp"
 #include "mesh/bounding_box.hpp"
 #include "scene/hanging.hpp"
 
@@ -17,36 +16,14 @@ namespace {
 constexpr double fewest = 0.3, most = 0.9;  // shares of the sum
 constexpr double fewest_cells = 1.0 / 7;    // of all: a level that does not double them tells little more than the one before
 constexpr double alike = 1e-4;              // relative
-constexpr int most_after = 150'000;         // more were never tried
 
 constexpr double across = 0.5;  // length of a cell under an indenter, in half widths of what touches
 constexpr int most_at_first = 20'000;
 
 double longest_edge_in_plan(const Mesh& mesh, int e) {
-  double longest = 0;
-  for (int a : mesh.cell(e))
-    for (int b : mesh.cell(e)) {
-      const Vec3 d = mesh.X[static_cast<std::size_t>(a)] - mesh.X[static_cast<std::size_t>(b)];
-      longest = std::max({longest, std::abs(d[0]), std::abs(d[2])});
-    }
-  return longest;
-}
-
-// one for each indenter that reaches the top
-std::vector<Footprint> footprints(const SolveConfig& config, const Mesh& mesh) {
-  const BoundingBox body = bounding_box(mesh.X);
-  Box box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
-    box.origin[k] = body.low[axis], box.size[k] = body.size()[axis];
-  }
-  std::vector<Footprint> out;
-  for (const auto& contact : config.contacts) {
-    SolveConfig alone;
-    alone.contacts = {contact};
-    if (const auto print = footprint(alone, box)) out.push_back(*print);
-  }
-  return out;
+  const ElementNodes X = element_nodes(mesh, e);
+  const Eigen::RowVector3d size = X.colwise().maxCoeff() - X.colwise().minCoeff();
+  return std::max(size[0], size[2]);
 }
 
 }  // namespace
@@ -73,10 +50,8 @@ std::string why_not_cut(const SolveConfig& config) {
   if (config.estimate != EstimateBy::dual) return "cells are cut by the parts of a dual solution";
   if (has_friction(config)) return "a dual solution knows no friction";
   if (config.path.seconds) return "a dual solution is that of an elastic body";
-  Mesh cut;
-  cut.hanging.resize(1);
-  const std::vector<Error> errors = hanging_errors(config, cut, {}, [](const std::string&) { return Place{}; });
-  return errors.empty() ? "" : errors.front().found.substr(0, errors.front().found.find(", beside"));
+  const std::vector<Complaint> never = not_on_cut_cells(config);
+  return never.empty() ? "" : never.front().found;
 }
 
 std::string why_not_cut(const Mesh& mesh) {
@@ -85,39 +60,25 @@ std::string why_not_cut(const Mesh& mesh) {
   return mesh.hanging.empty() ? "" : "the mesh has cuts of its own";
 }
 
-int AdaptiveCells::shorten_under(const SolveConfig& config) {
-  const double top = bounding_box(mesh().X).high[1];
-  const std::vector<Footprint> prints = footprints(config, mesh());
-  int times = 0;
-  for (;; ++times) {
-    std::vector<char> marked(static_cast<std::size_t>(mesh().n_cells()), 0);
+int shorten_under(const SolveConfig& config, CutMesh& cells) {
+  const BoundingBox body = bounding_box(cells.mesh().X);
+  const Vec3 size = body.size();
+  const Box box{{body.low[0], body.low[1], body.low[2]}, {size[0], size[1], size[2]}};
+  const double top = body.high[1];
+  const std::vector<Footprint> prints = footprints(config, box);
+  for (int times = 0;; ++times) {
+    const Mesh& mesh = cells.mesh();
+    std::vector<char> marked(static_cast<std::size_t>(mesh.n_cells()), 0);
     for (const Footprint& print : prints) {
       const double half = std::max(print.half(0), print.half(1));
       const CutRegion region{{print.low[0], top - half, print.low[1]}, {print.high[0], top, print.high[1]}};
-      for (int e = 0; e < mesh().n_cells(); ++e)
-        if (longest_edge_in_plan(mesh(), e) > across * half && has_part_of(region, mesh(), e))
-          marked[static_cast<std::size_t>(e)] = 1;
+      for (int e = 0; e < mesh.n_cells(); ++e)
+        if (longest_edge_in_plan(mesh, e) > across * half && has_part_of(region, mesh, e)) marked[static_cast<std::size_t>(e)] = 1;
     }
     const auto n = std::ranges::count(marked, 1);
-    if (n == 0 || mesh().n_cells() + 7 * n > most_at_first) return times;
-    cells_.cut(std::move(marked));
+    if (n == 0 || mesh.n_cells() + 7 * n > most_at_first) return times;
+    cells.cut(std::move(marked));
   }
-}
-
-std::string AdaptiveCells::cut(const std::vector<double>& parts, double wanted, double order) {
-  before_ = cells_;
-  const int n = mesh().n_cells();
-  cells_.cut(largest_parts(parts, wanted, order));
-  n_cut_ = (mesh().n_cells() - n) / 7;
-  if (mesh().n_cells() <= most_after) return "";
-  std::string why = fmt::format("a next level would have {} cells, of at most {}", mesh().n_cells(), most_after);
-  undo();
-  return why;
-}
-
-void AdaptiveCells::undo() {
-  cells_ = std::move(*before_);
-  before_.reset(), n_cut_ = 0;
 }
 
 }  // namespace langer

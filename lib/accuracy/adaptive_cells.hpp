@@ -3,7 +3,6 @@
 // them (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,23 +20,8 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
 std::string why_not_cut(const SolveConfig& config);
 std::string why_not_cut(const Mesh& mesh);
 
-class AdaptiveCells {
- public:
-  explicit AdaptiveCells(const Mesh& mesh) : cells_(mesh) {}
-
-  const Mesh& mesh() const { return cells_.mesh(); }
-  // Under each indenter that reaches the top, until cells there are at most half as long as what touches is to its side: with longer
-  // ones the first solution tells nothing. How many times they are cut; 0: they are short enough.
-  int shorten_under(const SolveConfig& config);
-  // Of the parts of each cell. Nothing and the reason where that makes too many.
-  std::string cut(const std::vector<double>& parts, double wanted, double order);
-  int n_cut() const { return n_cut_; }  // by the last cut
-  void undo();                          // the last cut
-
- private:
-  CutMesh cells_;
-  std::optional<CutMesh> before_;
-  int n_cut_ = 0;
-};
+// Under each indenter that reaches the top, until cells there are at most half as long as what touches is to its side: with longer ones
+// the first solution tells nothing. How many times they are cut; 0: they are short enough.
+int shorten_under(const SolveConfig& config, CutMesh& cells);
 
 }  // namespace langer

@@ -113,7 +113,7 @@ struct PathErrors {
   double growth = 0;                                 // power of 1 / length of the cells with which the CPU time grew; 0: not known
   std::vector<std::string> not_known;                // why a quantity is not in at_end, a sentence each
   std::vector<double> of_cells =
-      {};  // by dual solutions: of the force whose error is largest, each cell's part of the bar, in parts of it
+      {};  // by dual solutions, for an accuracy: of the force whose error is largest, each cell's part of the bar, in parts of it
 };
 // The same, at each step of itself.path too: the forces of the other meshes there, linear between their own steps.
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,

@@ -62,30 +62,39 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
   return found;
 }
 
+void add(std::optional<Footprint>& all, const Footprint& print) {
+  if (!all) all = print;
+  for (std::size_t k : {0u, 1u})
+    all->low[k] = std::min(all->low[k], print.low[k]), all->high[k] = std::max(all->high[k], print.high[k]);
+  all->deepest = std::max(all->deepest, print.deepest);
+}
+
 }  // namespace
 
-std::optional<Footprint> footprint(const SolveConfig& config, const Box& body) {
+std::vector<Footprint> footprints(const SolveConfig& config, const Box& body) {
   const Top top{{body.origin[0], body.origin[2]},
                 {body.origin[0] + body.size[0], body.origin[2] + body.size[2]},
                 body.origin[1] + body.size[1]};
-  std::optional<Footprint> found;
+  std::vector<Footprint> out;
   for (const auto& [name, contact] : config.contacts) {
     if (std::holds_alternative<Facets>(contact.rigid)) continue;
+    std::optional<Footprint> found;
     Vec3 before = Vec3::Zero();
     for (const WaypointConfig& waypoint : contact.motion) {
       const Vec3 to = vec(waypoint.to);
-      for (int i = 1; i <= places; ++i) {
-        const auto print = print_of(contact.rigid, before + (to - before) * (1.0 * i / places), top);
-        if (!print) continue;
-        if (!found) found = print;
-        for (std::size_t k : {0u, 1u})
-          found->low[k] = std::min(found->low[k], print->low[k]), found->high[k] = std::max(found->high[k], print->high[k]);
-        found->deepest = std::max(found->deepest, print->deepest);
-      }
+      for (int i = 1; i <= places; ++i)
+        if (const auto print = print_of(contact.rigid, before + (to - before) * (1.0 * i / places), top)) add(found, *print);
       before = to;
     }
+    if (found) out.push_back(*found);
   }
-  return found;
+  return out;
+}
+
+std::optional<Footprint> footprint(const SolveConfig& config, const Box& body) {
+  std::optional<Footprint> all;
+  for (const Footprint& print : footprints(config, body)) add(all, print);
+  return all;
 }
 
 }  // namespace langer

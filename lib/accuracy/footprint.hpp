@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "scene/solve_config.hpp"
 
@@ -16,7 +17,9 @@ struct Footprint {
   double half(int k) const { return 0.5 * (high[k] - low[k]); }
 };
 
-// of all contacts together; nothing where none reaches the top at rest. A surface from a file (stl) is not looked at.
+// of each contact that reaches the top at rest. A surface from a file (stl) is not looked at.
+std::vector<Footprint> footprints(const SolveConfig& config, const Box& body);
+// of all contacts together; nothing where none reaches it
 std::optional<Footprint> footprint(const SolveConfig& config, const Box& body);
 
 }  // namespace langer

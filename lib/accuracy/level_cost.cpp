@@ -12,25 +12,21 @@
 #include "accuracy/error_estimate.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
+#include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 
 namespace langer {
 
-namespace {
-LevelCost cost_of(const Forecast& f, double estimate) {
-  return {f.seconds() + estimate, f.bytes, resident_bytes() + std::min(free_memory(), free_address())};
-}
-}  // namespace
-
 LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where) {
-  const Forecast f = forecast_of(config, material, where);
-  return cost_of(f, config.estimate == EstimateBy::refinement ? estimate_seconds(config, material, where) : 0);
+  return level_cost(config, body_mesh(config, "", where), material, where);
 }
 
 LevelCost level_cost(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material,
                      const Run::Where& where) {
   Run run(mesh, config, material, where);
-  return cost_of(forecast_of(config, run.body, run.statics, run.scene.stops), 0);
+  const Forecast f = forecast_of(config, run.body, run.statics, run.scene.stops);
+  const double estimate = config.estimate == EstimateBy::refinement ? estimate_seconds(config, material, where) : 0;
+  return {f.seconds() + estimate, f.bytes, resident_bytes() + std::min(free_memory(), free_address())};
 }
 
 std::string in_words(const LevelCost& cost) {

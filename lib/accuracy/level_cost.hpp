@@ -14,7 +14,7 @@ struct LevelCost {
   double bytes = 0, free = 0;
 };
 LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where);
-// on this mesh, without an estimate
+// on this mesh, in place of the config's
 LevelCost level_cost(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Run::Where& where);
 std::string in_words(const LevelCost& cost);  // "about 40 s of CPU and 430 MB"
 

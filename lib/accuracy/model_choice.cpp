@@ -9,7 +9,8 @@ namespace langer {
 
 namespace {
 
-constexpr double margin = 0.8;  // of what is wanted: parts do not fall as told
+constexpr double margin = 0.8;     // of what is wanted: parts do not fall as told
+constexpr int most_cut = 150'000;  // cells: more were never tried
 
 SolveConfig of_scene(SolveConfig config, const std::string& file) {
   if (!file.empty()) config.mesh.reset();
@@ -39,7 +40,7 @@ Mesh ModelChoice::mesh() {
   Mesh mesh = body_mesh(config(), file_, where_);
   if (!accuracy_.cuts() || !why_not_cut(mesh).empty()) return mesh;
   cells_.emplace(mesh);
-  if (const int times = cells_->shorten_under(config()); times > 0)
+  if (const int times = shorten_under(config(), *cells_); times > 0)
     voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times, times == 1 ? "" : "s",
                cells_->mesh().n_cells(), mesh.n_cells());
   return cells_->mesh();
@@ -62,17 +63,18 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
     return false;
   }
   const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
-  std::string why = cells_->cut(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order);
-  if (why.empty()) {
-    why = accuracy_.not_begun(cells_->mesh());
-    if (!why.empty()) cells_->undo();
-  }
+  CutMesh next = *cells_;
+  next.cut(largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
+  const int n = next.mesh().n_cells(), before = mesh.n_cells();
+  const std::string why =
+      n > most_cut ? fmt::format("a next level would have {} cells, of at most {}", n, most_cut) : accuracy_.not_begun(next.mesh());
   if (!why.empty()) {
     accuracy_.ends_here(why);
     return false;
   }
-  voice_.say("accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}", cells_->n_cut(),
-             mesh.n_cells(), cells_->mesh().n_cells());
+  cells_ = std::move(next);
+  voice_.say("accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}", (n - before) / 7,
+             before, n);
   return true;
 }
 

@@ -43,7 +43,7 @@ class ModelChoice {
   bool dry_;
   SectionInPlace section_;
   Accuracy accuracy_;
-  std::optional<AdaptiveCells> cells_;
+  std::optional<CutMesh> cells_;
   bool at_a_point_;
 };
 

@@ -10,11 +10,11 @@
 
 namespace langer {
 
-namespace {
-
-[[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
+void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
   throw Failure(Exit::config, Error{{}, key, found, expected, hint});
 }
+
+namespace {
 
 constexpr double largest_growth = 3;  // from cell to cell; beyond, elements are too unlike their neighbours to trust
 

@@ -14,6 +14,9 @@
 
 namespace langer {
 
+// throws Failure(config) at the key of a mesh
+[[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint);
+
 // a demanded coordinate and who demands it, for messages
 struct Demand {
   double at = 0;

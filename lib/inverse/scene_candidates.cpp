@@ -63,7 +63,7 @@ class SceneOf {
     double angle = choice_.fibre_angle;
     const Loaded<SolveConfig> loaded = scene(setting, angle);
     SolveConfig scene = loaded.config;
-    if (scene.accuracy || scene.fidelity) choose_accuracy(scene, fit_.material);
+    choose_accuracy(scene, fit_.material);
     ForwardRun run(scene, loaded.where, angle);
     run.observe(observed(run), {});
     const Slopes by = slopes_of(scene);

@@ -101,7 +101,7 @@ void SceneTests::add_run(std::size_t item, double longer, std::map<std::string, 
     throw Failure(Exit::config,
                   Error{loaded.where("fibre_angles"), "fibre_angles", "found, and would stand for the angles of the fit's law",
                         "none: the law's own angle, and fibre_angle of the item of data", ""});
-  if (scene.accuracy || scene.fidelity) choose_accuracy(scene, law_.law);
+  choose_accuracy(scene, law_.law);
   auto run = std::make_shared<ForwardRun>(scene, loaded.where, data.fibre_angle);
   if (longer != 1)
     if (const auto other = run->on_longer_cells(longer)) {

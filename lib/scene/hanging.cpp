@@ -30,21 +30,25 @@ bool agrees(const HangingNode& h, int k, const Prescribed& own, const ByDof& by_
 
 }  // namespace
 
+std::vector<Complaint> not_on_cut_cells(const SolveConfig& config) {
+  std::vector<Complaint> out;
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].on_surface())
+      out.push_back({fmt::format("loads[{}]", i), "found a force on a surface", "imposed displacements", ""});
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.adhesion) out.push_back({"contacts." + name + ".adhesion", "found adhesion", "none", ""});
+  const bool uncertain = config.uncertainty.value_or(UncertaintyBy::none) != UncertaintyBy::none;
+  if (uncertain || !config.sensitivity.empty())
+    out.push_back({uncertain ? "uncertainty" : "sensitivity", "found derivatives", "none", ""});
+  return out;
+}
+
 std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh, const std::vector<Prescribed>& prescribed,
                                   const std::function<Place(const std::string&)>& where) {
   std::vector<Error> errors;
   if (mesh.hanging.empty()) return errors;
-  const auto refuse = [&](const std::string& key, const std::string& found, const std::string& expected) {
-    errors.push_back({where(key), key, found + ", beside cells that are cut", expected, "a mesh without `cuts`"});
-  };
-  for (std::size_t i = 0; i < config.loads.size(); ++i)
-    if (config.loads[i].on_surface()) refuse(fmt::format("loads[{}]", i), "found a force on a surface", "imposed displacements");
-  for (const auto& [name, contact] : config.contacts)
-    if (contact.adhesion) refuse("contacts." + name + ".adhesion", "found adhesion", "none");
-  if (config.uncertainty.value_or(UncertaintyBy::none) != UncertaintyBy::none)
-    refuse("uncertainty", "found derivatives", "none");
-  else if (!config.sensitivity.empty())
-    refuse("sensitivity", "found derivatives", "none");
+  for (const Complaint& c : not_on_cut_cells(config))
+    errors.push_back({where(c.key), c.key, c.found + ", beside cells that are cut", c.expected, "a mesh without `cuts`"});
   ByDof by_dof;
   for (const Prescribed& p : prescribed) by_dof[p.dof] = &p;
   for (const HangingNode& h : mesh.hanging)

@@ -10,8 +10,9 @@
 
 namespace langer {
 
-// Supports that end in the middle of a facet, and what nobody has tried on such cells: forces on a surface, adhesion, derivatives with
-// respect to the config's numbers. Nothing where no node hangs.
+// What nobody has tried on such cells: forces on a surface, adhesion, derivatives with respect to the config's numbers.
+std::vector<Complaint> not_on_cut_cells(const SolveConfig& config);
+// That, and supports that end in the middle of a facet. Nothing where no node hangs.
 std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh, const std::vector<Prescribed>& prescribed,
                                   const std::function<Place(const std::string&)>& where);
 

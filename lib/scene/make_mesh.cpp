@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "geometry/grading.hpp"
 #include "mesh/cut.hpp"
 #include "mesh/order.hpp"
 #include "mesh/raise.hpp"
@@ -20,8 +21,7 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
   for (const auto& [name, set] : config.sets) {
     std::vector<int> nodes = select(mesh, set.within, set.of ? mesh.node_sets.at(*set.of) : all);
     if (mesh.section) nodes = through_layers(mesh, in_front(mesh, nodes));
-    if (nodes.empty())
-      throw Failure(Exit::config, Error{{}, "sets." + name, "no node of the mesh is in this set", "at least one", ""});
+    if (nodes.empty()) refuse("sets." + name, "no node of the mesh is in this set", "at least one", "");
     const std::vector<Facet> facets = facets_within(mesh, set.of ? mesh.facet_sets.at(*set.of) : outer, nodes);
     mesh.node_sets[name] = nodes;
     if (!facets.empty()) mesh.facet_sets[name] = facets;
@@ -33,7 +33,7 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
     for (std::string& body : mesh.bodies)
       if (body.empty()) body = config.body;
     if (std::set<std::string>(mesh.bodies.begin(), mesh.bodies.end()).size() != mesh.bodies.size())
-      throw Failure(Exit::config, Error{{}, "body", "found the name of another body of the file", "another name", ""});
+      refuse("body", "found the name of another body of the file", "another name", "");
     return;
   }
   mesh.bodies = {config.body};
@@ -41,22 +41,18 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
   if (config.bodies.empty()) return;
   mesh.bodies.clear();
   const auto [origin, size] = box(config.geometry);
-  const double height = size[1];
   double low = origin[1];
   for (std::size_t b = 0; b < config.bodies.size(); ++b) {
     mesh.bodies.push_back(config.bodies[b].name);
-    const double high = low + config.bodies[b].thickness, slack = 1e-9 * height;
+    const double high = low + config.bodies[b].thickness, slack = 1e-9 * size[1];
     for (int e = 0; e < mesh.n_cells(); ++e) {
       double least = mesh.X[mesh.cell(e)[0]][1], most = least;
       for (int n : mesh.cell(e)) least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
       if (least > low - slack && most < high + slack) mesh.body[e] = static_cast<int>(b);
       if (least < high - slack && most > high + slack)
-        throw Failure(Exit::config,
-                      Error{{},
-                            fmt::format("bodies[{}].thickness", b),
-                            fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm", high, least, most),
-                            "a border between cells",
-                            "change the thickness, or the divisions or layers of the geometry"});
+        refuse(fmt::format("bodies[{}].thickness", b),
+               fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm", high, least, most),
+               "a border between cells", "change the thickness, or the divisions or layers of the geometry");
     }
     low = high;
   }
@@ -98,11 +94,8 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
     const long long more = 7LL * std::count(marked.begin(), marked.end(), 1);
     if (more == 0) return cells.mesh();
     if (cells.mesh().n_cells() + more > most_cells)
-      throw Failure(Exit::config, Error{{},
-                                        "cuts",
-                                        fmt::format("found more than {} cells", cells.mesh().n_cells() + more),
-                                        fmt::format("at most {}", most_cells),
-                                        "smaller regions, or fewer times"});
+      refuse("cuts", fmt::format("found more than {} cells", cells.mesh().n_cells() + more), fmt::format("at most {}", most_cells),
+             "smaller regions, or fewer times");
     cells.cut(std::move(marked));
   }
 }
@@ -167,8 +160,7 @@ MadeMesh made(const MeshConfig& config) {
   for (const auto& [name, set] : node_sets) mesh.node_sets[name] = set;  // a file's own sides come before ours
   for (const auto& [name, set] : facet_sets) mesh.facet_sets[name] = set;
   for (const auto& [name, set] : config.sets)
-    if (node_sets.count(name))
-      throw Failure(Exit::config, Error{{}, "sets." + name, "found the name of a set of the file", "another name", ""});
+    if (node_sets.count(name)) refuse("sets." + name, "found the name of a set of the file", "another name", "");
   name_sets(mesh, config);
   if (mesh.section) {
     for (const char* side : {"z_min", "z_max"}) mesh.node_sets.erase(side), mesh.facet_sets.erase(side);
