@@ -189,14 +189,17 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   const StateTangent tangent(run.statics, run.statics.accepted());
   std::vector<Asked> asked;
   std::vector<DualSolution> duals;
+  bool none = true;
   for (std::size_t i = 0; i < found.size(); ++i) {
     auto question = questions.of(i, found[i]);
     if (!question) continue;
+    none = false;
     const auto answer = tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest(), balanced);
     if (!answer) continue;
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
+  if (none) throw not_known("every force, reaction and displacement asked for is 0, as where no indenter touches");
   if (duals.empty()) throw not_known("a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) return in_one_layer(config, run.mesh);

@@ -175,4 +175,6 @@ TEST_CASE("where no scene of the kind was measured the estimate says so") {
                        Failure);
   CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0) + "formulation: displacement\n")),
                        doctest::Contains("formulation"), Failure);
+  CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0, -0.1))),
+                       doctest::Contains("no indenter touches"), Failure);
 }
