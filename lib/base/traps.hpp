@@ -47,11 +47,4 @@ class NoTraps {
 using Traps = NoTraps;
 #endif
 
-// reciprocal condition number of a factorization, one of whose pivots may be zero
-template <class Factorization>
-double rcond(const Factorization& factor) {
-  const NoTraps a_pivot_may_be_zero;
-  return factor.rcond();
-}
-
 }  // namespace langer

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "contact/alart_curnier.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -87,9 +88,9 @@ std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho, co
       J.block<3, 3>(3 * p, 3 * q) = laws[i].change(dr, Mat3(rho[i] * problem.W.block<3, 3>(3 * i, 3 * closed[q])));
     }
   }
-  VecX step = J.partialPivLu().solve(b);
+  VecX step = Lu(J).solve(b);
   if (!step.allFinite() || (J * step - b).norm() > 1e-6 * b.norm())
-    step = J.completeOrthogonalDecomposition().solve(b);  // rank-deficient W: the smallest step
+    step = LeastNorm(J).solve(b);  // rank-deficient W: the smallest step
   return step.allFinite() ? std::optional(step) : std::nullopt;
 }
 

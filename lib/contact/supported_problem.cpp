@@ -6,6 +6,7 @@
 
 #include "base/traps.hpp"
 #include "contact/alart_curnier.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -48,17 +49,14 @@ LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptio
     if (report.residual <= 1e-12 || !std::isfinite(report.residual)) break;
     // directions that nothing decides (all contacts open, a body free to spin under a smooth sphere): the least step
     constexpr double decided = 1e-8;
-    const Eigen::PartialPivLU<MatX> lu(Jacobian);
+    const Lu lu(Jacobian);
     VecX step;
     {
       const NoTraps a_pivot_may_be_zero;
       step = lu.solve(-now.F);
     }
-    if (rcond(lu) < decided || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm()) {
-      Eigen::CompleteOrthogonalDecomposition<MatX> least;
-      least.setThreshold(decided);
-      step = least.compute(Jacobian).solve(-now.F);
-    }
+    if (lu.rcond() < decided || !step.allFinite() || (Jacobian * step + now.F).norm() > 1e-8 * now.F.norm())
+      step = LeastNorm(Jacobian, decided).solve(-now.F);
     if (!step.allFinite()) break;
     double t = 1;
     Function next;

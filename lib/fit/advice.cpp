@@ -1,9 +1,10 @@
 #include "fit/advice.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -22,19 +23,19 @@ Known known(const MatX& M) {
   for (Eigen::Index i = 0; i < n; ++i)
     if (!(d[i] > 0)) d[i] = 1;
   const MatX scaled = d.cwiseInverse().asDiagonal() * M * d.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(scaled);
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
   constexpr double floor = 1e-14;
   for (Eigen::Index i = 0; i < n; ++i) {
     double sum = 0;
     for (Eigen::Index c = 0; c < n; ++c) {
-      const double v = eigen.eigenvectors()(i, c), l = eigen.eigenvalues()[c];
+      const double v = eigen.vectors(i, c), l = eigen.values[c];
       if (l > floor)
         sum += v * v / l;
       else if (std::abs(v) > 1e-6)
         sum = std::numeric_limits<double>::infinity();
     }
     k.relative[i] = std::sqrt(sum) / d[i];
-    k.ln_det += std::log(std::max(eigen.eigenvalues()[i], floor)) + 2 * std::log(d[i]);
+    k.ln_det += std::log(std::max(eigen.values[i], floor)) + 2 * std::log(d[i]);
   }
   return k;
 }

@@ -1,7 +1,8 @@
 #include "fit/bounded_linear.hpp"
 
-#include <Eigen/QR>
 #include <vector>
+
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -19,7 +20,7 @@ VecX with_free_solved(const MatX& A, const VecX& b, const VecX& x, const std::ve
     else
       rest -= A.col(i) * x[i];
   VecX z = x;
-  if (!free.empty()) z(free) = MatX(A(Eigen::all, free)).colPivHouseholderQr().solve(rest);
+  if (!free.empty()) z(free) = PivotedQr(A(Eigen::all, free)).solve(rest);
   return z;
 }
 

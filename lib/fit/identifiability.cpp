@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "base/quantile.hpp"
 #include "base/random.hpp"
 #include "fit/periodic.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -144,11 +144,11 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, 
   s.covariance = s.correlation = MatX::Constant(n, n, nan);
   s.combination = MatX::Zero(n, k);
   if (k == 0) return s;
-  const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeThinV | Eigen::ComputeThinU);
+  const Svd of = svd(A);
   s.singular = VecX::Zero(k);
-  s.singular.head(svd.singularValues().size()) = svd.singularValues();
+  s.singular.head(of.values.size()) = of.values;
   MatX V = MatX::Zero(k, k);
-  V.leftCols(svd.matrixV().cols()) = svd.matrixV();
+  V.leftCols(of.V.cols()) = of.V;
   // of a combination both signs mean the same: the largest part is positive
   for (Eigen::Index c = 0; c < k; ++c) {
     Eigen::Index at = 0;

@@ -1,12 +1,11 @@
 #include "fit/residual_noise.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "base/no_number.hpp"
 #include "base/student.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -59,10 +58,10 @@ MatX column_space(const MatX& J) {
   MatX scaled = J;
   for (Eigen::Index j = 0; j < J.cols(); ++j)
     if (const double n = J.col(j).norm(); n > 0) scaled.col(j) /= n;
-  const Eigen::JacobiSVD<MatX> svd(scaled, Eigen::ComputeThinU);
+  const Svd of = svd(scaled);
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 1e-10 * svd.singularValues()[0]) ++rank;
-  return svd.matrixU().leftCols(rank);
+  while (rank < of.values.size() && of.values[rank] > 1e-10 * of.values[0]) ++rank;
+  return of.U.leftCols(rank);
 }
 
 struct Restricted {
@@ -76,10 +75,10 @@ Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double
   const VecX y = innovations(r, curves, rho);
   double rest = y.squaredNorm(), log_volume = 0;
   if (U.cols() > 0) {
-    const Eigen::HouseholderQR<MatX> qr(W);
-    const VecX z = qr.householderQ().adjoint() * y;
+    const Qr qr(W);
+    const VecX z = qr.Q_transposed_times(y);
     rest = z.tail(r.size() - U.cols()).squaredNorm();
-    log_volume = 2 * qr.matrixQR().diagonal().cwiseAbs().array().log().sum();
+    log_volume = 2 * qr.R().diagonal().cwiseAbs().array().log().sum();
   }
   const double variance = rest / free;  // of the innovations
   const double curves_log = static_cast<double>(curves.size()) * std::log1p(-rho * rho);
@@ -200,14 +199,14 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   MatX A = J(Eigen::all, in);
   const VecX norms = A.colwise().norm().transpose();
   A = A * norms.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const VecX& sv = svd.singularValues();
+  const Svd of = svd(A);
+  const VecX& sv = of.values;
   // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not distinguishable from 0
   const double smallest = 1e-10 * sv[0];
   VecX inverse = VecX::Zero(sv.size()), undetermined = VecX::Ones(k);
   for (Eigen::Index c = 0; c < sv.size(); ++c)
-    if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= svd.matrixV().col(c).cwiseAbs2();
-  const MatX P = svd.matrixU() * inverse.asDiagonal() * svd.matrixV().transpose();  // (m, k): parameters are P^T e
+    if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= of.V.col(c).cwiseAbs2();
+  const MatX P = of.U * inverse.asDiagonal() * of.V.transpose();  // (m, k): parameters are P^T e
   const MatX VP = noise.deviation * noise.deviation * correlated(P, noise.curves, noise.rho) + noise.white * noise.white * P;
   const MatX all = P.transpose() * VP;
   for (Eigen::Index a = 0; a < k; ++a)

@@ -9,6 +9,7 @@
 #include "base/interrupt.hpp"
 #include "base/stopwatch.hpp"
 #include "store/curves_file.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -113,7 +114,7 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
     if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);
   const MatX J = fit.best.J(Eigen::all, free);
-  const VecX change = -J.colPivHouseholderQr().solve(r);
+  const VecX change = -PivotedQr(J).solve(r);
   std::string words;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const FittedParameter& p = record.parameters[static_cast<std::size_t>(free[k])];

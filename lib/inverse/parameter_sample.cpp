@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "base/random.hpp"
 #include "material/parameters.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -26,11 +26,11 @@ VecX drawn(const FitRecord& fit, int number) {
   const std::vector<Eigen::Index> open = with_variance(fit);
   const MatX C = fit.covariance(open, open);
   const VecX size = C.diagonal().cwiseSqrt();
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
+  const SymmetricEigen eigen = symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
   Random random(1, static_cast<std::uint64_t>(number));
   VecX z(size.size());
   for (double& one : z) one = random.normal();
-  const VecX d = size.asDiagonal() * (eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().cwiseProduct(z));
+  const VecX d = size.asDiagonal() * (eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().cwiseProduct(z));
   for (std::size_t k = 0; k < open.size(); ++k) {
     const FittedParameter& of = fit.parameters[static_cast<std::size_t>(open[k])];
     p[open[k]] = std::clamp(p[open[k]] + d[static_cast<Eigen::Index>(k)], of.lower, of.upper);

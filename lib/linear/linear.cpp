@@ -184,7 +184,7 @@ MatX LinearSolver::compliance(const MatX& B) const {
       for (std::size_t i = 0; i < s.last.size(); ++i) picked[i] = s.spring_moves(s.last[i], k);
       moves.col(k) = B.transpose() * picked;
     }
-    W += moves * s.spring_share.solve(MatX(moves.transpose()));
+    W += moves * s.spring_share.solve_columns(moves.transpose());
     return 0.5 * (W + W.transpose());
   }
   MatX W(B.cols(), B.cols());

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <new>
 
-#include "base/traps.hpp"
 #include "linear/linear_state.hpp"
 
 namespace langer {
@@ -46,7 +45,7 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
     for (int j = 0; j < q; ++j) share(i, j) -= s.spring_moves(s.springs[i], j);
   }
   s.spring_share.compute(share);
-  if (rcond(s.spring_share) > 1e-14) return true;
+  if (s.spring_share.rcond() > 1e-14) return true;
   s.springs.clear();
   return false;
 }

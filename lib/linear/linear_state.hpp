@@ -11,6 +11,7 @@
 
 #include "linear/blas/blas.hpp"
 #include "linear/linear.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -52,7 +53,7 @@ struct LinearSolver::State {
   bool indefinite = false;
   std::vector<int> springs;  // rows with springs in the factor; empty in most
   MatX spring_moves;         // (n, springs): K^-1 of a unit force on each spring, springs included
-  Eigen::PartialPivLU<MatX> spring_share;
+  Lu spring_share;
 
   ~State() {
     if (numeric) umfpack_di_free_numeric(&numeric);

@@ -1,6 +1,5 @@
 #include "post/patches.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -8,6 +7,7 @@
 #include "mesh/facets.hpp"
 #include "mesh/reference.hpp"
 #include "mesh/section.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -40,12 +40,8 @@ Vec3 middle(const Mesh& mesh, int e) {
 
 // least squares; of a patch that does not decide its polynomial the smallest one
 MatX fit(const MatX& A, const MatX& values) {
-  const Eigen::ColPivHouseholderQR<MatX> qr(A);
-  if (qr.rank() == A.cols()) return qr.solve(values);
-  Eigen::CompleteOrthogonalDecomposition<MatX> all;
-  all.setThreshold(1e-6);
-  all.compute(A);
-  return all.solve(values);
+  const PivotedQr qr(A);
+  return qr.rank() == A.cols() ? qr.solve_columns(values) : LeastNorm(A, 1e-6).solve_columns(values);
 }
 
 }  // namespace

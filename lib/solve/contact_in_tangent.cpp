@@ -6,6 +6,7 @@
 #include <set>
 
 #include "linear/krylov.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -154,7 +155,7 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
     if (c.status != ContactStatus::stick || c.n == 1) continue;
     const MatX S = c.T.bottomRightCorner<2, 2>() * c.G.block(1, 1, 2, c.n - 1);
     const Eigen::Vector2d left = c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * (c.G.block<2, 1>(1, 0) * y[c.first]);
-    y.segment(c.first + 1, c.n - 1) = -S.colPivHouseholderQr().solve(left);
+    y.segment(c.first + 1, c.n - 1) = -PivotedQr(S).solve(left);
     for (int m = 1; m < c.n; ++m) is_given[c.first + m] = 1;
   }
   return y;

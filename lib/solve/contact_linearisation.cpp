@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "base/traps.hpp"
 #include "contact/supported_problem.hpp"
 #include "solve/condensed_contact.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -108,10 +108,9 @@ class Law {
         if (const auto row = 3 * static_cast<Eigen::Index>(p); !c.E[p].isZero(0))
           A_.middleRows<3>(row) -= c.E[p] * c.W.middleRows<3>(row);
       lu_.compute(A_);
-      direct_ = rcond(lu_) > 1e-9;  // s = A^-1 (r - b)
+      direct_ = lu_.rcond() > 1e-9;  // s = A^-1 (r - b)
       if (direct_) {
-        const MatX W_t = c.W.transpose(), W_r_t = lu_.transpose().solve(W_t);
-        W_r_ = W_r_t.transpose();
+        W_r_ = lu_.solve_transposed(c.W.transpose()).transpose();
       }
     }
     if (direct_) slipping_ = c.slipping(W_r_);
@@ -175,7 +174,7 @@ class Law {
 
   const Condensed& c_;
   MatX A_, W_r_, slipping_;
-  Eigen::PartialPivLU<MatX> lu_;
+  Lu lu_;
   bool direct_ = false;
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.hpp"
 #include "solve/statics.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -45,22 +46,21 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
 
 // orthonormal columns: the movements of a node that its free dofs and its contacts leave
 MatX left_of(const NodeContact& contact, const bool* is_free) {
-  MatX held(3, 3 + contact.held.size());
+  MatX held = MatX::Zero(3, 3 + static_cast<Eigen::Index>(contact.held.size()));
   Eigen::Index n = 0;
   for (int j = 0; j < 3; ++j)
     if (!is_free[j]) held.col(n++) = Vec3::Unit(j);
   for (const Vec3& h : contact.held) held.col(n++) = h;
   if (n == 0) return Mat3::Identity();
-  const Eigen::JacobiSVD<MatX> svd(held.leftCols(n), Eigen::ComputeFullU);
-  const Eigen::Index rank = (svd.singularValues().array() > 1e-9).count();
-  return svd.matrixU().rightCols(3 - rank);
+  const Svd of = svd(held);
+  return of.U.rightCols((of.values.array() <= 1e-9).count());
 }
 
 Signature signs(const MatX& M, bool zero_energy_too) {
   constexpr int largest = 1500;  // of a dense eigenvalue problem that is waited for
   if (M.rows() == 0) return {};
-  if (Eigen::LLT<MatX>(M).info() == Eigen::Success && (!zero_energy_too || M.rows() > largest)) return {};
-  const VecX e = Eigen::SelfAdjointEigenSolver<MatX>(M, Eigen::EigenvaluesOnly).eigenvalues();
+  if (positive_definite(M) && (!zero_energy_too || M.rows() > largest)) return {};
+  const VecX e = symmetric_eigenvalues(M);
   const double small = 1e-8 * e.cwiseAbs().maxCoeff();
   return {static_cast<int>((e.array() < -small).count()), static_cast<int>((e.array().abs() <= small).count())};
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/traps.hpp"
 #include "contact/touch.hpp"
 
 namespace langer {
@@ -97,7 +96,7 @@ void StateTangent::take_rows() {
     M.row(3 * m).head(3 * m) -= typical * (along.transpose() * springs) * c_.W.middleRows<3>(3 * p);
   }
   lu_.compute(M);
-  singular_ = !(rcond(lu_) > 1e-14);
+  singular_ = !(lu_.rcond() > 1e-14);
   if (singular_) least_.compute(M);
 }
 
@@ -184,7 +183,7 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
     if (pushed_ && !c_.springs.empty())
       b[b.size() - 1] += typical_[p] * c_.along.segment<3>(row).dot(c_.springs[p] * d.segment<3>(row));
   }
-  const VecX answer = singular_ ? VecX(least_.solve(b)) : VecX(lu_.solve(b));
+  const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
   out.s = answer.head(d.size());
   out.travel = pushed_ ? answer[d.size()] : 0;

@@ -10,13 +10,12 @@
 // states the derivative is that of the state which it has.
 #pragma once
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <optional>
 #include <vector>
 
 #include "solve/condensed_contact.hpp"
 #include "solve/statics.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -84,8 +83,8 @@ class StateTangent {
   std::vector<double> typical_;  // compliance that scales the rows
   Condensed c_;
   std::vector<Rows> rows_;
-  Eigen::PartialPivLU<MatX> lu_;
-  Eigen::CompleteOrthogonalDecomposition<MatX> least_;
+  Lu lu_;
+  LeastNorm least_;
   bool singular_ = false;
 };
 

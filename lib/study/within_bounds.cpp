@@ -1,13 +1,12 @@
 #include "study/within_bounds.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "base/no_number.hpp"
 #include "base/random.hpp"
 #include "fit/bounded_linear.hpp"
+#include "tensor/dense.hpp"
 
 namespace langer {
 
@@ -26,12 +25,12 @@ struct Reduced {
     size = J.colwise().norm().transpose();
     for (double& one : size)
       if (one == 0) one = 1;
-    const Eigen::HouseholderQR<MatX> qr(J * size.cwiseInverse().asDiagonal());
+    const Qr qr(J * size.cwiseInverse().asDiagonal());
     const Eigen::Index k = std::min(J.rows(), n);
     A = MatX::Zero(k + n, n), b = VecX::Zero(k + n);
-    A.topRows(k) = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
+    A.topRows(k) = qr.R();
     A.bottomRows(n) = 1e-8 * MatX::Identity(n, n);
-    b.head(k) = -VecX(qr.householderQ().adjoint() * r).head(k);
+    b.head(k) = -qr.Q_transposed_times(r).head(k);
   }
   // in a box of d: the answer, in units of `size`
   VecX solve(const VecX& to, const VecX& lower, const VecX& upper) const {
@@ -68,8 +67,8 @@ MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper, co
   const Eigen::Index n = lower.size();
   const VecX size = covariance.diagonal().cwiseSqrt();
   const MatX scaled = size.cwiseInverse().asDiagonal() * covariance * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(scaled);
-  const MatX root = size.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const MatX root = size.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
   MatX sum = MatX::Zero(n, n);
   for (int draw = 0; draw < draws; ++draw) {
     Random random(1, static_cast<std::uint64_t>(draw));

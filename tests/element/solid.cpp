@@ -3,9 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
 
@@ -13,6 +11,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "tensor/dense.hpp"
 #include "tensor/stress.hpp"
 
 using namespace langer;
@@ -156,12 +155,12 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
     SolidElement rest;
     solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, ElementNodes::Zero(n, 3),
           nullptr, true, rest);
-    const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest.K);
-    const double largest = eigen.eigenvalues()[3 * n - 1];
+    const VecX eigen = symmetric_eigenvalues(rest.K);
+    const double largest = eigen[3 * n - 1];
     int zeros = 0;
-    for (double value : eigen.eigenvalues().eval()) zeros += std::abs(value) < 1e-12 * largest;
+    for (double value : eigen) zeros += std::abs(value) < 1e-12 * largest;
     CHECK(zeros == 6);
-    CHECK(eigen.eigenvalues()[6] > 1e-6 * largest);
+    CHECK(eigen[6] > 1e-6 * largest);
 
     const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
     const ElementNodes u = one.X * R.transpose() - one.X;
@@ -170,8 +169,7 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
     CHECK(turned.W < 1e-13);
     CHECK(turned.f.lpNorm<Eigen::Infinity>() < 1e-11 * largest);
     // the tangent turns with the body: same eigenvalues
-    const Eigen::SelfAdjointEigenSolver<MatX> after(turned.K);
-    CHECK((after.eigenvalues() - eigen.eigenvalues()).lpNorm<Eigen::Infinity>() < 1e-9 * largest);
+    CHECK((symmetric_eigenvalues(turned.K) - eigen).lpNorm<Eigen::Infinity>() < 1e-9 * largest);
   }
 }
 
@@ -237,7 +235,7 @@ TEST_CASE("modes of the dilatation: orthonormal, and linear in X, in cells of an
       product += geometry.w[g] / geometry.V * mode.row(g).transpose() * mode.row(g);
     }
     CHECK((product - Eigen::Matrix4d::Identity()).norm() < 1e-13);
-    const MatX by = linear.colPivHouseholderQr().solve(mode);
+    const MatX by = PivotedQr(linear).solve_columns(mode);
     CHECK((linear * by - mode).norm() < 1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
   }
 }

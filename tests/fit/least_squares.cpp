@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "fit/bounded_linear.hpp"
+#include "tensor/dense.hpp"
 
 using namespace langer;
 
@@ -68,7 +68,7 @@ TEST_CASE("the bounded linear problem is solved exactly: no better set of held v
         if (s % 3 == 2) held[i] = upper[i];
       }
       if (!held.array().isFinite().all()) continue;
-      if (!free.empty()) held(free) = MatX(A(Eigen::all, free)).colPivHouseholderQr().solve(b - A * held);
+      if (!free.empty()) held(free) = PivotedQr(A(Eigen::all, free)).solve(b - A * held);
       if ((held.array() < lower.array()).any() || (held.array() > upper.array()).any()) continue;
       best = std::min(best, (A * held - b).norm());
     }
