@@ -115,7 +115,7 @@ TEST_CASE(
            "supports: [{on: bottom, hold: [x, y, z]}" + supports +
            "]\ncontacts: {plate: {on: top, rigid: {aperture: {radius: 2, edge: 0.5, face: [0, 3, 0]}}, friction: 0.3, "
            "motion: [{t: 0.2, to: [0, -0.1, 0]}, {t: 1, to: [0, -0.1, 0]}]}}\n"
-           "loads: [{on: hole, pressure: [{t: 0.2, to: 0}, {t: 1, to: -0.03}]}]\npath: {first: 0.1, largest: 0.1}\n";
+           "loads: [{on: hole, pressure: [{t: 0.2, to: 0}, {t: 1, to: -0.03}]}]\npath: {first: 0.2, largest: 0.2}\n";
   };
   struct Found {
     double apex, force;

@@ -74,7 +74,14 @@ execute_process(COMMAND awk "BEGIN { off = 100 * (${small} / 0.7718 - 1); print 
 if(far)
   message(FATAL_ERROR "asked for 5 %, the force ${small} N is ${off} % off")
 endif()
-run(5 ${BIN}/langer-solve graded.yaml -o graded_again.h5 --set accuracy=0.01% --set mesh.cells=hex27)
+file(WRITE ${folder}/quadratic.yaml "include: configs/solve/refinement_isotropic.yaml
+mesh: {cells: hex27, geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [8, 3, 8]}}}
+contacts:
+  sphere: {on: ''}
+path: {first: 0.5, largest: 0.5}
+estimate: dual
+")
+run(5 ${BIN}/langer-solve quadratic.yaml -o quadratic.h5 --set accuracy=0.01%)
 expect_said("asked for 0.01 %")
 expect_said("its cells are not cut: hex8 alone are")
 
