@@ -199,7 +199,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
-  if (none) throw not_known("every force, reaction and displacement asked for is 0, as where no indenter touches");
+  if (none) throw not_known("no force, reaction or displacement is there that is not 0, as where no indenter touches");
   if (duals.empty()) throw not_known("a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) return in_one_layer(config, run.mesh);
