@@ -87,7 +87,7 @@ Fitted fitted(const std::string& yaml) {
   return found;
 }
 
-const AdviceRecord& named(const StudyRecord& study, const std::string& part) {
+const AdviceRecord& named(const StudyRecord& study, const char* part) {
   for (const AdviceRecord& one : study.identifiability->advice)
     if (one.test.find(part) != std::string::npos) return one;
   FAIL("no advice on ", part);
