@@ -24,13 +24,10 @@ VecX drawn(const FitRecord& fit, int number) {
   VecX p(static_cast<Eigen::Index>(fit.parameters.size()));
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) p[static_cast<Eigen::Index>(i)] = fit.parameters[i].value;
   const std::vector<Eigen::Index> open = with_variance(fit);
-  const MatX C = fit.covariance(open, open);
-  const VecX size = C.diagonal().cwiseSqrt();
-  const SymmetricEigen eigen = symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
   Random random(1, static_cast<std::uint64_t>(number));
-  VecX z(size.size());
+  VecX z(static_cast<Eigen::Index>(open.size()));
   for (double& one : z) one = random.normal();
-  const VecX d = size.asDiagonal() * (eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().cwiseProduct(z));
+  const VecX d = covariance_root(fit.covariance(open, open)) * z;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const FittedParameter& of = fit.parameters[static_cast<std::size_t>(open[k])];
     p[open[k]] = std::clamp(p[open[k]] + d[static_cast<Eigen::Index>(k)], of.lower, of.upper);

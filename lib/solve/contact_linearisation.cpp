@@ -109,9 +109,7 @@ class Law {
           A_.middleRows<3>(row) -= c.E[p] * c.W.middleRows<3>(row);
       lu_.compute(A_);
       direct_ = lu_.rcond() > 1e-9;  // s = A^-1 (r - b)
-      if (direct_) {
-        W_r_ = lu_.solve_transposed(c.W.transpose()).transpose();
-      }
+      if (direct_) W_r_ = lu_.solve_transposed(c.W.transpose()).transpose();
     }
     if (direct_) slipping_ = c.slipping(W_r_);
   }

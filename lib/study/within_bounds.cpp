@@ -65,10 +65,7 @@ double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eige
 // q ~ N(0, covariance), put into the box
 MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper, const MatX& covariance) {
   const Eigen::Index n = lower.size();
-  const VecX size = covariance.diagonal().cwiseSqrt();
-  const MatX scaled = size.cwiseInverse().asDiagonal() * covariance * size.cwiseInverse().asDiagonal();
-  const SymmetricEigen eigen = symmetric_eigen(scaled);
-  const MatX root = size.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  const MatX root = covariance_root(covariance);
   MatX sum = MatX::Zero(n, n);
   for (int draw = 0; draw < draws; ++draw) {
     Random random(1, static_cast<std::uint64_t>(draw));

@@ -19,6 +19,7 @@ double Lu::rcond() const {
   return lu_.rcond();
 }
 
+Qr::Qr(const MatX& A) : qr_(A) {}
 MatX Qr::R() const {
   const Eigen::Index n = std::min(qr_.rows(), qr_.cols());
   return qr_.matrixQR().topRows(n).triangularView<Eigen::Upper>();
@@ -48,6 +49,12 @@ SymmetricEigen symmetric_eigen(const MatX& A) {
   return {of.eigenvalues(), of.eigenvectors()};
 }
 VecX symmetric_eigenvalues(const MatX& A) { return Eigen::SelfAdjointEigenSolver<MatX>(A, Eigen::EigenvaluesOnly).eigenvalues(); }
+
+MatX covariance_root(const MatX& C) {
+  const VecX size = C.diagonal().cwiseSqrt();
+  const SymmetricEigen scaled = symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
+  return size.asDiagonal() * scaled.vectors * scaled.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+}
 
 bool positive_definite(const MatX& A) { return Eigen::LLT<MatX>(A).info() == Eigen::Success; }
 

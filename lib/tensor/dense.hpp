@@ -27,7 +27,7 @@ class Lu {
 // Householder's Q R; A may have more rows than columns
 class Qr {
  public:
-  explicit Qr(const MatX& A) : qr_(A) {}
+  explicit Qr(const MatX& A);
 
   MatX R() const;  // (min(rows, columns), columns), upper triangular
   VecX Q_transposed_times(const VecX& b) const;
@@ -79,6 +79,9 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const MatX& A);
 VecX symmetric_eigenvalues(const MatX& A);  // (n), ascending
+
+// C = R R^T of a covariance, by eigenvalues in units of its diagonal; those that rounding makes negative are 0
+MatX covariance_root(const MatX& C);
 
 bool positive_definite(const MatX& A);
 
