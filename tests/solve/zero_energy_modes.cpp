@@ -61,7 +61,7 @@ TEST_CASE("extremes: a block free to glide and spin on its base is pressed by a 
           const Vec3 u = statics.accepted().u.segment<3>(3 * i), X = mesh.X[static_cast<std::size_t>(i)];
           turn += X.cross(u), glide += u / mesh.n_nodes(), inertia += X[0] * X[0] + X[2] * X[2];
         }
-        // nothing resists a turn, so its size is no result: rounding alone makes 0.01 to 0.02 of it, a spin that goes on makes radians
+        // nothing resists a turn, so its size is no result: rounding alone makes up to 0.002 of it on Debian 12 and once made 0.023 on 13
         CHECK(std::abs(turn[1]) / inertia < 0.1);
         CHECK(std::hypot(glide[0], glide[2]) < 1e-6);
         return statics.defects()[0].force.norm();
