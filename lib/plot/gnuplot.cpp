@@ -138,6 +138,43 @@ std::string frame_of(const Plot& plot, const FigureStyle& style) {
   return s;
 }
 
+// A label whose unit takes a factor, as a gnuplot expression of its exponent e: energy (N mm) becomes energy (10^{-4} N mm).
+std::string with_factor(const std::string& label, bool is_unit) {
+  const std::size_t unit = label.ends_with(')') ? label.rfind('(') : std::string::npos;
+  const std::string factor = " . sprintf('10^{%d}', e) . ";
+  if (is_unit) return "''" + factor + printed(" " + label);
+  if (unit == std::string::npos) return printed(label + " (") + factor + "')'";
+  return printed(label.substr(0, unit + 1)) + factor + printed(" " + label.substr(unit + 1));
+}
+
+// gnuplot writes 0.0001 beside 5×10^{-5} on one axis, and 800000 beside 10^6. Only after a plot does it know the ends of an axis, which
+// therefore is drawn once for nobody; one with such numbers then takes a common factor. All others stay as gnuplot makes them.
+std::string factors_of(const Plot& plot, const std::string& draw) {
+  const bool x = plot.x_step == 0 && (plot.scale == AxisScale::linear || plot.scale == AxisScale::log_y);
+  const bool y = plot.scale == AxisScale::linear || plot.scale == AxisScale::log_x;
+  if (!x && !y) return "";
+  std::string s = "# an axis that gnuplot would number as 0.0001 beside 5x10^{-5}, or 800000 beside 10^6, takes a common factor\n";
+  s += "set terminal dumb\nset output '/dev/null'\n" + draw + "\n";
+  s += "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > -1e-4))\n";
+  s += "step(r, p) = p * (r < 1.01 * p ? 0.1 : r < 2.01 * p ? 0.2 : r < 4.99 * p ? 0.5 : 1)\n";
+  for (const char axis : {'x', 'y'}) {
+    if (!(axis == 'x' ? x : y)) continue;
+    s += fmt::format(
+        "a = GPVAL_{0}_MIN; b = GPVAL_{0}_MAX\n"
+        "if (mixed(a, b)) {{\n"
+        "  e = floor(log10(b > -a ? b : -a) + 1e-9)\n"
+        "  s = step(b - a, 10**floor(log10(b - a) + 1e-9))\n"
+        "  set {1}range [a:b]\n"
+        "  set {1}label {2}\n"
+        "  set {1}tics ()\n"
+        "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add (gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
+        "}}\n",
+        static_cast<char>(axis - 'x' + 'X'), axis,
+        axis == 'x' ? with_factor(plot.x_label, false) : with_factor(plot.y_label, plot.y_label_is_unit));
+  }
+  return s;
+}
+
 // one for the screen: sizes that were there before papers were thought of
 std::string terminal_of(PictureFormat format, const FigureStyle& style) {
   const double inches = style.width_mm() / 25.4, tall = style.height ? *style.height / 25.4 : inches / 1.5;
@@ -168,6 +205,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& name, const Figu
   std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) + frame_of(plot, style);
   std::string draw = "plot ";
   for (std::size_t i = 0; i < plot.lines.size(); ++i) draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
+  s += factors_of(plot, draw);
   for (PictureFormat format : style.formats)
     s += fmt::format("set terminal {}\nset output {}\n{}\n", terminal_of(format, style),
                      gnuplot_file(name + "." + names(format)[static_cast<std::size_t>(format)]), draw);

@@ -42,6 +42,7 @@ struct Plot {
   std::vector<PlotMark> marks = {};
   std::vector<std::string> notes = {};  // plain lines beside the figure, such as what its numbers stand for
   std::optional<double> y_most = {};    // the axis ends there, whatever lies above
+  bool y_label_is_unit = false;         // nothing but a unit
 };
 
 struct FigureStyle;

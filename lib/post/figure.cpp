@@ -82,7 +82,8 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
   // several quantities on one axis have no common name but the one the user gives
   const bool alike = std::all_of(figure.y.begin(), figure.y.end(),
                                  [&](const std::string& name) { return label_of(*find(columns, name)) == label_of(y); });
-  plot.y_label = figure.y_label || alike ? with_unit(figure.y_label.value_or(label_of(y)), unit_of(y)) : unit_of(y);
+  plot.y_label_is_unit = !figure.y_label && !alike;
+  plot.y_label = plot.y_label_is_unit ? unit_of(y) : with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
     plot.lines.push_back({csv, head_of(figure.x), head_of(figure.y[i]),
                           figure.legends.empty() ? legend_of(*find(columns, figure.y[i])) : figure.legends[i]});

@@ -100,6 +100,7 @@ class Drawer {
     else
       over_axis(static_cast<std::size_t>(axis - axes_.begin()));
     const std::string y_label = figure_.y_label ? *figure_.y_label : figure_.y.size() == 1 ? shown(figure_.y[0]) : "";
+    data_.plot.y_label_is_unit = y_label.empty();
     data_.plot.y_label = y_label.empty() ? y_unit_ : with_unit(y_label, y_unit_);
     data_.csv = table_.csv();
     return std::move(data_);
