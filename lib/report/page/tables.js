@@ -1,20 +1,30 @@
 'use strict';
-// A sheet of paper holds some ten columns: wider tables are printed in parts, each with the first column.
-const onPaper = 10;
+// Wider tables are printed in parts, each with the first column, so that letters stay as large as style.css has them on paper and no name or
+// number is broken: between the margins of A4, in px.
+const onPaper = 680, letters = 9.5, between = 9;
 L.table = table => {
   const columns = table.columns.map((_, i) => i), title = table.title || 'table';
-  const cell = v => typeof v === 'string' ? L.el('td', { class: 'word' }, v) : L.el('td', {}, L.number(v, 5));
+  const text = v => typeof v === 'string' ? v : L.number(v, 5), units = table.columns.map(c => L.unit(c.unit));
   const part = some => L.el('table', { 'aria-label': title },
-    L.el('thead', {}, L.el('tr', {}, ...some.map(i => L.el('th', { scope: 'col' }, table.columns[i].name, L.el('small', {}, L.unit(table.columns[i].unit) || '\u00a0'))))),
-    L.el('tbody', {}, ...table.rows.map(row => L.el('tr', {}, ...some.map(i => cell(row[i]))))));
+    L.el('thead', {}, L.el('tr', {}, ...some.map(i => L.el('th', { scope: 'col' }, table.columns[i].name, L.el('small', {}, units[i] || '\u00a0'))))),
+    L.el('tbody', {}, ...table.rows.map(row => L.el('tr', {}, ...some.map(i => L.el('td', typeof row[i] === 'string' ? { class: 'word' } : {}, text(row[i])))))));
   const box = L.el('div', { class: 'scroll' }, part(columns));
-  if (columns.length > onPaper) {
+  L.printed.push(() => {
+    if (box.childElementCount > 1) return;
+    const ruler = L.el('canvas', {}).getContext('2d');
+    ruler.font = `600 ${letters}px ${getComputedStyle(document.body).fontFamily}`;
+    const widths = columns.map(i => between + Math.max(...[table.columns[i].name, units[i], ...table.rows.map(row => text(row[i]))].map(t => Math.min(ruler.measureText(t).width, onPaper / 3))));  // words may be broken
+    const parts = [];
+    let room = 0;
+    for (const i of columns.slice(1)) {
+      if (room < widths[i]) { parts.push([0]); room = onPaper - widths[0]; }
+      parts[parts.length - 1].push(i);
+      room -= widths[i];
+    }
+    if (parts.length < 2) return;
     box.classList.add('split');
-    L.printed.push(() => {
-      if (box.childElementCount > 1) return;
-      for (let i = 1; i < columns.length; i += onPaper - 1) box.append(part([0, ...columns.slice(i, i + onPaper - 1)]));
-    });
-  }
+    box.append(...parts.map(part));
+  });
   return box;
 };
 
