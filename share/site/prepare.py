@@ -80,6 +80,8 @@ def gallery():
         if row := measured.get(file.stem):
             text += "| cost | error |\n| --- | --- |\n"
             text += f"| {row['cpu_s']} s of CPU, {row['steps']} steps | {row['errors'] or 'not asked for: `estimate` in the solve tells it'} |\n\n"
+        else:
+            text += f"Its cost and errors are not measured: `make gallery GALLERY={file.stem}` does it.\n\n"
         text += "??? example \"" + f"pipelines/{file.name}\"\n\n    ```yaml\n" + "".join(f"    {line}\n" for line in lines[rest:]) + "    ```\n\n"
         text += configs_of(lines)
     return text

@@ -39,8 +39,16 @@ foreach(pipeline ${pipelines})
     message(FATAL_ERROR "the gallery lacks ${name}")
   endif()
 endforeach()
-# what was measured has its picture, its cost and what is known of its errors
+# what was measured has its picture, its cost and what is known of its errors; of the others it is said that they were not
 file(READ ${ROOT}/docs/gallery.csv rows)
+foreach(pipeline ${pipelines})
+  get_filename_component(name ${pipeline} NAME_WE)
+  string(FIND "${page}" "make gallery GALLERY=${name}<" unmeasured)
+  string(FIND "${rows}" "\n${name}," measured)
+  if((measured EQUAL -1 AND unmeasured EQUAL -1) OR (measured GREATER -1 AND unmeasured GREATER -1))
+    message(FATAL_ERROR "the gallery says of ${name} both that it was measured and that it was not, or neither")
+  endif()
+endforeach()
 string(REPLACE ";" "," rows "${rows}")  # it would part the rows
 string(REPLACE "\n" ";" rows "${rows}")
 list(POP_FRONT rows)
