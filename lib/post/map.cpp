@@ -109,9 +109,10 @@ std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place) {
 }
 
 double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond) {
+  constexpr double slack = 1e-9;  // rounding must not part a ring of nodes at that distance
   double most = 0, size = 0;
   for (std::size_t i = 0; i < b.places.size(); ++i) {
-    if (std::hypot(b.places[i][0], b.places[i][1]) < beyond) continue;
+    if (std::hypot(b.places[i][0], b.places[i][1]) < (1 - slack) * beyond) continue;
     size = std::max(size, std::abs(b.values[i]));
     if (const auto value = value_at(a, b.places[i])) most = std::max(most, std::abs(*value - b.values[i]));
   }
