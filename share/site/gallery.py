@@ -74,7 +74,7 @@ def page_of(run):
     if not reports or not chromium:
         return None
     shown = run / "report.png"
-    subprocess.run([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=8000", "--window-size=1100,900",
+    subprocess.run([chromium, "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--virtual-time-budget=8000", "--window-size=1100,900",
                     f"--screenshot={shown}", reports[0].resolve().as_uri()], check=True, capture_output=True)
     return shown
 
