@@ -18,9 +18,11 @@ what == "levels" {
   error[$1, file] = $head["force_error_percent"]; cpu[$1, file] = $head["cpu_s"]; files = file
 }
 what == "accuracy" {
-  if ($1 == "asked") { asked[$2] = $head["force_N"]; said[$2] = $head["force_error_N"]; limit[$2] = $head["force_limit_N"] }
-  else { fine[$2] = $head["force_limit_N"]; unsure[$2] = $head["force_error_N"] }
-  if (!($2 in seen)) { order[++n] = $2; seen[$2] = FILENAME }
+  how = $1; s = $2
+  if ($2 == "asked" || $2 == "fine") { how = $2; s = $1 }
+  if (how == "asked") { asked[s] = $head["force_N"]; said[s] = $head["force_error_N"]; limit[s] = $head["force_limit_N"] }
+  else { fine[s] = $head["force_limit_N"]; unsure[s] = $head["force_error_N"] }
+  if (!(s in seen)) { order[++n] = s; seen[s] = FILENAME }
 }
 what == "estimates" {
   scene = FILENAME; sub(/_table\/table.csv$/, "", scene); sub(/.*\//, "", scene)
