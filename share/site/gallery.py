@@ -31,25 +31,30 @@ def cost(run):
     return (int(found[1]), float(found[3])) if found and found[1] == found[2] else None
 
 
+def curves_of(run):
+    """What the curves of each solution end with, by the path of the solution; a pipeline's post says in its first line which that is."""
+    found = {}
+    for file in run.rglob("*.yaml"):
+        source = re.match(r"# langer-post .*--solution (\S+)", file.read_text())
+        if source and (file.parent / "curves.h5").exists():
+            found.setdefault(run / source[1], {}).update(summary(file.parent / "curves.h5"))
+    return found
+
+
 def errors(run):
-    """The worst of all members, of what a run tells of its own errors: in percent of what it is an error of, where a table has that."""
-    worst, by, values = {}, set(), {}
+    """The worst of all members, of what a run tells of its own errors: in percent of what it is an error of, where the curves have that."""
+    worst, by, curves = {}, set(), curves_of(run)
     for config in run.rglob("solve.yaml"):
         by |= set(re.findall(r"^estimate: (\w+)", config.read_text(), re.M)) - {"none"}
-    told = [summary(file) for file in sorted(run.rglob("*.h5"))]
-    for said in told:
-        if said["schema"] == "curves":
-            for key, value in said.items():
-                if isinstance(value, (int, float)):
-                    values[key] = max(values.get(key, 0), abs(value))
-    for said in told:
+    for file in sorted(run.rglob("*.h5")):
+        said = summary(file)
         if said["schema"] == "material" and said.get("mean_error_percent") is not None:
             worst["fit, mean", "%"] = max(worst.get(("fit, mean", "%"), 0), said["mean_error_percent"])
         for key, value in said.items():
             error = re.fullmatch(r"(force|reaction_\w+|torque_\w+|von_mises_max|displacement_\w+|u_\w+)_error_(N|MPa|mm|N_mm)", key)
             if said["schema"] != "solution" or not error or value is None:
                 continue
-            of = values.get(f"{error[1]}_{error[2]}")
+            of = abs(curves.get(file, {}).get(f"{error[1]}_{error[2]}") or 0)
             entry = (error[1], "%" if of else error[2].replace("_", " "))
             worst[entry] = max(worst.get(entry, 0), 100 * value / of if of else value)
     words = "; ".join(f"{what} {value:.2g} {unit}" for (what, unit), value in sorted(worst.items()))
