@@ -67,7 +67,7 @@ accuracy estimates:
 	@awk -v what=$@ -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
 	@tests/soak/page docs/work_precision.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
 
-# the same in scenes of other kinds than the study's; ten minutes
+# the same in scenes of other kinds than the study's; two minutes
 accuracy-elsewhere:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/accuracy_elsewhere.yaml
 	@awk -v what=accuracy -f docs/work_precision.awk runs/accuracy_elsewhere/elsewhere_table/table.csv > runs/accuracy_elsewhere/table.md
