@@ -98,7 +98,8 @@ for file in sorted((project / "pipelines").glob("*.yaml")):
         kept[file.stem] = dict(zip(columns, [file.stem, took[0], f"{took[1]:.3g}", errors(run)]))
         image = Image.open(source).convert("RGB")
         image = image.resize((700, round(700 * image.height / image.width)), Image.LANCZOS)
-        image.quantize(128, dither=Image.Dither.NONE).save(folder / f"{file.stem}.png", optimize=True)
+        # the ends of a scale of colours are rare in a picture, and median cuts lose them
+        image.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(folder / f"{file.stem}.png", optimize=True)
 with table.open("w", newline="") as out:
     writer = csv.DictWriter(out, columns, lineterminator="\n")
     writer.writeheader()
