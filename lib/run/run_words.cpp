@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "solve/zero_energy_modes.hpp"
+#include "assembly/zero_energy_modes.hpp"
 
 namespace langer {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/quality.hpp"
-#include "solve/zero_energy_modes.hpp"
+#include "assembly/zero_energy_modes.hpp"
 
 namespace langer {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/dofs.hpp"
-#include "solve/zero_energy_modes.hpp"
+#include "assembly/zero_energy_modes.hpp"
 #include "support/directions.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"

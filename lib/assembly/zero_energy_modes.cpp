@@ -1,4 +1,4 @@
-#include "solve/zero_energy_modes.hpp"
+#include "assembly/zero_energy_modes.hpp"
 
 #include <fmt/format.h>
 
