@@ -61,6 +61,16 @@ class Equilibrium {
   void pressures_from(const VecX& u);  // forget predictions: kappa (J - 1) at u
   // p + s (p - p_before), p_before those at u_before; J - 1 at an extrapolated u would mean nothing
   void extrapolate_pressures(const VecX& u_before, double s);
+  void move_pressures(const VecX& dp, double step);  // p + step dp, of cells with one dilatation
+
+  // mean_dilatation: what K(), as assembled last, has from the volume,  sum of V kappa b b^T over the cells, b = dJ_bar / du
+  struct VolumetricPart {
+    std::vector<double> b;  // by cell, (n_dofs) in the order of cell_dofs() [1/mm]
+    VecX V, kappa;          // by cell [mm^3], [MPa]
+    VecX missing;           // by cell: U'(J_bar) less the pressure of the tangent [MPa]
+  };
+  VolumetricPart volumetric_part() const;
+  std::vector<int> cell_dofs() const;  // by cell: the dofs that move its nodes
 
   // Other numbers of the same laws, and directions of as many families in each cell, from the next assembly on. Pressures that the
   // tangent uses stay until pressures_from().

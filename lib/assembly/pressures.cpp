@@ -70,6 +70,37 @@ void Equilibrium::extrapolate_pressures(const VecX& u_before, double s) {
   follow_pressures();
 }
 
+void Equilibrium::move_pressures(const VecX& dp, double step) {
+  for (int e = 0; e < mesh_.n_cells(); ++e) p_[static_cast<std::size_t>(e)] += step * dp[e];
+}
+
+Equilibrium::VolumetricPart Equilibrium::volumetric_part() const {
+  const int n = mesh_.n_cells();
+  VolumetricPart part{dJ_du_, VecX(n), VecX(n), VecX(n)};
+  for (int e = 0; e < n; ++e) {
+    const ModalVolume<double> volume =
+        modal_volume(material(e).volume, n_p_, &J_minus_1_[static_cast<std::size_t>(e)], local_[e], geometry_[e]);
+    part.V[e] = geometry_[e].V, part.kappa[e] = volume.kappa[0][0];
+    part.missing[e] = volume.p[0] - p_[static_cast<std::size_t>(e)];
+    if (tied_.empty() || !tied_[e]) continue;
+    const auto nodes = moving_.of(e);
+    for (int a = 0; a < n_nodes_; ++a) {
+      Eigen::Map<Vec3> b(&part.b[static_cast<std::size_t>(e) * n_dofs_ + 3 * a]);
+      b = (dofs_.tie[nodes[a]].T.transpose() * b).eval();
+    }
+  }
+  return part;
+}
+
+std::vector<int> Equilibrium::cell_dofs() const {
+  std::vector<int> dofs;
+  dofs.reserve(static_cast<std::size_t>(mesh_.n_cells()) * n_dofs_);
+  for (int e = 0; e < mesh_.n_cells(); ++e)
+    for (int node : moving_.of(e))
+      for (int i = 0; i < 3; ++i) dofs.push_back(3 * dofs_.node(node) + i);
+  return dofs;
+}
+
 // What four dilatation modes leave of J - 1 within a cell is opposed by a modulus of its own, kappa_l: the largest compressive pressure
 // of the modes in the cell, kappa at most (docs/theory.md, Volume). Less, and a compressed cell folds within itself; more, and it locks.
 // It follows the pressures p that the tangent uses, not kappa t at the u assembled: near incompressibility those are meaningless

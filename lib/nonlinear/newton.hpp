@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/fields.hpp"
+#include "linear/linear_by.hpp"
 #include "tensor/types.hpp"
 
 namespace langer {
@@ -48,12 +49,16 @@ struct NewtonOptions {
   double absolute = 1e-12;
   double largest_move = 1;
   bool reuse_tangent = true;
+  LinearBy linear = LinearBy::automatic;
   static void fields(auto& v) {
     v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of tangents in one step", at_least(1));
     v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
     v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
     v(&NewtonOptions::reuse_tangent, "reuse_tangent", unit::none,
       "within a step, correct with the last tangent for as long as that is cheaper than a new one; false: a new one each time");
+    v(&NewtonOptions::linear, "linear", unit::none,
+      "direct: by a factor of the tangent; iterative: by multigrid and GMRES, in less memory and time where the body is large, without a look at the "
+      "stability of the equilibrium; auto: iterative from 100 000 free dofs on, where the scene and the installation allow it");
     v(&NewtonOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
   }
 };

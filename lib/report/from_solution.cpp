@@ -112,7 +112,8 @@ void judge(const Say& say, const History& history) {
                                history.at("t").size(), residual, iterations));
   const auto positive = [](double v) { return v > 0; };
   if (history.count("negative_eigenvalues") == 0)
-    say(Level::note, "the stability of the steps was not looked at (stability: last or off)");
+    say(Level::note,
+        "the stability of the steps was not looked at (stability: last or off, or a tangent that is solved iteratively)");
   else if (largest(history, "negative_eigenvalues") != 0)
     say(Level::warning,
         fmt::format("unstable equilibria from t = {:.4g}: the constrained tangent has up to {:g} negative eigenvalues",

@@ -28,23 +28,22 @@ void need_memory(const Statics& statics, const Statics* beside, int threads) {
   if (beside) need_memory(*beside, nullptr, threads);
   // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it cannot have it
   constexpr double blas = 135e6;
-  const double factor = statics.linear().size().factor_bytes, mapped = factor + blas * threads;
+  const double factor = statics.size().factor_bytes, mapped = factor + blas * threads;
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
   const double wanted = factor <= free_memory() ? mapped : factor, free = std::min(free_memory(), free_address());
-  throw Failure(Exit::config,
-                Error{{},
-                      "",
-                      fmt::format("this run needs {} more than the {} it holds already, to factorize its tangent; {} are free",
-                                  memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
-                      "",
-                      "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
+  throw Failure(Exit::config, Error{{},
+                                    "",
+                                    fmt::format("this run needs {} more than the {} it holds already, for its tangent; {} are free",
+                                                memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
+                                    "",
+                                    "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
 Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
-  return forecast(body, statics.linear(), statics.contacts(), config.path, stops, newton && newton->reuse_tangent,
-                  statics.contact_in_tangent());
+  return forecast(body, statics.size(), statics.contacts(), config.path, stops,
+                  {newton && newton->reuse_tangent, statics.contact_in_tangent(), statics.mixed()});
 }
 
 Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where) {
@@ -75,14 +74,20 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                                   c.mu > 0 ? fmt::format("friction {:g}", c.mu) : "no friction"));
     if (!scene.contacts.empty()) line("", statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
     line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
-    line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
-                                1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
+    if (statics.iterative())
+      line("tangent",
+           fmt::format("{:.3g} million entries; solved iteratively, without a factor: the stability of equilibria is not looked at",
+                       1e-6 * f.size.nonzeros));
+    else
+      line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
+                                  1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
     line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps, f.iterations,
                              f.again > 0 ? fmt::format("Newton + {:.0f} modified ", f.again) : ""));
     line("memory", fmt::format("{}; {} are free{}", memory_in_words(f.bytes), memory_in_words(free),
                                f.size.factor_bytes > free ? ": this will not fit" : ""));
-    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, factorization {:.2g}, solution {:.2g}{}",
-                             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly, f.factor, f.solving,
+    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, {} {:.2g}, solution {:.2g}{}",
+                             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
+                             statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
                              f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
     if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration_in_words(estimate)));
   }

@@ -14,6 +14,7 @@ StaticsOptions threads_of(const SolveConfig& config) {
   StaticsOptions options;
   options.threads = config.blas_threads;
   options.seconds = config.path.seconds.value_or(0);
+  if (const auto* newton = std::get_if<NewtonOptions>(&config.solver)) options.linear_by = newton->linear;
   return options;
 }
 

@@ -32,7 +32,7 @@ bool ContactInTangent::serves(const std::vector<RigidContact>& contacts) {
 ContactInTangent::ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, double stiffness)
     : pattern_(body.pattern()), rho_(stiffness > 0 ? stiffness : 1) {
   const Dofs& dofs = body.dofs();
-  std::vector<int> begins(static_cast<std::size_t>(pattern_.n), -1);  // row -> candidate
+  begins_.assign(static_cast<std::size_t>(pattern_.n), -1);
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (std::size_t i = 0; i < contacts[k].nodes.size(); ++i) {
       Candidate c;
@@ -43,12 +43,12 @@ ContactInTangent::ContactInTangent(const Equilibrium& body, const std::vector<Ri
           c.axis[c.n++] = axis;
         }
       if (c.n == 0) continue;  // nothing moves it
-      begins[c.first] = static_cast<int>(candidates_.size());
+      begins_[c.first] = static_cast<int>(candidates_.size());
       candidates_.push_back(c);
     }
   for (int column = 0; column < pattern_.n; ++column)
     for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
-      if (const int row = pattern_.row[at]; row > column && begins[row] >= 0) row_blocks_.push_back({at, begins[row]});
+      if (const int row = pattern_.row[at]; row > column && begins_[row] >= 0) row_blocks_.push_back({at, begins_[row]});
 }
 
 // Q and G. Where some of its directions are held, n has to do with what is left of it in the others.
@@ -303,21 +303,21 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
       continue;
     }
     answer = answer_of(*solved, state);
-    if (!changes(*solved)) break;
+    if (changes(*solved) == 0) break;
   }
   if (answer) answer->solutions = solutions;
   return answer;
 }
 
-// Judges all candidates anew; whether one of them does something else now.
-bool ContactInTangent::changes(const Solved& solved) {
-  bool some = false;
+// Judges all candidates anew; how many of them do something else now.
+int ContactInTangent::changes(const Solved& solved) {
+  int some = 0;
   for (Candidate& c : candidates_) {
     const ContactStatus before = c.status;
     const Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     const Vec3 x = c.q + c.T * (c.G.leftCols(c.n) * solved.y.segment(c.first, c.n));
     judge(c, before == ContactStatus::open ? Vec3(Vec3::Zero()) : r, x);
-    some = some || c.status != before;
+    some += c.status != before;
   }
   return some;
 }
@@ -336,7 +336,7 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve_again(const Cont
   const auto solved = solution(linear, !friction, solutions);
   if (!solved) return std::nullopt;
   Answer answer = answer_of(*solved, state);
-  if (changes(*solved)) return std::nullopt;
+  if (changes(*solved) > 0) return std::nullopt;
   answer.solutions = solutions;
   return answer;
 }

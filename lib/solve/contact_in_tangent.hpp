@@ -17,6 +17,7 @@
 
 #include "assembly/equilibrium.hpp"
 #include "linear/linear.hpp"
+#include "linear/mixed_tangent.hpp"
 #include "solve/contact_state.hpp"
 
 namespace langer {
@@ -37,6 +38,11 @@ class ContactInTangent {
   // Nothing where the system is singular. factorize: into `linear`; how often, `factors` tells.
   std::optional<Answer> solve(const ContactState& state, const std::vector<double>& K, const VecX& rhs, const LinearSolver& linear,
                               const Factorize& factorize);
+  // The same without a factor, with the tangent of the body as `mixed` has split it; dp: change of its pressures [MPa]. Nothing where
+  // that does not converge. Without candidates it solves for the body alone.
+  std::optional<Answer> solve(const ContactState& state, const Equilibrium& body, const VecX& rhs, MixedTangent& mixed, VecX& dp);
+  // What was solved before has no say any more: an interrupted path goes on with the same digits.
+  void begin_increment() { settled_ = candidates_.empty(); }
   // With the K, the frames and the factor of the last solve(). Nothing where a candidate changes what it does.
   std::optional<Answer> solve_again(const ContactState& state, const VecX& rhs, const LinearSolver& linear);
 
@@ -80,8 +86,11 @@ class ContactInTangent {
   Vec3 change_of(const Candidate& c, const VecX& y, const VecX& Ky, double constants) const;
   VecX missing(const VecX& y, const VecX& Ky, double constants, const std::vector<char>& is_given) const;
   std::optional<Solved> solution(const LinearSolver& linear, bool exact, int& solutions) const;
+  std::optional<Solved> solution(MixedTangent& mixed, double relative, MixedSolver::Answer& from, VecX& dp) const;
+  void turn_dyads(const std::vector<int>& cell_rows, std::vector<double>& b) const;
+  bool precondition(MixedTangent& mixed);
   Answer answer_of(const Solved& solved, const ContactState& state) const;
-  bool changes(const Solved& solved);
+  int changes(const Solved& solved);
 
   const Pattern& pattern_;
   double rho_;
@@ -90,9 +99,11 @@ class ContactInTangent {
     int position, candidate;
   };
   std::vector<RowBlock> row_blocks_;  // entries of a candidate's rows in the columns before them
+  std::vector<int> begins_;           // by row: the candidate whose first it is, or -1
   std::vector<double> K_;             // turned
   VecX rhs_;                          // turned
   bool friction_in_factor_ = false;
+  bool settled_ = true;  // no candidate changed in the last iterative solution
 };
 
 }  // namespace langer

@@ -53,7 +53,7 @@ void Statics::need_tangent() {
 // From counts, not from a clock: the same scene takes the same way on every machine. The rates are those of one thread of a
 // machine of 2020 (`langer-bench indentation`); what counts is their ratio.
 double Statics::price() const {
-  const LinearSolver::Size size = factor_.linear().size();
+  const LinearSolver::Size size = factor_.size();
   const ReferenceCell& cell = equilibrium_.mesh().cell();
   const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss, n = cell.n_nodes;
   const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
@@ -71,7 +71,8 @@ std::optional<VecX> Statics::correction() {
   else if (!factorize())
     return std::nullopt;
   // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
-  factor_serves_ = factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
+  factor_serves_ =
+      !iterative() && factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   return contact_in_tangent() ? du : corrected(rhs);
 }
@@ -94,7 +95,16 @@ VecX Statics::with_prescribed(const VecX& free) const {
 std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
   const double factor_before = cost_.factor;
   std::optional<ContactInTangent::Answer> answer;
-  {
+  dp_.resize(0);
+  if (MixedTangent* mixed = factor_.mixed()) {
+    const Stopwatch watch(cost_.solve);
+    mixed->linearise(equilibrium_, remaining_prescribed(u_));
+    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+    answer = factor_.in_tangent()->solve({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_, rhs,
+                                         *mixed, dp_);
+    if (!answer) factor_.take_factor(equilibrium_), dp_.resize(0);
+  }
+  if (!answer) {
     const Stopwatch watch(cost_.contact);
     const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
     const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};

@@ -25,7 +25,7 @@ double multiplication_rate() {
   return 2.0 * n * n * n * products / (now - start);
 }
 
-double forecast_bytes(const LinearSolver& linear) { return resident_bytes() + linear.size().factor_bytes; }
+double forecast_bytes(const LinearSolver::Size& size) { return resident_bytes() + size.factor_bytes; }
 
 namespace {
 
@@ -42,27 +42,46 @@ double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts,
   return most;
 }
 
+// small supernodes and the scatter between them: 0.24 of the product's rate at 0.2 GFLOP, 0.51 at 7, 0.77 at 600
+double efficiency(double flops) { return std::clamp(0.385 + 0.062 * std::log(std::max(1e-9 * flops, 1e-9)), 0.15, 0.85); }
+
+void with_factor(double rate, Forecast& out) {
+  out.factor = out.size.flops / (efficiency(out.size.flops) * rate);
+  // forward and back through the factor, as fast as memory gives it: 8 bytes each at 10 GB/s
+  out.solving = 2 * 8 * out.size.factor_nonzeros / 10e9;
+}
+
+// Multigrid made anew in nearly every iteration where candidates come and go, else once in an increment; 25 products with them, 15
+// without: measured on the indentation
+void without_factor(const MixedSolver& mixed, bool contact, double rate, Forecast& out) {
+  const LinearSolver::Size schur = mixed.schur_size();
+  const double anew = 1.5e-7 * out.size.nonzeros + schur.flops / (efficiency(schur.flops) * rate);
+  out.factor = (contact ? 0.8 : 0.2) * anew;
+  out.solving = (contact ? 25 : 15) * (170 * out.size.nonzeros + 32 * schur.factor_nonzeros) / 15e9;
+}
+
 }  // namespace
 
-Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses, bool in_tangent) {
+Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::vector<RigidContact>& contacts,
+                  const LoadPathOptions& path, const std::vector<double>& stops, const CorrectionsBy& by) {
   Forecast out;
-  out.size = linear.size();
+  out.size = size;
   const VecX rest = VecX::Zero(body.dofs().n);
   body.assemble(rest, true);
   double start = cpu_seconds();
   body.assemble(rest, true);
   // a step assembles once more than it iterates
   out.assembly = 1.3 * (cpu_seconds() - start);
-  out.bytes = forecast_bytes(linear);
+  out.bytes = forecast_bytes(size);
   const double rate = multiplication_rate();
-  // small supernodes and the scatter between them: 0.24 of the product's rate at 0.2 GFLOP, 0.51 at 7, 0.77 at 600
-  const double efficiency = std::clamp(0.385 + 0.062 * std::log(std::max(1e-9 * out.size.flops, 1e-9)), 0.15, 0.85);
-  out.factor = out.size.flops / (efficiency * rate);
-  // forward and back through the factor, as fast as memory gives it: 8 bytes each at 10 GB/s
-  out.solving = 2 * 8 * out.size.factor_nonzeros / 10e9;
+  if (by.mixed)
+    without_factor(*by.mixed, !contacts.empty(), rate, out);
+  else
+    with_factor(rate, out);
   const double covered = most_covered(body.mesh(), contacts, stops);
-  if (in_tangent) {  // the tangent turned into the candidates' axes, and once more with what they do
+  if (by.mixed) {
+    out.bytes += 8 * out.size.nonzeros;  // the tangent in the candidates' axes
+  } else if (by.in_tangent) {            // the tangent turned into the candidates' axes, and once more with what they do
     out.contact = 30 * out.size.nonzeros / 1e9 + 2 * out.solving;
     out.bytes += 2 * 8 * out.size.nonzeros;
   } else {
@@ -81,11 +100,12 @@ Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vect
     report.outcome = Outcome::converged, report.iterations = 4;
     return report;
   };
+  const bool reuses = by.reuses && !by.mixed;
   const auto accepted = [&](double, double taken, double, const SolveReport&) {
     const double decades = std::log10(taken / 0.1);
     const double per_decade = friction && decades > 0 ? 3.5 : 1.1;
-    out.iterations +=
-        reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6) : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0);
+    out.iterations += reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6)
+                             : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0) + (by.mixed ? 1.5 : 0);
     out.again += reuses ? 7 : 0;
     return true;
   };

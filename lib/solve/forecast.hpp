@@ -5,6 +5,7 @@
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
 #include "linear/linear.hpp"
+#include "linear/mixed.hpp"
 #include "nonlinear/load_path.hpp"
 
 namespace langer {
@@ -12,7 +13,7 @@ namespace langer {
 struct Forecast {
   LinearSolver::Size size;
   double bytes = 0;                              // largest memory of the whole run
-  double assembly = 0, factor = 0, solving = 0;  // CPU seconds per iteration, one thread
+  double assembly = 0, factor = 0, solving = 0;  // CPU seconds per iteration, one thread; factor: or what stands in its place
   int steps = 0;                                 // if none is cut back
   double iterations = 0;                         // about; each with a tangent
   double again = 0;                              // corrections with their tangents
@@ -23,12 +24,18 @@ struct Forecast {
 };
 
 // bytes alone, without timing anything
-double forecast_bytes(const LinearSolver& linear);
+double forecast_bytes(const LinearSolver::Size& size);
+
+// How corrections are found. reuses: with a tangent that is there already, too; in_tangent: contact stands in it
+// (Statics::contact_in_tangent); mixed: without a factor, none otherwise
+struct CorrectionsBy {
+  bool reuses = false, in_tangent = false;
+  const MixedSolver* mixed = nullptr;
+};
 
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
-// reuses: corrections with a tangent that is there already; in_tangent: contact stands in it (Statics::contact_in_tangent)
-Forecast forecast(Equilibrium& body, const LinearSolver& linear, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, bool reuses, bool in_tangent = false);
+Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::vector<RigidContact>& contacts,
+                  const LoadPathOptions& path, const std::vector<double>& stops, const CorrectionsBy& by);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

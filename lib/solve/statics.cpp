@@ -15,7 +15,7 @@ namespace {
 TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, const StaticsOptions& options,
                            double& seconds) {
   const Stopwatch watch(seconds);
-  return {body, contacts, options.threads, options.contact_by};
+  return {body, contacts, options.threads, options.contact_by, options.linear_by};
 }
 
 }  // namespace
@@ -272,7 +272,10 @@ bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibr
 
 void Statics::moved(const VecX& du, double step) {
   const Stopwatch watch(cost_.assembly);
-  equilibrium_.predict_pressures(du, step, again_);
+  if (dp_.size() > 0)
+    equilibrium_.move_pressures(dp_, step);
+  else
+    equilibrium_.predict_pressures(du, step, again_);
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const Vec3 c = indenter_displacement(contacts_[k], t_, travel_),
@@ -293,7 +296,7 @@ Problem Statics::problem() {
   Problem p;
   p.assess = [this](const VecX& u, bool with_tangent) { return assess(u, with_tangent); };
   p.correction = [this] { return correction(); };
-  if (equilibrium_.formulation() != Formulation::displacement) {
+  if (equilibrium_.formulation() != Formulation::displacement && !iterative()) {
     p.correction_again = [this] { return correction_again(); };
     // bonds that let go solve several times within an increment, and only the first time with what the state before left
     p.price = price(), p.begins_again = factor_serves_ && bonds_.none();

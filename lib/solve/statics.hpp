@@ -48,6 +48,7 @@ struct StaticsOptions {
   bool extrapolate = true;       // start an increment from the movement of the last one
   double seconds = 0;            // of the path, for viscous bodies
   ContactBy contact_by = ContactBy::by_cost;
+  LinearBy linear_by = LinearBy::direct;
 };
 
 class Statics {
@@ -81,7 +82,7 @@ class Statics {
   const std::vector<RigidContact>& contacts() const { return contacts_; }
   const RigidContact* controlled() const { return controlled_ >= 0 ? &contacts_[static_cast<std::size_t>(controlled_)] : nullptr; }
   // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
-  // movement from there; otherwise K is factorized once more.
+  // movement from there; otherwise K is factorized once more. Not where iterative(), which has no signs to show.
   Signature signature();
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were not with contact
@@ -95,8 +96,12 @@ class Statics {
   // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it is singular. The next increment
   // begins with it where it is positive definite and contact is condensed.
   bool factorize_accepted();
-  const LinearSolver& linear() const { return factor_.linear(); }
+  const LinearSolver& linear() const { return factor_.linear(); }  // none where iterative()
+  LinearSolver::Size size() const { return factor_.size(); }
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
+  bool iterative() const { return factor_.mixed() != nullptr; }
+  const MixedSolver* mixed() const { return iterative() ? &factor_.mixed()->solver() : nullptr; }
+  bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 
  private:
   friend class StateTangent;   // solve/state_tangent.hpp
@@ -152,6 +157,7 @@ class Statics {
   int controlled_ = -1;                  // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
+  VecX dp_;                              // of an iterative solution: change of the pressures [MPa]; else empty
   std::vector<VecX> u_start_;   // by contact, (3 n): what the increment's slip is measured from, the indenter where it began
   VecX factored_at_;            // u of the tangent that was factorized last
   bool K_current_ = false;      // K is that of the trial

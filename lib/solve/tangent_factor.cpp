@@ -1,10 +1,13 @@
 #include "solve/tangent_factor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/quality.hpp"
 #include "assembly/zero_energy_modes.hpp"
+#include "base/error.hpp"
+#include "mesh/quality.hpp"
 
 namespace langer {
 
@@ -14,6 +17,8 @@ constexpr std::size_t many_candidates = 400;
 // flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it, factorizations that follow every change of
 // stick and slip cost more than they save (langer-bench wide, with friction)
 constexpr double deep = 8;
+// rows from which on an iterative solution is cheaper than a factor (langer-bench growth)
+constexpr int large = 100000;
 
 // of the order of what the body opposes to a movement of one node
 double node_stiffness(const Equilibrium& body) {
@@ -29,16 +34,18 @@ bool with_friction(const std::vector<RigidContact>& contacts) {
 
 }  // namespace
 
-TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
-                             ContactBy contact_by) {
+TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, ContactBy contact_by,
+                             LinearBy linear_by)
+    : threads_(threads) {
   const Dofs& dofs = body.dofs();
   const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
+  if (take_iterative(body, contacts, loose, linear_by)) return;
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
   const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);
   const bool tangent_serves = wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
   if (tangent_serves && (contact_by == ContactBy::tangent || !with_friction(contacts))) {
-    take_into_tangent(body, contacts, threads);
+    take_into_tangent(body, contacts);
     return;
   }
   if (!contacts.empty()) last_of_.assign(dofs.n, -1);
@@ -52,16 +59,55 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
   if (tangent_serves && linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
     last_.clear(), last_of_.clear();
-    take_into_tangent(body, contacts, threads);
+    take_into_tangent(body, contacts);
     return;
   }
   if (last_.empty() || !loose) return;
   loose_ = node_stiffness(body);  // the weak resistance of contact to a free motion stays visible beside it
 }
 
-void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads) {
+void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts) {
   in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
-  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads);
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
+}
+
+bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, bool loose,
+                                   LinearBy linear_by) {
+  if (linear_by == LinearBy::direct || (linear_by == LinearBy::automatic && body.dofs().n_free() < large)) return false;
+  std::string why;
+  if (loose)
+    why = "only contact holds the body";
+  else if (!ContactInTangent::serves(contacts))
+    why = "an indenter adheres or is pushed with a given force, or two may touch one node";
+  else if (body.loads().follow())
+    why = "pressures follow the surface";
+  else
+    mixed_ = MixedTangent::of(body, threads_, why);
+  if (mixed_) {
+    in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
+  } else if (linear_by == LinearBy::iterative) {
+    throw Failure(Exit::config,
+                  Error{{}, "solver.newton.linear", "found iterative, which does not serve here: " + why, "direct", ""});
+  }
+  return mixed_ != nullptr;
+}
+
+void TangentFactor::take_factor(const Equilibrium& body) {
+  mixed_.reset();
+  gave_up_ = true;
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
+}
+
+LinearSolver::Size TangentFactor::size() const {
+  if (linear_) return linear_->size();
+  return {mixed_->solver().entries(), 0, mixed_->solver().bytes(), 0};
+}
+
+void TangentFactor::begin_increment() {
+  supported_ = false;
+  if (!mixed_) return;
+  mixed_->solver().forget();
+  in_tangent_->begin_increment();
 }
 
 bool TangentFactor::factorize(const Equilibrium& body) {

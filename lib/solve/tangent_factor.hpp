@@ -4,7 +4,7 @@
 //               without its contacts; linearised_contact() takes the springs out again exactly
 //   indefinite  with stabilisation springs in the body, which LinearSolver takes out; without contact K as it is, by UMFPACK
 // Contact is either condensed to its candidates, which are eliminated last (solve/contact_linearisation.hpp), or where they are many
-// stands in the tangent itself (solve/contact_in_tangent.hpp).
+// stands in the tangent itself (solve/contact_in_tangent.hpp). Large bodies have no factor at all (linear/mixed_tangent.hpp).
 #pragma once
 
 #include <memory>
@@ -13,6 +13,8 @@
 #include "assembly/equilibrium.hpp"
 #include "contact/contact.hpp"
 #include "linear/linear.hpp"
+#include "linear/linear_by.hpp"
+#include "linear/mixed_tangent.hpp"
 #include "solve/contact_in_tangent.hpp"
 
 namespace langer {
@@ -25,18 +27,25 @@ class TangentFactor {
  public:
   enum class Kind { none, whole, supported, indefinite };
 
-  // threads: of the BLAS; refers to the pattern of the body
+  // threads: of the BLAS; refers to the pattern of the body. Failure(config) where LinearBy::iterative is asked for and does not serve.
   TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
-                ContactBy contact_by = ContactBy::by_cost);
+                ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
-  void begin_increment() { supported_ = false; }
+  void begin_increment();
   // The body's K; false where it is singular.
   bool factorize(const Equilibrium& body);
   // What contact makes of the tangent, where it stands in it: by Cholesky, or by UMFPACK.
   bool factorize_with_contact(const std::vector<double>& values);
   // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not positive definite.
   bool factorize_fixed_reactions(const Equilibrium& body);
+
+  // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
+  MixedTangent* mixed() const { return mixed_.get(); }
+  // From now on by a factor: the iterative solution did not converge.
+  void take_factor(const Equilibrium& body);
+  bool gave_up_iterating() const { return gave_up_; }
+  LinearSolver::Size size() const;
 
   Kind kind() const { return kind_; }
   ContactInTangent* in_tangent() const { return in_tangent_.get(); }  // none: contact is condensed
@@ -58,12 +67,16 @@ class TangentFactor {
   void uncount(const Counts& before) { counts_.indefinite = before.indefinite, counts_.unstable = before.unstable; }
 
  private:
-  void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads);
+  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, bool loose, LinearBy linear_by);
+  void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Equilibrium& body);
 
   std::vector<int> last_, last_of_;
   std::unique_ptr<ContactInTangent> in_tangent_;
   std::unique_ptr<LinearSolver> linear_;
+  std::unique_ptr<MixedTangent> mixed_;
+  int threads_;
+  bool gave_up_ = false;
   Kind kind_ = Kind::none;
   bool supported_ = false;
   double gamma_ = 0;

@@ -74,15 +74,14 @@ Finding programs(const fs::path& bin) {
   return {"programs", false, true, fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
 }
 
-// gmsh is loaded by a module of its own, whose libraries the loader has to find
-Finding gmsh(const fs::path& bin) {
-  const fs::path module = bin.parent_path() / "lib/langer/langer_gmsh.so";
-  const std::string without = "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh";
-  if (!fs::exists(module)) return {"gmsh", false, false, without + "; there is no " + module.string()};
+// what is loaded by a module of its own, whose libraries the loader has to find
+Finding module(const fs::path& bin, const std::string& name, const std::string& without, const std::string& package) {
+  const fs::path module = bin.parent_path() / ("lib/langer/langer_" + name + ".so");
+  if (!fs::exists(module)) return {name, false, false, without + "; there is no " + module.string()};
   if (const std::string lost = said_by("ldd '" + module.string() + "' | grep 'not found'"); !lost.empty())
-    return {"gmsh", false, false,
-            fmt::format("{}; {}: apt install libgmsh4.8 (Debian 12)", without, lost.substr(lost.find_first_not_of(" \t")))};
-  return {"gmsh", true, false, module.string()};
+    return {name, false, false,
+            fmt::format("{}; {}: apt install {} (Debian 12)", without, lost.substr(lost.find_first_not_of(" \t")), package)};
+  return {name, true, false, module.string()};
 }
 
 Finding python_package(const char* name, const char* debian, const char* without) {
@@ -111,7 +110,11 @@ Finding machine() {
 std::vector<Finding> examine() {
   const fs::path bin = fs::canonical("/proc/self/exe").parent_path();
   std::vector<Finding> findings{
-      {"langer", true, true, fmt::format("{} ({})", version, revision)}, machine(), programs(bin), gmsh(bin)};
+      {"langer", true, true, fmt::format("{} ({})", version, revision)},
+      machine(),
+      programs(bin),
+      module(bin, "gmsh", "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh", "libgmsh4.8"),
+      module(bin, "petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time", "libpetsc-real3.18")};
   findings.push_back(report::has_three() ? Finding{"three.js", true, false, "in langer-report"}
                                          : Finding{"three.js", false, false,
                                                    "reports have no body to turn; apt install libjs-three before building"});

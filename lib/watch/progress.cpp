@@ -111,7 +111,8 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (live_) say_status(line);
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
-    const double negative = record.scalars.at("negative_eigenvalues");
+    const auto signs = record.scalars.find("negative_eigenvalues");
+    const double negative = signs == record.scalars.end() ? 0 : signs->second;
     line += fmt::format("  min acoustic eigenvalue {:.3g} MPa", stiffness->second);
     unstable = negative != 0 || !(stiffness->second >= 0);
     if (negative > 0) line += fmt::format("  UNSTABLE: {:.0f} negative eigenvalues", negative);
@@ -148,7 +149,7 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
       "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
       "files {:.2f}",
       cost.analysis, cost.assembly, cost.factor,
-      1e-9 * statics.linear().size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9), cost.solve,
+      1e-9 * statics.size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9), cost.solve,
       cost.contact, files);
   if (statics.n_indefinite() > 0)
     voice_.say(

@@ -53,6 +53,9 @@ std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& r
 
 std::vector<std::string> RunWatch::warnings() const {
   std::vector<std::string> lines = stability_.warnings();
+  if (run_.statics.gave_up_iterating())
+    lines.push_back(
+        "an iterative solution of the tangent did not converge: from there on it was factorized (solver.newton.linear)");
   for (std::string& line : result_.warnings()) lines.push_back(std::move(line));
   return lines;
 }

@@ -58,10 +58,9 @@ StudyRecord study_from(const std::string& material_file) {
 
 std::string in_words(const StabilityReport& r) {
   std::string words;
-  if (r.signature.negative > 0)
-    words = fmt::format("the constrained tangent has {} negative eigenvalue{}", r.signature.negative,
-                        r.signature.negative > 1 ? "s" : "");
-  if (r.signature.negative < 0) words = "the constrained tangent is singular";
+  const int negative = r.signature ? r.signature->negative : 0;
+  if (negative > 0) words = fmt::format("the constrained tangent has {} negative eigenvalue{}", negative, negative > 1 ? "s" : "");
+  if (negative < 0) words = "the constrained tangent is singular";
   if (std::isnan(r.stiffness))
     words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, place_text(r.place));
   else if (r.material_unstable())
@@ -81,7 +80,8 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
   const BodyState& state = statics.accepted();
   StabilityReport report;
   report.t = state.t;
-  report.signature = statics.signature();
+  if (!signs_) signs_ = !statics.iterative();
+  if (*signs_) report.signature = statics.signature();
 
   std::vector<Low> lowest;
   double volume = 0;
@@ -138,7 +138,7 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
 
 void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const {
   auto& s = record.scalars;
-  s["negative_eigenvalues"] = r.signature.negative;
+  if (r.signature) s["negative_eigenvalues"] = r.signature->negative;
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
@@ -166,7 +166,7 @@ std::string StabilityWatch::Spans::text() const {
 void StabilityWatch::keep(const StabilityReport& r) {
   last_ = r;
   steps_unstable_ += r.equilibrium_unstable() || r.material_unstable();
-  if (r.equilibrium_unstable()) most_negative_ = std::max(most_negative_, std::abs(r.signature.negative));
+  if (r.equilibrium_unstable()) most_negative_ = std::max(most_negative_, std::abs(r.signature->negative));
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
   if (r.volume_change > volume_change_) volume_change_ = r.volume_change, volume_place_ = r.volume_place;
@@ -176,6 +176,10 @@ void StabilityWatch::keep(const StabilityReport& r) {
 
 std::vector<std::string> StabilityWatch::warnings() const {
   std::vector<std::string> lines;
+  if (signs_ && !*signs_)
+    lines.push_back(
+        "whether equilibria are stable was not looked at: the tangent is solved iteratively; solver.newton.linear: direct tells, "
+        "stability: off asks for nothing");
   if (!outside_.of.empty())
     lines.push_back(
         fmt::format("{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
@@ -207,10 +211,11 @@ std::vector<std::string> StabilityWatch::warnings() const {
 }
 
 std::vector<Summary> StabilityWatch::summary() const {
-  return {{"negative_eigenvalues", static_cast<double>(most_negative_), "-"},
-          {"shear_stiffness_min", last_.stiffness, "MPa"},
-          {"unstable_volume", last_.lost, "-"},
-          {"steps_unstable", static_cast<double>(steps_unstable_), "-"}};
+  std::vector<Summary> all{{"shear_stiffness_min", last_.stiffness, "MPa"},
+                           {"unstable_volume", last_.lost, "-"},
+                           {"steps_unstable", static_cast<double>(steps_unstable_), "-"}};
+  if (signs_.value_or(true)) all.insert(all.begin(), {"negative_eigenvalues", static_cast<double>(most_negative_), "-"});
+  return all;
 }
 
 }  // namespace langer

@@ -22,9 +22,9 @@ StudyRecord study_from(const std::string& material_file);  // nothing in a YAML 
 
 struct StabilityReport {
   double t = 0;
-  Signature signature;
-  double stiffness = 0;  // smallest, in the whole body [MPa]
-  int cell = -1;         // where; reference position of the Gauss point [mm]
+  std::optional<Signature> signature;  // none: not looked at, as the tangent is solved iteratively
+  double stiffness = 0;                // smallest, in the whole body [MPa]
+  int cell = -1;                       // where; reference position of the Gauss point [mm]
   Vec3 place = Vec3::Zero();
   double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
   Vec3 volume_place = Vec3::Zero();
@@ -35,7 +35,7 @@ struct StabilityReport {
   double driving_force = 0;  // [N mm] per unit of t
   bool falling = false;      // ... less than one step before; looked at without contact only
 
-  bool equilibrium_unstable() const { return signature.negative != 0; }
+  bool equilibrium_unstable() const { return signature && signature->negative != 0; }
   bool material_unstable() const { return !(stiffness >= 0); }
 };
 std::string in_words(const StabilityReport& report);  // what is unstable; empty where nothing is
@@ -67,6 +67,7 @@ class StabilityWatch {
   double volume_change_ = 0;
   Vec3 volume_place_ = Vec3::Zero();
   int most_negative_ = 0, steps_unstable_ = 0;
+  std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that all steps have the same columns
   Spans equilibrium_, material_, outside_, falling_;
 };
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <optional>
 
 #include "base/stopwatch.hpp"
 #include "plot/figure_style.hpp"
@@ -22,16 +23,17 @@ struct Row {
   double iterations = 0, forecast_bytes = 0, forecast_seconds = 0;
 };
 
-Row indentation(const Material& skin, int nx, int ny) {
+Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   test::Indentation scene;
   scene.nx = scene.nz = nx, scene.ny = ny, scene.h = 0, scene.depth = 0.04, scene.step = 0.02;
+  scene.newton.linear = linear;
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
-  scene.before = [&](Equilibrium& body, const LinearSolver& linear, const LoadPathOptions& path) {
-    told = forecast(body, linear, {}, path, {}, false);
+  scene.before = [&](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
+    told = forecast(body, statics.size(), {}, path, {}, {false, statics.contact_in_tangent(), statics.mixed()});
   };
   const auto result = scene.run(skin);
-  const double n = static_cast<double>(result.cost.factorizations);
+  const double n = static_cast<double>(linear == LinearBy::direct ? result.cost.factorizations : result.path.iterations);
   const auto& cost = result.cost;
   return {static_cast<double>(3 * (nx + 1) * (nx + 1) * ny),
           static_cast<double>(result.mesh.n_cells()),
@@ -48,59 +50,75 @@ Row indentation(const Material& skin, int nx, int ny) {
           told.per_iteration()};
 }
 
-}  // namespace
+// in a process of its own, whose largest memory the system tells
+std::optional<Row> measured(const Material& skin, int nx, int ny, LinearBy linear, double& megabytes) {
+  int ends[2];
+  if (pipe(ends) != 0) return std::nullopt;
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    const Row row = indentation(skin, nx, ny, linear);
+    _exit(write(ends[1], &row, sizeof row) == sizeof row ? 0 : 1);
+  }
+  close(ends[1]);
+  Row r;
+  const bool whole = read(ends[0], &r, sizeof r) == sizeof r;
+  close(ends[0]);
+  rusage usage{};
+  int status = 0;
+  wait4(child, &status, 0, &usage);
+  megabytes = usage.ru_maxrss / 1024.0;
+  return whole ? std::optional(r) : std::nullopt;
+}
 
-// Each size in a process of its own, whose largest memory the system tells.
-void measure_growth(const Material& skin) {
-  std::ofstream csv("growth.csv");
+// growth_<how>.csv and what it says on the way
+void measure(const Material& skin, LinearBy linear, const std::vector<std::pair<int, int>>& sizes) {
+  const std::string how = names(linear)[static_cast<std::size_t>(linear)];
+  std::ofstream csv("growth_" + how + ".csv");
   csv << "dofs,hexahedra,memory_MB,forecast_MB,iteration_s,forecast_s,assembly_s,factor_s,solve_s,contact_s,analysis_s,"
          "factor_GFLOPs\n";
-  fmt::print(
-      "growth: two steps of 0.02 mm; CPU seconds per iteration on one thread\n"
-      "     dofs  hexahedra  memory (forecast) MB   iteration (forecast) s   assembly  factor   solve  contact  analysis  "
-      "GFLOP/s (product)\n");
-  for (const auto& [nx, ny] : {std::pair{19, 4}, {28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}}) {
-    int ends[2];
-    if (pipe(ends) != 0) return;
-    std::fflush(stdout);
-    const pid_t child = fork();
-    if (child == 0) {
-      const Row row = indentation(skin, nx, ny);
-      _exit(write(ends[1], &row, sizeof row) == sizeof row ? 0 : 1);
-    }
-    close(ends[1]);
-    Row r;
-    const bool whole = read(ends[0], &r, sizeof r) == sizeof r;
-    close(ends[0]);
-    rusage usage{};
-    int status = 0;
-    wait4(child, &status, 0, &usage);
-    if (!whole) {
+  for (const auto& [nx, ny] : sizes) {
+    double megabytes = 0;
+    const std::optional<Row> row = measured(skin, nx, ny, linear, megabytes);
+    if (!row) {
       fmt::print("  {} x {} x {}: did not end\n", nx, ny, nx);
       continue;
     }
-    const double megabytes = usage.ru_maxrss / 1024.0, iteration = r.assembly + r.factor + r.solve + r.contact;
-    const double gflops = 1e-9 * r.flops / r.factor;
+    const Row& r = *row;
+    const double iteration = r.assembly + r.factor + r.solve + r.contact, gflops = r.factor > 0 ? 1e-9 * r.flops / r.factor : 0;
     fmt::print(
-        "  {:7.0f}  {:9.0f}  {:7.0f} ({:7.0f})        {:8.3f} ({:8.3f})      {:8.3f}{:8.3f}{:8.3f}{:9.3f}{:10.2f}  {:7.1f} ({:.1f})\n",
-        r.dofs, r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve,
+        "  {:9}  {:7.0f}  {:9.0f}  {:7.0f} ({:7.0f})        {:8.3f} ({:8.3f})      {:8.3f}{:8.3f}{:8.3f}{:9.3f}{:10.2f}  {:7.1f} "
+        "({:.1f})\n",
+        how, r.dofs, r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve,
         r.contact, r.analysis, gflops, 1e-9 * r.rate);
     std::fflush(stdout);
     csv << fmt::format("{},{},{:.1f},{:.1f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.2f}\n", r.dofs, r.cells, megabytes,
                        r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve, r.contact,
                        r.analysis, gflops);
   }
-  csv.close();
-  for (const auto& [name, label, lines] :
-       {std::tuple{"growth_time", "CPU time of one iteration (s)",
-                   std::vector<PlotLine>{{"growth.csv", "dofs", "iteration_s", "iteration"},
-                                         {"growth.csv", "dofs", "factor_s", "factorization"},
-                                         {"growth.csv", "dofs", "assembly_s", "assembly"},
-                                         {"growth.csv", "dofs", "solve_s", "solution"},
-                                         {"growth.csv", "dofs", "forecast_s", "forecast", true}}},
-        {"growth_memory", "memory (MB)",
-         std::vector<PlotLine>{{"growth.csv", "dofs", "memory_MB", "largest"},
-                               {"growth.csv", "dofs", "forecast_MB", "forecast", true}}}}) {
+}
+
+}  // namespace
+
+void measure_growth(const Material& skin) {
+  fmt::print(
+      "growth: two steps of 0.02 mm; CPU seconds per iteration on one thread\n"
+      "  solver        dofs  hexahedra  memory (forecast) MB   iteration (forecast) s   assembly  factor   solve  contact  analysis  "
+      "GFLOP/s (product)\n");
+  measure(skin, LinearBy::direct, {{19, 4}, {28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}});
+  measure(skin, LinearBy::iterative, {{28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}, {143, 20}, {170, 23}});
+  const std::string direct = "growth_direct.csv", iterative = "growth_iterative.csv";
+  for (const auto& [name, label, lines] : {std::tuple{"growth_time", "CPU time of one iteration (s)",
+                                                      std::vector<PlotLine>{{direct, "dofs", "iteration_s", "by a factor"},
+                                                                            {direct, "dofs", "forecast_s", "forecast", true},
+                                                                            {iterative, "dofs", "iteration_s", "iterative"},
+                                                                            {iterative, "dofs", "forecast_s", "forecast", true},
+                                                                            {direct, "dofs", "assembly_s", "assembly"}}},
+                                           {"growth_memory", "memory (MB)",
+                                            std::vector<PlotLine>{{direct, "dofs", "memory_MB", "by a factor"},
+                                                                  {direct, "dofs", "forecast_MB", "forecast", true},
+                                                                  {iterative, "dofs", "memory_MB", "iterative"},
+                                                                  {iterative, "dofs", "forecast_MB", "forecast", true}}}}) {
     Plot plot;
     plot.x_label = "free degrees of freedom", plot.y_label = label, plot.lines = lines;
     plot.scale = AxisScale::log;

@@ -30,9 +30,9 @@ struct Indentation {
   bool loose_base = false;  // the bottom may glide in x
   ContactBy contact_by = ContactBy::by_cost;
   NewtonOptions newton;
-  std::optional<KinsolOptions> kinsol;                                                    // in place of newton
-  std::function<void(Equilibrium&, const LinearSolver&, const LoadPathOptions&)> before;  // told before the first step
-  std::function<void(const Statics&, const Equilibrium&)> after;                          // told after each step
+  std::optional<KinsolOptions> kinsol;                                               // in place of newton
+  std::function<void(Equilibrium&, const Statics&, const LoadPathOptions&)> before;  // told before the first step
+  std::function<void(const Statics&, const Equilibrium&)> after;                     // told after each step
 
   struct Step {
     double depth, force;
@@ -75,11 +75,13 @@ struct Indentation {
     Equilibrium body = equilibrium(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
                                    number_dofs(result.mesh.n_nodes(), held).dofs, threads);
     StaticsOptions options;
-    options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by;
+    options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by,
+    options.linear_by = newton.linear;
+
     Statics statics(body, {contact}, options);
     LoadPathOptions path;
     path.first = path.largest = step / depth;
-    if (before) before(body, statics.linear(), path);
+    if (before) before(body, statics, path);
     std::vector<double> stops;
     for (const Waypoint& w : contact.motion) stops.push_back(w.t);
     result.path = load_path(
@@ -99,7 +101,7 @@ struct Indentation {
         });
     result.u = statics.accepted().u;
     result.n_indefinite = statics.n_indefinite();
-    result.cost = statics.cost(), result.size = statics.linear().size();
+    result.cost = statics.cost(), result.size = statics.size();
     result.J_min = body.J_min();
     return result;
   }

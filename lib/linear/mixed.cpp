@@ -1,0 +1,200 @@
+#include "linear/mixed.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace langer {
+
+MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
+                         const petsc_module::Functions& module, int threads)
+    : pattern_(pattern), module_(module), cell_rows_(std::move(cell_rows)), cycle_(module.multigrid()) {
+  int nodes = 0, last = -1;
+  for (int dof : dof_of_row) {
+    if (dof / 3 != last) last = dof / 3, ++nodes;
+    block_row_.push_back(3 * (nodes - 1) + dof % 3);
+  }
+  start_.assign(3 * static_cast<std::size_t>(nodes) + 1, 0);
+  for (int column = 0; column < pattern.n; ++column)
+    for (int at = pattern.column_start[column]; at < pattern.column_start[column + 1]; ++at) {
+      ++start_[block_row_[column] + 1];
+      if (pattern.row[at] != column) ++start_[block_row_[pattern.row[at]] + 1];
+    }
+  for (std::size_t row = 1; row < start_.size(); ++row) start_[row] = start_[row - 1] + std::max(start_[row], 1);
+
+  // cells that share a row
+  const int n = n_cells();
+  std::vector<std::vector<int>> cells_of(static_cast<std::size_t>(nodes));
+  for (int e = 0; e < n; ++e)
+    for (int a = 0; a < per_cell / 3; ++a)
+      for (int i = 0; i < 3; ++i)
+        if (const int row = cell_rows_[per_cell * e + 3 * a + i]; row >= 0) {
+          std::vector<int>& cells = cells_of[block_row_[row] / 3];
+          if (cells.empty() || cells.back() != e) cells.push_back(e);
+        }
+  schur_pattern_.n = n;
+  schur_pattern_.column_start.assign(1, 0);
+  std::vector<int> neighbours;
+  for (int e = 0; e < n; ++e) {
+    neighbours.assign(1, e);
+    for (int k = 0; k < per_cell; ++k)
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0)
+        for (int f : cells_of[block_row_[row] / 3])
+          if (f > e) neighbours.push_back(f);
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    schur_pattern_.row.insert(schur_pattern_.row.end(), neighbours.begin(), neighbours.end());
+    schur_pattern_.column_start.push_back(static_cast<int>(schur_pattern_.row.size()));
+  }
+  schur_ = std::make_unique<LinearSolver>(schur_pattern_, std::vector<int>{}, threads);
+}
+
+VecX MixedSolver::gather(const std::vector<double>& b, const VecX& d) const {
+  VecX out = VecX::Zero(n_cells());
+  for (Eigen::Index e = 0; e < out.size(); ++e)
+    for (int k = 0; k < per_cell; ++k)
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) out[e] += b[per_cell * e + k] * d[row];
+  return out;
+}
+
+void MixedSolver::spread(const std::vector<double>& b, const VecX& q, VecX& f) const {
+  for (Eigen::Index e = 0; e < q.size(); ++e)
+    for (int k = 0; k < per_cell; ++k)
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) f[row] += b[per_cell * e + k] * q[e];
+}
+
+void MixedSolver::fill(const std::vector<double>& A) {
+  const std::size_t rows = start_.size() - 1;
+  if (column_.empty()) column_.resize(start_.back()), value_.resize(start_.back());
+  std::vector<int> to(start_.begin(), start_.end() - 1);
+  const auto put = [&](int row, int column, double value) { column_[to[row]] = column, value_[to[row]++] = value; };
+  for (int column = 0; column < pattern_.n; ++column)  // what stands before the diagonal of later rows first
+    for (int at = pattern_.column_start[column] + 1; at < pattern_.column_start[column + 1]; ++at)
+      put(block_row_[pattern_.row[at]], block_row_[column], A[at]);
+  double sum = 0;
+  for (int column = 0; column < pattern_.n; ++column) {
+    sum += A[pattern_.column_start[column]];
+    for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
+      put(block_row_[column], block_row_[pattern_.row[at]], A[at]);
+  }
+  inverse_diagonal_.assign(rows, 0);
+  for (std::size_t row = 0; row < rows; ++row)  // held directions of nodes that are free in others
+    if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), sum / pattern_.n);
+  for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / A[pattern_.column_start[row]];
+}
+
+VecX MixedSolver::times(const VecX& x) const {
+  VecX y(x.size());
+  for (Eigen::Index row = 0; row < x.size(); ++row) {
+    double sum = 0;
+    for (int at = start_[row]; at < start_[row + 1]; ++at) sum += value_[at] * x[column_[at]];
+    y[row] = sum;
+  }
+  return y;
+}
+
+// L = B M^-1 B^T + D^-1
+void MixedSolver::factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed) {
+  std::vector<double> scaled(b);  // B M^-1/2
+  for (std::size_t k = 0; k < scaled.size(); ++k) {
+    const int row = cell_rows_[k];
+    scaled[k] *= row >= 0 && !fixed[row] ? std::sqrt(inverse_diagonal_[block_row_[row]]) : 0;
+  }
+  std::vector<double> values(schur_pattern_.row.size());
+  std::vector<double> of_row(start_.size() - 1, 0);  // entries of a cell
+  for (int e = 0; e < n_cells(); ++e) {
+    for (int k = 0; k < per_cell; ++k)
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) of_row[block_row_[row]] += scaled[per_cell * e + k];
+    for (int at = schur_pattern_.column_start[e]; at < schur_pattern_.column_start[e + 1]; ++at) {
+      const int f = schur_pattern_.row[at];
+      double sum = f == e ? inverse_D_[e] : 0;
+      for (int k = 0; k < per_cell; ++k)
+        if (const int row = cell_rows_[per_cell * f + k]; row >= 0) sum += scaled[per_cell * f + k] * of_row[block_row_[row]];
+      values[at] = sum;
+    }
+    for (int k = 0; k < per_cell; ++k)
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) of_row[block_row_[row]] = 0;
+  }
+  schur_->factorize(values);
+}
+
+bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
+                               const std::vector<char>& fixed, const MatX& rigid, std::string& why) {
+  preconditioned_ = false;
+  for (int row = 0; row < pattern_.n; ++row)
+    if (!(A[pattern_.column_start[row]] > 0)) {
+      why = "the tangent has a diagonal entry that is not positive";
+      return false;
+    }
+  fixed_ = fixed;
+  fill(A);
+  inverse_D_ = D.cwiseInverse();
+  factorize_schur(b, fixed);
+  MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
+  for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
+  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data()};
+  preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
+  again_ = preconditioned_;
+  return preconditioned_;
+}
+
+VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
+  const Eigen::Index rows = static_cast<Eigen::Index>(start_.size()) - 1, n = pattern_.n;
+  VecX free = VecX::Zero(n), block = VecX::Zero(rows), z(r.size());
+  const auto to_block = [&] {
+    for (Eigen::Index row = 0; row < n; ++row) block[block_row_[row]] = fixed_[row] ? 0 : free[row];
+  };
+  const auto from_block = [&](const VecX& of) {
+    for (Eigen::Index row = 0; row < n; ++row) free[row] = fixed_[row] ? 0 : of[block_row_[row]];
+  };
+  const Eigen::Map<const VecX> M(inverse_diagonal_.data(), rows);
+  const VecX pressed = schur_->solve(r.tail(n_cells()));
+  spread(b, pressed, free);
+  to_block();
+  from_block(times(block.cwiseProduct(M)).cwiseProduct(M));
+  z.tail(n_cells()) = -schur_->solve(gather(b, free) + inverse_D_.cwiseProduct(pressed));
+  free = VecX::Zero(n);
+  spread(b, -z.tail(n_cells()), free);
+  for (Eigen::Index row = 0; row < n; ++row) block[block_row_[row]] = r[row] + (fixed_[row] ? 0 : free[row]);
+  VecX moved(rows);
+  cycle_->apply(block.data(), moved.data());
+  for (Eigen::Index row = 0; row < n; ++row) z[row] = moved[block_row_[row]];
+  return z;
+}
+
+MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector<double>& b, const VecX& f, const VecX& g,
+                                       double relative, int most, const Answer& from) const {
+  const Eigen::Index n = f.size(), cells = g.size(), all = n + cells;
+  VecX right(all), x = VecX::Zero(all), begin = VecX::Zero(all);
+  right << f, g;
+  const double wanted = relative * right.norm();
+  if (from.d.size() > 0) {
+    VecX of_f, of_g;
+    product(from.d, from.q, of_f, of_g);
+    begin << from.d, from.q;
+    right.head(n) -= of_f, right.tail(cells) -= of_g;
+  }
+  if (right.norm() <= wanted) return {begin.head(n), begin.tail(cells), 0, true};
+  petsc_module::Krylov system;
+  system.n = static_cast<int>(all);
+  system.product = [&](const double* from, double* to) {
+    VecX y_f, y_g;
+    product(Eigen::Map<const VecX>(from, n), Eigen::Map<const VecX>(from + n, cells), y_f, y_g);
+    Eigen::Map<VecX>(to, n) = y_f, Eigen::Map<VecX>(to + n, cells) = y_g;
+  };
+  system.precondition = [&](const double* from, double* to) {
+    Eigen::Map<VecX>(to, all) = apply(b, Eigen::Map<const VecX>(from, all));
+  };
+  system.right_side = right.data(), system.solution = x.data();
+  system.relative = wanted / right.norm(), system.most = most;
+  const petsc_module::KrylovEnd end = module_.fgmres(system);
+  x += begin;
+  return {x.head(n), x.tail(cells), end.products, end.converged && x.allFinite()};
+}
+
+double MixedSolver::bytes() const {
+  // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors of GMRES
+  const double entries = start_.empty() ? 0 : start_.back();
+  return 2.6 * 12 * entries + schur_->size().factor_bytes + 8.0 * 2 * 20 * (pattern_.n + n_cells());
+}
+
+}  // namespace langer

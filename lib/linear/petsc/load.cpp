@@ -1,0 +1,52 @@
+#include "linear/petsc/load.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <mutex>
+
+#include "base/traps.hpp"
+#include "base/version.hpp"
+
+namespace langer {
+
+namespace {
+
+// beside the programs, in the build folder as where they are installed
+std::string module_path() {
+  const auto bin = std::filesystem::canonical("/proc/self/exe").parent_path();
+  return (bin.parent_path() / "lib/langer/langer_petsc.so").string();
+}
+
+const petsc_module::Functions* load(std::string& why) {
+  const NoTraps in_its_libraries;
+  const std::string path = module_path();
+  if (std::error_code ignored; !std::filesystem::exists(path, ignored)) {
+    why = "there is no " + path + "; install libpetsc-real-dev and build Langer again";
+    return nullptr;
+  }
+  void* module = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (!module) {
+    why = std::string("PETSc cannot be loaded: ") + dlerror() + "; install libpetsc-real (Debian 12: libpetsc-real3.18)";
+    return nullptr;
+  }
+  const auto* found = static_cast<const petsc_module::Functions*>(dlsym(module, petsc_module::symbol));
+  if (found && std::string(found->made_with) == version) return found;
+  why = path + " is of another version of Langer; build or install Langer as a whole";
+  return nullptr;
+}
+
+}  // namespace
+
+const petsc_module::Functions* petsc(std::string& why) {
+  static std::mutex mutex;
+  static bool tried = false;
+  static const petsc_module::Functions* functions = nullptr;
+  static std::string words;
+  const std::lock_guard alone(mutex);
+  if (!tried) functions = load(words), tried = true;
+  why = words;
+  return functions;
+}
+
+}  // namespace langer

@@ -1,0 +1,13 @@
+// The module with PETSc, loaded when it is asked for the first time.
+#pragma once
+
+#include <string>
+
+#include "linear/petsc/interface.hpp"
+
+namespace langer {
+
+// nullptr: there is none; `why`: which library is missing and what to do
+const petsc_module::Functions* petsc(std::string& why);
+
+}  // namespace langer

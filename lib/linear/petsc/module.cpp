@@ -1,0 +1,215 @@
+// The module: the only code that calls PETSc.
+#include <petscksp.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <stdexcept>
+
+#include "base/version.hpp"
+#include "linear/petsc/interface.hpp"
+
+namespace langer::petsc_module {
+
+namespace {
+
+// PETSc has one state for the whole process
+std::recursive_mutex mutex;
+
+// where nobody can be told, as among the calls that PETSc makes back to us
+void passed_over(PetscErrorCode) {}
+
+void need(PetscErrorCode code) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  passed_over(PetscErrorMessage(code, &text, nullptr));
+  throw std::runtime_error(text ? text : "an error without words");
+}
+
+void end() {
+  int over = 0;
+  MPI_Finalized(&over);
+  if (!over) passed_over(PetscFinalize());
+}
+
+void begin() {
+  static bool begun = false;
+  if (begun) return;
+  // one process by itself: MPI need not look for others, nor for networks
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK")) {
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_btl", "self", 0);
+  }
+  need(PetscInitializeNoArguments());
+  need(PetscPopSignalHandler());  // signals are the program's
+  need(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr));
+  for (const auto& [key, value] : {std::pair{"-langer_mg_levels_ksp_type", "chebyshev"},
+                                   {"-langer_mg_levels_ksp_max_it", "1"},
+                                   {"-langer_mg_levels_pc_type", "icc"}})
+    need(PetscOptionsSetValue(nullptr, key, value));
+  std::atexit(end);
+  begun = true;
+}
+
+class Aggregation : public Multigrid {
+ public:
+  ~Aggregation() override { clear(); }
+
+  bool setup(const Rows& A, const double* rigid, bool again, std::string& why) override {
+    const std::lock_guard alone(mutex);
+    try {
+      begin();
+      if (again && A_)
+        renew();
+      else
+        clear(), make(A, rigid);
+      return true;
+    } catch (const std::runtime_error& words) {
+      why = words.what();
+      clear();
+      return false;
+    }
+  }
+
+  void apply(const double* r, double* z) override {
+    const std::lock_guard alone(mutex);
+    passed_over(VecPlaceArray(r_, r)), passed_over(VecPlaceArray(z_, z));
+    passed_over(PCApply(cycle_, r_, z_));
+    passed_over(VecResetArray(r_)), passed_over(VecResetArray(z_));
+  }
+
+ private:
+  void make(const Rows& A, const double* rigid) {
+    need(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.n, A.n, const_cast<int*>(A.start), const_cast<int*>(A.column),
+                                   const_cast<double*>(A.value), &A_));
+    need(MatSetBlockSize(A_, 3));
+    need(MatSetOption(A_, MAT_SPD, PETSC_TRUE));
+    need(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, A.n, nullptr, &r_));
+    need(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, A.n, nullptr, &z_));
+    near_null_space(A.n, rigid);
+    need(PCCreate(PETSC_COMM_SELF, &cycle_));
+    need(PCSetType(cycle_, PCGAMG));
+    need(PCSetOperators(cycle_, A_, A_));
+    need(PCSetOptionsPrefix(cycle_, "langer_"));
+    need(PCGAMGSetReuseInterpolation(cycle_, PETSC_TRUE));
+    need(PCSetFromOptions(cycle_));
+    need(PCSetUp(cycle_));
+  }
+
+  // other numbers in the same places: aggregates and what lies between levels stay
+  void renew() {
+    double* values = nullptr;  // PETSc takes them for changed
+    need(MatSeqAIJGetArray(A_, &values));
+    need(MatSeqAIJRestoreArray(A_, &values));
+    need(PCSetUp(cycle_));
+  }
+
+  void near_null_space(int n, const double* rigid) {
+    Vec modes[6];
+    int kept = 0;
+    for (int k = 0; k < 6; ++k) {
+      Vec& mode = modes[kept];
+      need(VecCreateSeq(PETSC_COMM_SELF, n, &mode));
+      need(VecSetBlockSize(mode, 3));
+      double* to = nullptr;
+      need(VecGetArray(mode, &to));
+      std::copy(rigid + static_cast<std::size_t>(k) * n, rigid + static_cast<std::size_t>(k + 1) * n, to);
+      need(VecRestoreArray(mode, &to));
+      double before = 0, after = 0;
+      need(VecNorm(mode, NORM_2, &before));
+      for (int j = 0; j < kept; ++j) {
+        double along = 0;
+        need(VecDot(mode, modes[j], &along));
+        need(VecAXPY(mode, -along, modes[j]));
+      }
+      need(VecNormalize(mode, &after));
+      if (after > 1e-10 * before)
+        ++kept;
+      else
+        need(VecDestroy(&mode));
+    }
+    MatNullSpace space = nullptr;
+    need(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, kept, modes, &space));
+    need(MatSetNearNullSpace(A_, space));
+    need(MatNullSpaceDestroy(&space));
+    for (int j = 0; j < kept; ++j) need(VecDestroy(&modes[j]));
+  }
+
+  void clear() {
+    passed_over(PCDestroy(&cycle_));
+    passed_over(VecDestroy(&r_)), passed_over(VecDestroy(&z_));
+    passed_over(MatDestroy(&A_));
+  }
+
+  Mat A_ = nullptr;
+  PC cycle_ = nullptr;
+  Vec r_ = nullptr, z_ = nullptr;
+};
+
+Multigrid* multigrid() { return new Aggregation; }
+
+// x -> y by a function of ours
+PetscErrorCode call(const std::function<void(const double*, double*)>& function, Vec x, Vec y) {
+  const double* from = nullptr;
+  double* to = nullptr;
+  PetscCall(VecGetArrayRead(x, &from));
+  PetscCall(VecGetArray(y, &to));
+  function(from, to);
+  PetscCall(VecRestoreArrayRead(x, &from));
+  PetscCall(VecRestoreArray(y, &to));
+  return static_cast<PetscErrorCode>(0);
+}
+
+PetscErrorCode product(Mat matrix, Vec x, Vec y) {
+  const Krylov* system = nullptr;
+  PetscCall(MatShellGetContext(matrix, &system));
+  return call(system->product, x, y);
+}
+
+PetscErrorCode precondition(PC pc, Vec x, Vec y) {
+  void* system = nullptr;
+  PetscCall(PCShellGetContext(pc, &system));
+  return call(static_cast<const Krylov*>(system)->precondition, x, y);
+}
+
+KrylovEnd fgmres(const Krylov& system) {
+  const std::lock_guard alone(mutex);
+  constexpr int restart = 40;
+  Mat matrix = nullptr;
+  KSP method = nullptr;
+  Vec b = nullptr, x = nullptr;
+  KrylovEnd end;
+  try {
+    begin();
+    need(MatCreateShell(PETSC_COMM_SELF, system.n, system.n, system.n, system.n, const_cast<Krylov*>(&system), &matrix));
+    need(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(product)));
+    need(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, system.n, system.right_side, &b));
+    need(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, system.n, system.solution, &x));
+    need(KSPCreate(PETSC_COMM_SELF, &method));
+    need(KSPSetOperators(method, matrix, matrix));
+    need(KSPSetType(method, KSPFGMRES));
+    need(KSPGMRESSetRestart(method, restart));
+    need(KSPSetTolerances(method, system.relative, 0, PETSC_DEFAULT, system.most));
+    PC pc = nullptr;
+    need(KSPGetPC(method, &pc));
+    need(PCSetType(pc, PCSHELL));
+    need(PCShellSetContext(pc, const_cast<Krylov*>(&system)));
+    need(PCShellSetApply(pc, precondition));
+    need(KSPSolve(method, b, x));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    need(KSPGetConvergedReason(method, &reason));
+    need(KSPGetIterationNumber(method, &end.products));
+    end.converged = reason > 0;
+  } catch (const std::runtime_error&) {
+    end.converged = false;
+  }
+  passed_over(KSPDestroy(&method));
+  passed_over(VecDestroy(&x)), passed_over(VecDestroy(&b));
+  passed_over(MatDestroy(&matrix));
+  return end;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const Functions langer_petsc_module{version, multigrid, fgmres};
+
+}  // namespace langer::petsc_module
