@@ -99,6 +99,42 @@ TEST_CASE("iterative: the tangent is what its two parts make") {
   CHECK((dp - change).norm() <= 1e-9 * change.norm());
 }
 
+TEST_CASE("iterative: some ten products, on even and flat cells, with fibres, whatever the bulk modulus") {
+  if (!petsc_is_here()) return;
+  for (const bool flat : {false, true})
+    for (const Material& material : {test::neo_hooke(0.05, 1e-8), test::neo_hooke(0.05, 1e-3), test::neo_hooke(0.05, 20),
+                                     test::stable(30, 1e-6), test::table1(60, 1e-6)}) {
+      const auto along = flat ? test::graded(15, 16, 0.2) : test::even(-4, 4, 12);
+      const Mesh mesh = test::block(along, test::even(0, 4, 6), along);
+      std::vector<Prescribed> held;
+      for (int i : mesh.node_sets.at("y_min"))
+        for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      const VecX rest = VecX::Zero(body.dofs().n);
+      REQUIRE(body.assemble(rest, true));
+      std::string why;
+      const auto mixed = MixedTangent::of(body, 1, why);
+      REQUIRE(mixed);
+      mixed->linearise(body, rest);
+      VecX f = VecX::Zero(body.dofs().n_free());  // pressed on a patch
+      for (int i : mesh.node_sets.at("y_max"))
+        if (mesh.X[i].head<1>().norm() < 1.5 && std::abs(mesh.X[i][2]) < 1.5) f[body.dofs().equation[3 * i + 1]] = -0.01;
+      ContactInTangent nothing(body, {}, 1);
+      VecX dp;
+      const std::vector<RigidContact> none;
+      const std::vector<VecX> no_start;
+      const std::vector<Vec3> no_move;
+      const Reactions no_reactions;
+      const auto found = nothing.solve({none, mesh.X, rest, no_start, no_move, no_move, no_reactions}, body, f, *mixed, dp);
+      REQUIRE(found);
+      CHECK(found->solutions <= 20);
+      LinearSolver direct(body.pattern());
+      REQUIRE(direct.factorize(body.K()));
+      const VecX wanted = direct.solve(f);
+      CHECK((found->move - wanted).norm() <= 1e-2 * wanted.norm());
+    }
+}
+
 TEST_CASE("iterative: forces of a factor, without friction and with it") {
   if (!petsc_is_here()) return;
   same_by_both(scene(0), test::neo_hooke(0.05, 1e-6));
