@@ -23,6 +23,7 @@
 #include "base/stopwatch.hpp"
 #include "base/traps.hpp"
 #include "base/version.hpp"
+#include "linear/petsc/load.hpp"
 #include "pipeline/run_files.hpp"
 
 namespace langer {
@@ -82,6 +83,7 @@ void end_log(int code) {
 // (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
 [[noreturn]] void leave(int code) {
   std::fflush(nullptr);
+  if (code != static_cast<int>(Exit::input)) end_petsc();
 #ifdef LANGER_SANITIZE
   __lsan_do_leak_check();
 #endif

@@ -42,6 +42,7 @@ struct Functions {
   const char* made_with;  // version of the source; the program's own, or they do not fit together
   Multigrid* (*multigrid)();
   KrylovEnd (*fgmres)(const Krylov& system);  // flexible GMRES
+  void (*end)();                              // before the program ends: an mpirun that has started it wants to be told
 };
 
 inline constexpr const char* symbol = "langer_petsc_module";  // const Functions, of C linkage

@@ -18,6 +18,10 @@ std::string module_path() {
   return (bin.parent_path() / "lib/langer/langer_petsc.so").string();
 }
 
+std::mutex mutex;
+bool tried = false;
+const petsc_module::Functions* functions = nullptr;
+
 const petsc_module::Functions* load(std::string& why) {
   const NoTraps in_its_libraries;
   const std::string path = module_path();
@@ -39,14 +43,15 @@ const petsc_module::Functions* load(std::string& why) {
 }  // namespace
 
 const petsc_module::Functions* petsc(std::string& why) {
-  static std::mutex mutex;
-  static bool tried = false;
-  static const petsc_module::Functions* functions = nullptr;
   static std::string words;
   const std::lock_guard alone(mutex);
   if (!tried) functions = load(words), tried = true;
   why = words;
   return functions;
+}
+
+void end_petsc() {
+  if (functions) functions->end();
 }
 
 }  // namespace langer

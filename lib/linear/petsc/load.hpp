@@ -9,5 +9,6 @@ namespace langer {
 
 // nullptr: there is none; `why`: which library is missing and what to do
 const petsc_module::Functions* petsc(std::string& why);
+void end_petsc();  // nothing, where it was not loaded
 
 }  // namespace langer

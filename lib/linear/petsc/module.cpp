@@ -25,19 +25,20 @@ void need(PetscErrorCode code) {
   throw std::runtime_error(text ? text : "an error without words");
 }
 
+bool begun = false;
+
 void end() {
-  int over = 0;
-  MPI_Finalized(&over);
-  if (!over) passed_over(PetscFinalize());
+  if (begun) passed_over(PetscFinalize());
+  begun = false;
 }
 
 void begin() {
-  static bool begun = false;
   if (begun) return;
   // one process by itself: MPI need not look for others, nor for networks
   if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK")) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_btl", "self", 0);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);  // nothing is left in /tmp, however the program ends
   }
   need(PetscInitializeNoArguments());
   need(PetscPopSignalHandler());  // signals are the program's
@@ -46,7 +47,6 @@ void begin() {
                                    {"-langer_mg_levels_ksp_max_it", "1"},
                                    {"-langer_mg_levels_pc_type", "icc"}})
     need(PetscOptionsSetValue(nullptr, key, value));
-  std::atexit(end);
   begun = true;
 }
 
@@ -210,6 +210,6 @@ KrylovEnd fgmres(const Krylov& system) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const Functions langer_petsc_module{version, multigrid, fgmres};
+extern "C" __attribute__((visibility("default"))) const Functions langer_petsc_module{version, multigrid, fgmres, end};
 
 }  // namespace langer::petsc_module
