@@ -93,7 +93,7 @@ VecX MixedSolver::times(const VecX& x) const {
 }
 
 // L = B M^-1 B^T + D^-1
-void MixedSolver::factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed) {
+bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed) {
   std::vector<double> scaled(b);  // B M^-1/2
   for (std::size_t k = 0; k < scaled.size(); ++k) {
     const int row = cell_rows_[k];
@@ -114,7 +114,7 @@ void MixedSolver::factorize_schur(const std::vector<double>& b, const std::vecto
     for (int k = 0; k < per_cell; ++k)
       if (const int row = cell_rows_[per_cell * e + k]; row >= 0) of_row[block_row_[row]] = 0;
   }
-  schur_->factorize(values);
+  return schur_->factorize(values);
 }
 
 bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
@@ -128,7 +128,10 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
   fixed_ = fixed;
   fill(A);
   inverse_D_ = D.cwiseInverse();
-  factorize_schur(b, fixed);
+  if (!factorize_schur(b, fixed)) {
+    why = "the Schur complement of the pressures is not positive definite";
+    return false;
+  }
   MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
   for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
   const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data()};

@@ -59,7 +59,7 @@ class MixedSolver {
 
  private:
   void fill(const std::vector<double>& A);
-  void factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed);
+  bool factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed);
   VecX apply(const std::vector<double>& b, const VecX& r) const;
   VecX times(const VecX& x) const;  // A, of all rows of the nodes
 

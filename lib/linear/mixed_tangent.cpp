@@ -45,7 +45,8 @@ void MixedTangent::linearise(const Equilibrium& body, const VecX& du_prescribed)
   b_ = std::move(part.b), V_ = part.V;
   scale_.resize(n), D_.resize(n), softened_.resize(n), of_prescribed_ = VecX::Zero(n);
   for (Eigen::Index e = 0; e < n; ++e) {
-    const double mu = std::abs(shear_modulus(body.material(static_cast<int>(e))));
+    const double mu =
+        std::max(std::abs(shear_modulus(body.material(static_cast<int>(e)))), 1e-9 * part.kappa[e]);  // a matrix may have none
     const double soft = std::min(kept * mu, 0.5 * part.kappa[e]), stiff = part.kappa[e] - soft;
     scale_[e] = 1 / std::sqrt(1 / (V_[e] * stiff) + 1 / (V_[e] * (soft + mu)));
     D_[e] = V_[e] * stiff / (scale_[e] * scale_[e]), softened_[e] = soft / scale_[e];

@@ -99,8 +99,8 @@ class Statics {
   const LinearSolver& linear() const { return factor_.linear(); }  // none where iterative()
   LinearSolver::Size size() const { return factor_.size(); }
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
-  bool iterative() const { return factor_.mixed() != nullptr; }
-  const MixedSolver* mixed() const { return iterative() ? &factor_.mixed()->solver() : nullptr; }
+  bool iterative() const { return factor_.iterative(); }
+  const MixedSolver* mixed() const { return factor_.mixed() ? &factor_.mixed()->solver() : nullptr; }
   bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 
  private:

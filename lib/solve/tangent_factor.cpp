@@ -93,8 +93,7 @@ bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<Ri
 }
 
 void TangentFactor::take_factor(const Equilibrium& body) {
-  mixed_.reset();
-  gave_up_ = true;
+  by_factor_ = gave_up_ = true;
   linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
 }
 
@@ -106,6 +105,7 @@ LinearSolver::Size TangentFactor::size() const {
 void TangentFactor::begin_increment() {
   supported_ = false;
   if (!mixed_) return;
+  if (by_factor_) linear_.reset(), by_factor_ = false;
   mixed_->solver().forget();
   in_tangent_->begin_increment();
 }

@@ -41,10 +41,12 @@ class TangentFactor {
   bool factorize_fixed_reactions(const Equilibrium& body);
 
   // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
-  MixedTangent* mixed() const { return mixed_.get(); }
-  // From now on by a factor: the iterative solution did not converge.
+  MixedTangent* mixed() const { return by_factor_ ? nullptr : mixed_.get(); }
+  bool iterative() const { return mixed_ != nullptr; }
+  // In the rest of this increment by a factor, as the iterative solution did not converge. The next one begins as if nothing had been, so
+  // that an interrupted path goes on with the same digits.
   void take_factor(const Equilibrium& body);
-  bool gave_up_iterating() const { return gave_up_; }
+  bool gave_up_iterating() const { return gave_up_; }  // ever
   LinearSolver::Size size() const;
 
   Kind kind() const { return kind_; }
@@ -76,7 +78,7 @@ class TangentFactor {
   std::unique_ptr<LinearSolver> linear_;
   std::unique_ptr<MixedTangent> mixed_;
   int threads_;
-  bool gave_up_ = false;
+  bool by_factor_ = false, gave_up_ = false;
   Kind kind_ = Kind::none;
   bool supported_ = false;
   double gamma_ = 0;

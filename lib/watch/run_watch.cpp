@@ -55,7 +55,7 @@ std::vector<std::string> RunWatch::warnings() const {
   std::vector<std::string> lines = stability_.warnings();
   if (run_.statics.gave_up_iterating())
     lines.push_back(
-        "an iterative solution of the tangent did not converge: from there on it was factorized (solver.newton.linear)");
+        "iterative solutions of the tangent did not converge: it was factorized in those increments (solver.newton.linear)");
   for (std::string& line : result_.warnings()) lines.push_back(std::move(line));
   return lines;
 }

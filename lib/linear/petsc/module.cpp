@@ -2,8 +2,12 @@
 #include <petscksp.h>
 
 #include <cstdlib>
+#include <exception>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "base/version.hpp"
 #include "linear/petsc/interface.hpp"
@@ -15,12 +19,13 @@ namespace {
 // PETSc has one state for the whole process
 std::recursive_mutex mutex;
 
-// where nobody can be told, as among the calls that PETSc makes back to us
+// where nobody can be told
 void passed_over(PetscErrorCode) {}
 
 void need(PetscErrorCode code) {
   if (code == 0) return;
   const char* text = nullptr;
+  if (code == PETSC_ERR_MEM) throw std::bad_alloc();
   passed_over(PetscErrorMessage(code, &text, nullptr));
   throw std::runtime_error(text ? text : "an error without words");
 }
@@ -32,22 +37,49 @@ void end() {
   begun = false;
 }
 
+// an environment variable while PETSc begins
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    value ? setenv(name, value, 1) : unsetenv(name);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+void initialize() {
+  // what users have set for programs of their own would change our digits
+  const Environment none("PETSC_OPTIONS", nullptr);
+  std::string name = "langer", skip = "-skip_petscrc";
+  char* words[] = {name.data(), skip.data(), nullptr};
+  char** arguments = words;
+  int n = 2;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK")) {
+    need(PetscInitialize(&n, &arguments, nullptr, nullptr));
+    return;
+  }
+  // one process by itself: MPI need not look for others, nor for networks, and nothing is left in /tmp, however the program ends
+  const Environment alone("OMPI_MCA_ess_singleton_isolated", "1"), self("OMPI_MCA_btl", "self"),
+      folders("OMPI_MCA_orte_create_session_dirs", "0");
+  need(PetscInitialize(&n, &arguments, nullptr, nullptr));
+}
+
 void begin() {
   if (begun) return;
-  // one process by itself: MPI need not look for others, nor for networks
-  if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK")) {
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    setenv("OMPI_MCA_btl", "self", 0);
-    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);  // nothing is left in /tmp, however the program ends
-  }
-  need(PetscInitializeNoArguments());
+  initialize();
+  begun = true;
   need(PetscPopSignalHandler());  // signals are the program's
   need(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr));
   for (const auto& [key, value] : {std::pair{"-langer_mg_levels_ksp_type", "chebyshev"},
                                    {"-langer_mg_levels_ksp_max_it", "1"},
                                    {"-langer_mg_levels_pc_type", "icc"}})
     need(PetscOptionsSetValue(nullptr, key, value));
-  begun = true;
 }
 
 class Aggregation : public Multigrid {
@@ -72,9 +104,10 @@ class Aggregation : public Multigrid {
 
   void apply(const double* r, double* z) override {
     const std::lock_guard alone(mutex);
-    passed_over(VecPlaceArray(r_, r)), passed_over(VecPlaceArray(z_, z));
-    passed_over(PCApply(cycle_, r_, z_));
+    need(VecPlaceArray(r_, r)), need(VecPlaceArray(z_, z));
+    const PetscErrorCode applied = PCApply(cycle_, r_, z_);
     passed_over(VecResetArray(r_)), passed_over(VecResetArray(z_));
+    need(applied);
   }
 
  private:
@@ -147,28 +180,39 @@ class Aggregation : public Multigrid {
 
 Multigrid* multigrid() { return new Aggregation; }
 
+// what PETSc calls back; it is C, so that exceptions have to go around it
+struct Calls {
+  const Krylov& system;
+  std::exception_ptr thrown = nullptr;
+};
+
 // x -> y by a function of ours
-PetscErrorCode call(const std::function<void(const double*, double*)>& function, Vec x, Vec y) {
+PetscErrorCode call(Calls& calls, const std::function<void(const double*, double*)>& function, Vec x, Vec y) {
   const double* from = nullptr;
   double* to = nullptr;
   PetscCall(VecGetArrayRead(x, &from));
   PetscCall(VecGetArray(y, &to));
-  function(from, to);
+  try {
+    function(from, to);
+  } catch (...) {
+    calls.thrown = std::current_exception();
+  }
   PetscCall(VecRestoreArrayRead(x, &from));
   PetscCall(VecRestoreArray(y, &to));
-  return static_cast<PetscErrorCode>(0);
+  return static_cast<PetscErrorCode>(calls.thrown ? PETSC_ERR_USER : 0);
 }
 
 PetscErrorCode product(Mat matrix, Vec x, Vec y) {
-  const Krylov* system = nullptr;
-  PetscCall(MatShellGetContext(matrix, &system));
-  return call(system->product, x, y);
+  Calls* calls = nullptr;
+  PetscCall(MatShellGetContext(matrix, &calls));
+  return call(*calls, calls->system.product, x, y);
 }
 
 PetscErrorCode precondition(PC pc, Vec x, Vec y) {
-  void* system = nullptr;
-  PetscCall(PCShellGetContext(pc, &system));
-  return call(static_cast<const Krylov*>(system)->precondition, x, y);
+  void* context = nullptr;
+  PetscCall(PCShellGetContext(pc, &context));
+  Calls& calls = *static_cast<Calls*>(context);
+  return call(calls, calls.system.precondition, x, y);
 }
 
 KrylovEnd fgmres(const Krylov& system) {
@@ -178,9 +222,10 @@ KrylovEnd fgmres(const Krylov& system) {
   KSP method = nullptr;
   Vec b = nullptr, x = nullptr;
   KrylovEnd end;
+  Calls calls{system};
   try {
     begin();
-    need(MatCreateShell(PETSC_COMM_SELF, system.n, system.n, system.n, system.n, const_cast<Krylov*>(&system), &matrix));
+    need(MatCreateShell(PETSC_COMM_SELF, system.n, system.n, system.n, system.n, &calls, &matrix));
     need(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(product)));
     need(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, system.n, system.right_side, &b));
     need(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, system.n, system.solution, &x));
@@ -192,7 +237,7 @@ KrylovEnd fgmres(const Krylov& system) {
     PC pc = nullptr;
     need(KSPGetPC(method, &pc));
     need(PCSetType(pc, PCSHELL));
-    need(PCShellSetContext(pc, const_cast<Krylov*>(&system)));
+    need(PCShellSetContext(pc, &calls));
     need(PCShellSetApply(pc, precondition));
     need(KSPSolve(method, b, x));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -205,6 +250,10 @@ KrylovEnd fgmres(const Krylov& system) {
   passed_over(KSPDestroy(&method));
   passed_over(VecDestroy(&x)), passed_over(VecDestroy(&b));
   passed_over(MatDestroy(&matrix));
+  try {
+    if (calls.thrown) std::rethrow_exception(calls.thrown);
+  } catch (const std::runtime_error&) {  // of multigrid: not converged
+  }
   return end;
 }
 
