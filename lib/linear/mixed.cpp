@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/traps.hpp"
+
 namespace langer {
 
 MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
@@ -134,6 +136,7 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
   }
   MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
   for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
+  const NoTraps in_petsc;
   const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data()};
   preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
   again_ = preconditioned_;
@@ -189,6 +192,7 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
   };
   system.right_side = right.data(), system.solution = x.data();
   system.relative = wanted / right.norm(), system.most = most;
+  const NoTraps in_petsc;
   const petsc_module::KrylovEnd end = module_.fgmres(system);
   x += begin;
   return {x.head(n), x.tail(cells), end.products, end.converged && x.allFinite()};
