@@ -1,7 +1,6 @@
 #include "linear/mixed.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/traps.hpp"
 

@@ -1,7 +1,5 @@
 #include "solve/tangent_factor.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

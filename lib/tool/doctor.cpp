@@ -12,6 +12,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/module_path.hpp"
 #include "base/split.hpp"
 #include "base/version.hpp"
 #include "pipeline/ports.hpp"
@@ -75,13 +76,13 @@ Finding programs(const fs::path& bin) {
 }
 
 // what is loaded by a module of its own, whose libraries the loader has to find
-Finding module(const fs::path& bin, const std::string& name, const std::string& without, const std::string& package) {
-  const fs::path module = bin.parent_path() / ("lib/langer/langer_" + name + ".so");
-  if (!fs::exists(module)) return {name, false, false, without + "; there is no " + module.string()};
-  if (const std::string lost = said_by("ldd '" + module.string() + "' | grep 'not found'"); !lost.empty())
+Finding module(const std::string& name, const std::string& without, const std::string& package) {
+  const std::string path = module_path(name);
+  if (!fs::exists(path)) return {name, false, false, without + "; there is no " + path};
+  if (const std::string lost = said_by("ldd '" + path + "' | grep 'not found'"); !lost.empty())
     return {name, false, false,
             fmt::format("{}; {}: apt install {} (Debian 12)", without, lost.substr(lost.find_first_not_of(" \t")), package)};
-  return {name, true, false, module.string()};
+  return {name, true, false, path};
 }
 
 Finding python_package(const char* name, const char* debian, const char* without) {
@@ -113,8 +114,8 @@ std::vector<Finding> examine() {
       {"langer", true, true, fmt::format("{} ({})", version, revision)},
       machine(),
       programs(bin),
-      module(bin, "gmsh", "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh", "libgmsh4.8"),
-      module(bin, "petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time", "libpetsc-real3.18")};
+      module("gmsh", "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh", "libgmsh4.8"),
+      module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time", "libpetsc-real3.18")};
   findings.push_back(report::has_three() ? Finding{"three.js", true, false, "in langer-report"}
                                          : Finding{"three.js", false, false,
                                                    "reports have no body to turn; apt install libjs-three before building"});

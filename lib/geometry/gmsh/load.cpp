@@ -2,10 +2,10 @@
 
 #include <dlfcn.h>
 
-#include <filesystem>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/module_path.hpp"
 #include "base/traps.hpp"
 #include "base/version.hpp"
 
@@ -17,23 +17,18 @@ namespace {
   throw Failure(Exit::input, Error{{path}, "", found, "", hint});
 }
 
-// beside the programs, in the build folder as where they are installed
-std::string module_path() {
-  const auto bin = std::filesystem::canonical("/proc/self/exe").parent_path();
-  return (bin.parent_path() / "lib/langer/langer_gmsh.so").string();
-}
-
 const gmsh_module::Functions& module_for(const std::string& path) {
   static const gmsh_module::Functions* functions = nullptr;
   if (functions) return *functions;
   // local: libgmsh has the same Eigen templates inside as we have, which allocate with another alignment
-  void* module = dlopen(module_path().c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* module = dlopen(module_path("gmsh").c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (!module)
-    refuse(path, std::string("gmsh, which such a file needs, cannot be loaded: ") + dlerror(),
-           "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " + module_path() + "; or give the mesh as .inp");
+    refuse(
+        path, std::string("gmsh, which such a file needs, cannot be loaded: ") + dlerror(),
+        "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " + module_path("gmsh") + "; or give the mesh as .inp");
   const auto* found = static_cast<const gmsh_module::Functions*>(dlsym(module, gmsh_module::symbol));
   if (!found || std::string(found->made_with) != version)
-    refuse(path, "gmsh, which such a file needs, is called by " + module_path() + ", which is of another version of Langer",
+    refuse(path, "gmsh, which such a file needs, is called by " + module_path("gmsh") + ", which is of another version of Langer",
            "build or install Langer as a whole");
   return *(functions = found);
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/module_path.hpp"
 #include "base/traps.hpp"
 #include "base/version.hpp"
 
@@ -12,19 +13,13 @@ namespace langer {
 
 namespace {
 
-// beside the programs, in the build folder as where they are installed
-std::string module_path() {
-  const auto bin = std::filesystem::canonical("/proc/self/exe").parent_path();
-  return (bin.parent_path() / "lib/langer/langer_petsc.so").string();
-}
-
 std::mutex mutex;
 bool tried = false;
 const petsc_module::Functions* functions = nullptr;
 
 const petsc_module::Functions* load(std::string& why) {
   const NoTraps in_its_libraries;
-  const std::string path = module_path();
+  const std::string path = module_path("petsc");
   if (std::error_code ignored; !std::filesystem::exists(path, ignored)) {
     why = "there is no " + path + "; install libpetsc-real-dev and build Langer again";
     return nullptr;
