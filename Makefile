@@ -23,7 +23,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -205,6 +205,7 @@ help:
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/work_precision.md from it; part of make bench"
 	@echo "make bench-forecasts          what --dry-run forecasts beside what it takes, docs/scenes.md from it"
+	@echo "make bench-wide               contact over 100 to 5 041 candidates, docs/scenes.md from it"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
 	@echo "make extremes                 run the extreme cases, write their table into docs/tested.md"

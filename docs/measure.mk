@@ -22,6 +22,13 @@ bench-forecasts: build
 	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
 	@tests/soak/page docs/scenes.md forecasts runs/forecasts/table.md
 
+# what contact costs over its candidates, condensed, in the tangent and iteratively, and its table and picture in docs/scenes.md; two minutes of CPU
+bench-wide: build
+	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
+	@mkdir -p runs/wide && tests/bench/wide run $(build)/bin runs/wide
+	@tests/bench/wide table runs/wide > runs/wide/table.md && tests/soak/page docs/scenes.md wide runs/wide/table.md
+	@tests/bench/wide picture runs/wide | gnuplot > docs/wide_contact.svg
+
 # the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
 # An hour or two. KEEP=1 goes on with what runs/peers/peers.csv has; PEERS_LIMIT: CPU seconds for a run
 peer_packages := calculix-ccx python3-getfem python3-dolfinx-real python3-numpy
