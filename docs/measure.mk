@@ -80,6 +80,14 @@ accuracy-elsewhere:
 	@awk -v what=accuracy -f docs/work_precision.awk runs/accuracy_elsewhere/elsewhere_table/table.csv > runs/accuracy_elsewhere/table.md
 	@tests/soak/page docs/work_precision.md elsewhere runs/accuracy_elsewhere/table.md; tail -2 runs/accuracy_elsewhere/table.md
 
+# cells cut where the error comes from against even and graded ones, in six scenes without friction; six minutes of CPU. ONLY="punch far": those
+# again, beside what runs/adaptive has of the others
+adaptive: build
+	@tests/bench/adaptive.py run $(build)/bin runs/adaptive
+	@for what in at runs; do tests/bench/adaptive.py $$what runs/adaptive/adaptive.csv > runs/adaptive/$$what.md && \
+	  tests/soak/page docs/work_precision.md adaptive_$$what runs/adaptive/$$what.md || exit 1; done
+	@tests/bench/adaptive.py picture runs/adaptive/adaptive.csv | gnuplot > docs/work_precision_adaptive.svg
+
 # the folders of lib and the includes between them: docs/map.svg
 map:
 	@$(MAKE) --no-print-directory deps packages=graphviz
