@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "accuracy/adaptive_cells.hpp"
-#include "accuracy/footprint.hpp"
 #include "accuracy/level_cost.hpp"
+#include "run/footprint.hpp"
 #include "watch/progress.hpp"
 
 namespace langer {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "accuracy/footprint.hpp"
 #include "element/geometry.hpp"
 #include "mesh/bounding_box.hpp"
+#include "run/footprint.hpp"
 #include "scene/hanging.hpp"
 
 namespace langer {

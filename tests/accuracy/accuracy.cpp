@@ -1,7 +1,7 @@
 // What a wanted accuracy puts into a config.
 #include "accuracy/accuracy.hpp"
-#include "accuracy/footprint.hpp"
 #include "accuracy/level_cost.hpp"
+#include "run/footprint.hpp"
 #include "support/laws.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "accuracy/footprint.hpp"
+#include "run/footprint.hpp"
 
 #include <algorithm>
 #include <cmath>
