@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "accuracy/cell_parts.hpp"
 #include "accuracy/energy_error.hpp"
 #include "mesh/hanging.hpp"
 #include "run/step_forces.hpp"
@@ -148,36 +149,9 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, c
   return out;
 }
 
-// those with a node that an indenter touches
-std::vector<int> touched_cells(const Run& run, const StepRecord& last) {
-  std::vector<char> touched(run.mesh.X.size(), 0);
-  for (const RigidContact& contact : run.scene.contacts) {
-    const std::vector<Vec3>& r = last.contacts.at(contact.name).r;
-    for (std::size_t i = 0; i < r.size(); ++i)
-      if (!r[i].isZero(0)) touched[static_cast<std::size_t>(contact.nodes[i])] = 1;
-  }
-  std::vector<int> cells;
-  for (int e = 0; e < run.mesh.n_cells(); ++e)
-    if (std::ranges::any_of(run.mesh.cell(e), [&](int n) { return touched[static_cast<std::size_t>(n)] != 0; })) cells.push_back(e);
-  return cells;
-}
-
-// `smooth` times what the fields tell of each, and `of_contact` in equal parts of those that are touched
-std::vector<double> parts_of(const EnergyErrors::Derivative& d, double smooth, const std::vector<int>& touched, double of_contact) {
-  std::vector<double> parts;
-  for (double of_cell : d.of_cell) parts.push_back(smooth * std::abs(of_cell));
-  for (int e : touched) parts[static_cast<std::size_t>(e)] += of_contact / static_cast<double>(touched.size());
-  return parts;
-}
-
-// a layer of one cell, which all are in
 PathErrors in_one_layer(const SolveConfig& config, const Mesh& mesh) {
-  const std::string why = "a layer of one cell tells nothing of smooth fields across it";
-  if (!asks_for_accuracy(config)) throw not_known(why);
-  PathErrors out;
-  out.not_known = {"errors are not known: " + why};
-  out.of_cells.assign(static_cast<std::size_t>(mesh.n_cells()), 1);
-  return out;
+  if (!asks_for_accuracy(config)) throw not_known(across_one_cell);
+  return to_be_cut_everywhere(mesh, across_one_cell);
 }
 
 }  // namespace
@@ -234,7 +208,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     const bool is_judged = std::ranges::any_of(judged, [&](const Valued& v) { return v.name == q.name; });
     if (const double percent = e.in_percent(e.total()); is_judged && percent > worst) {
       worst = percent;
-      out.of_cells = parts_of(d, smooth / d.size, touched_cells(run, last), e.total() - smooth);
+      out.of_cells = parts_of(d.of_cell, smooth / d.size, touched_cells(run, last), e.total() - smooth);
       for (double& part : out.of_cells) part /= std::max(std::abs(q.value), 1e-300);
     }
   }
