@@ -21,16 +21,18 @@ using Law = std::optional<Material>;
 // Nothing where another model is to be solved now.
 std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material, const ParameterKnowledge& known,
                                              ModelChoice& model) {
-  const SolveConfig config = model.config();
+  SolveConfig config = model.config();
   Run run(model.mesh(), config, material, job.where, model.at_a_point());
   const double jump = say_scene(job.voice(), run);
+  config.estimate = estimate_of(job.voice(), config, material, job.where, run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run) return say_forecast(job.voice(), config, material, job.where, run, watch);
   need_memory(run.statics, watch.of_mesh(), config.threads);
   const std::string loose = held_by_contact(run, job.where);
   Sensitivity sensitivity(run, config, job.where);
   const Uncertainty uncertainty(known, run, sensitivity);
-  Recording recording(run, watch, config, job.identity, job.output, uncertainty.beside(sensitivity.companion()));
+  RecoveredPath recovered(run, config, config.estimate == EstimateBy::recovery);
+  Recording recording(run, watch, config, job.identity, job.output, recovered.beside(uncertainty.beside(sensitivity.companion())));
   Progress progress(job.voice(), run);
   const Interruptible at_the_end_of_a_step;
   std::optional<EndsSoon> steps_are_kept(std::in_place, SIGINT);
@@ -41,7 +43,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
     return {};
   }
   std::optional<EndsSoon> all_is_kept(std::in_place);
-  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording);
+  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording, recovered);
   const bool again = model.another(estimate, run.mesh);
   if (again && interrupted()) recording.stopped_in_estimate();
   if (again) return {};

@@ -11,7 +11,6 @@
 #include <set>
 
 #include "accuracy/dual_estimate.hpp"
-#include "accuracy/holes.hpp"
 #include "accuracy/refinements.hpp"
 #include "accuracy/truncation.hpp"
 #include "assembly/equilibrium.hpp"
@@ -19,9 +18,9 @@
 #include "base/stopwatch.hpp"
 #include "mesh/reference.hpp"
 #include "post/fields.hpp"
-#include "post/recovery.hpp"
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
+#include "run/holes.hpp"
 #include "tensor/stress.hpp"
 
 namespace langer {
@@ -78,15 +77,20 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
-// What nodes that stick where they touch add to a force, relative to it: 0.7 times the square of their distance in contact radii.
-double too_early(double touching) { return touching < 1 ? 0 : std::min(0.5, 1.6 / touching); }
-constexpr double all_stick = 0.2;  // friction from which on that is so
-
 // The greatest stress below an indenter lies between points of the cells, wherever these are: by how much it may be missed, relative to
 // it, is a share of the cells' length in contact radii.
 double between_points(double touching, bool section) {
   if (touching < 1) return 0;
   return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
+}
+
+// Under a punch it lies at the rounded edge, in as many cells fewer as that is shorter than the punch.
+double sharpness(const SolveConfig& config) {
+  double most = 1;
+  for (const auto& [name, contact] : config.contacts)
+    if (const auto* punch = std::get_if<Cylinder>(&contact.rigid); punch && punch->edge > 0)
+      most = std::max(most, punch->radius / punch->edge);
+  return most;
 }
 
 double greatest_friction(const SolveConfig& config) {
@@ -124,6 +128,13 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 }
 
 }  // namespace
+
+// 0.7 times the square of the nodes' distance in contact radii
+double sticks_early(const SolveConfig& config, double touching) {
+  constexpr double all_stick = 0.2;  // friction from which on that is so
+  const double share = std::min(1.0, greatest_friction(config) / all_stick);
+  return touching < 1 ? 0 : share * std::min(0.5, 1.6 / touching);
+}
 
 // What nodes that come into contact one by one make of a force, relative to it (make work-precision; sections: docs/work_precision.md).
 double one_by_one(double touching, bool section) {
@@ -188,17 +199,6 @@ std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const 
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) found.push_back({"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
   return found;
-}
-
-std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
-                                            const std::vector<Valued>& found) {
-  const RecoveredError error = recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), state.u);
-  std::vector<ErrorEstimate> estimates;
-  for (const Valued& q : found) {
-    const double cells = q.of_force() ? error.energy_share() * q.value : q.name == "von_mises_max" ? error.von_mises_spread : -1;
-    if (cells >= 0) estimates.push_back({q, cells, 0, 0, state.residual * std::abs(q.value), 2, false});
-  }
-  return estimates;
 }
 
 namespace {
@@ -268,7 +268,6 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config),
                beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
-  const double sticks = refined.sticks_far_apart ? std::min(1.0, greatest_friction(config) / all_stick) : 0;
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     const double order = q.name == "von_mises_max" ? 1 : order_of_force(config);
@@ -277,12 +276,13 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     const double increments = in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
     ErrorEstimate e{q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
     const double touching = touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
-    if (q.name == "von_mises_max") e.scatter = std::max(e.scatter, 0.5 * between_points(touching, section) * std::abs(q.value));
+    if (q.name == "von_mises_max")
+      e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) * std::abs(q.value));
     if (q.unit == unit::mm) e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.of_force()) {
       e.scatter =
           std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value), 0.5 * beside_hole * std::abs(q.value)});
-      if (sticks > 0) e.cells = std::max(e.cells, sticks * too_early(touching) * std::abs(q.value));
+      if (refined.sticks_far_apart) e.cells = std::max(e.cells, sticks_early(config, touching) * std::abs(q.value));
     }
     return std::optional(e);
   };
@@ -318,8 +318,7 @@ PathErrors estimated(const SolveConfig& config, const std::optional<Material>& m
                      const StepRecord& last, const std::vector<StepForces>& path, const EstimateListener& listener) {
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
   if (config.estimate == EstimateBy::dual) return dual_errors(config, run, last, found);
-  if (config.estimate == EstimateBy::recovery) return {recovered_errors(run.scene, run.mesh, last, found), {}, 0, {}};
-  return estimate_along(config, material, where, {found, path, 0}, last.residual, listener);
+  return estimate_along(config, material, where, {found, path, 0}, relative_residual(last), listener);
 }
 
 std::string in_words(const ErrorEstimate& e) {
@@ -328,7 +327,12 @@ std::string in_words(const ErrorEstimate& e) {
   if (e.of.value == 0) return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
   const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, e.in_percent(e.total()));
   const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
-  if (!e.has_limit) return fmt::format("{} (cells {:.2g} by recovery, solver {:.1g} %)", begins, cells, solver);
+  if (!e.has_limit) {
+    const double increments = e.in_percent(e.increments), scatter = e.in_percent(e.scatter);
+    return fmt::format("{} (cells {:.2g} by recovery{}{}, solver {:.1g} %)", begins, cells,
+                       increments > 0 ? fmt::format(", increments {:.2g}", increments) : "",
+                       scatter > 0 ? fmt::format(", scatter {:.2g}", scatter) : "", solver);
+  }
   std::string left_out;
   for (const ErrorEstimate::Part& part : e.left_out)
     left_out += fmt::format("{} {} {:+.2g}", left_out.empty() ? "; left out:" : ",", part.name, e.in_percent(part.value));
@@ -342,7 +346,8 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
   for (const ErrorEstimate& e : estimates) {
     const auto add = [&](const char* what, double value) { summary.push_back({e.of.name + what, value, e.of.unit}); };
     add("_error", e.total()), add("_error_cells", e.cells);
-    if (e.has_limit) add("_limit", e.limit()), add("_error_increments", e.increments), add("_error_scatter", e.scatter);
+    if (e.has_limit) add("_limit", e.limit());
+    add("_error_increments", e.increments), add("_error_scatter", e.scatter);
     add("_error_solver", e.solver);
     for (const ErrorEstimate::Part& part : e.left_out) add(("_error_" + part.name).c_str(), part.value);
   }

@@ -16,7 +16,7 @@
 //   scatter     root mean square of what the fit leaves, or what no fit to three meshes shows: nodes come into contact one by one (of a
 //               section a ring of them), and go up and down with the length of the cells: half of 3.1 n^(-3/2) of the force, n nodes
 //               that touch on the finest mesh of those above, and of a section half of 0.25 n^(-2); the greatest stress lies
-//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n                              docs/work_precision.md
+//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n; under a punch times its radius over that of its edge   docs/work_precision.md
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
 //   limit       found - cells - increments
@@ -87,16 +87,16 @@ double order_of_force(const SolveConfig& config);  // p of its error
 
 // share of a force that nodes may make which come into contact one by one, from the number of those that touch (run/step_forces.hpp)
 double one_by_one(double touching, bool section);
+// and what nodes add that stick where they touch
+double sticks_early(const SolveConfig& config, double touching);
 
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
 // reactions; and torques; where forces alone load the body, the displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
 
-// Of any mesh, by what its stress lacks to be smooth (post/recovery.hpp): force and greatest von Mises stress, no limit. The error of
-// sticking on coarse cells and that of increments are not among them.
-std::vector<ErrorEstimate> recovered_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
-                                            const std::vector<Valued>& found);
+// The residual of a state, relative to the forces that it balances; 0 where there are none but rounding.
+inline double relative_residual(const StepRecord& state) { return state.residual <= 1 ? state.residual : 0; }
 
 // who goes along with the n-th of the scenes that an estimate solves
 using EstimateListener = std::function<RunListener(const Run& run, int n, int of)>;
@@ -109,18 +109,18 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std:
 
 struct PathErrors {
   std::vector<ErrorEstimate> at_end;
-  std::map<std::string, std::vector<double>> along;  // by force: total() at each step of the run [N]; empty by recovery
+  std::map<std::string, std::vector<double>> along;  // by force: total() at each step of the run [N]; empty by dual solutions
   double growth = 0;                                 // power of 1 / length of the cells with which the CPU time grew; 0: not known
   std::vector<std::string> not_known;                // why a quantity is not in at_end, a sentence each
   std::vector<double> of_cells =
-      {};  // by dual solutions, for an accuracy: of the force whose error is largest, each cell's part of the bar, in parts of it
+      {};  // dual and by recovery, for an accuracy: of the force whose error is largest, each cell's part of the bar, in parts of it
 };
 // The same, at each step of itself.path too: the forces of the other meshes there, linear between their own steps.
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
                           const std::function<Place(const std::string&)>& where, const SolvedPath& itself, double residual,
                           const EstimateListener& listener = {});
 
-// as config.estimate says, of the last state of its run and of the forces on its path
+// as config.estimate says (recovery: accuracy/recovered_path.hpp), of the last state of its run and of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
                      const std::function<Place(const std::string&)>& where, Run& run, const StepRecord& last,
                      const std::vector<StepForces>& path, const EstimateListener& listener);

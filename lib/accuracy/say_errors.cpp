@@ -24,18 +24,6 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
   return estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds() ? estimate : 0;
 }
 
-bool wanted(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where,
-            Run& run) {
-  if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(EstimateBy::none) != EstimateBy::none;
-  if (!has_numbers(config))
-    voice.say("errors are not estimated: the cells follow from no numbers of this config; estimate: dual is for any mesh");
-  else if (estimate_forecast(config, material, where, run) > 0)
-    return true;
-  else
-    voice.say("errors are not estimated: that takes more than a third of the solve; estimate: refinement does it all the same");
-  return false;
-}
-
 // half of the cells' part by shorter cells, of the increments' by shorter ones
 void say_costs(const Voice& voice, const PathErrors& found) {
   if (found.growth == 0 || found.at_end.empty()) return;
@@ -48,13 +36,34 @@ void say_costs(const Voice& voice, const PathErrors& found) {
 
 }  // namespace
 
+EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                       const Run::Where& where, Run& run) {
+  const EstimateBy cheap = recovered_by_default(config, run) ? EstimateBy::recovery : EstimateBy::none;
+  if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(cheap);
+  if (estimate_forecast(config, material, where, run) > 0) return EstimateBy::automatic;
+  const char* why = has_numbers(config) ? "other meshes would take more than a third of the solve"
+                                        : "the cells follow from no numbers of this config";
+  if (cheap == EstimateBy::recovery)
+    voice.say("errors are estimated by recovery: {}", why);
+  else
+    voice.say(
+        "errors are not estimated: {}, and recovery does not tell them here; estimate: refinement is for meshes by numbers, "
+        "dual for any mesh",
+        why);
+  return cheap;
+}
+
 PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording) {
+                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
+                      const RecoveredPath& recovered) {
   PathErrors found;
   try {
-    if (!wanted(voice, config, material, where, run)) return found;
-    found = estimated(config, material, where, run, last, recording.forces(),
-                      [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
+    if (config.estimate == EstimateBy::none) return found;
+    if (config.estimate == EstimateBy::recovery)
+      found = recovered.errors(last, valued(config, run.scene, run.mesh, last));
+    else
+      found = estimated(config, material, where, run, last, recording.forces(),
+                        [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
   } catch (const Failure& failure) {
     if (interrupted()) recording.stopped_in_estimate();
     if (failure.code() != Exit::not_converged) throw;

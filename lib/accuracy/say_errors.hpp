@@ -5,16 +5,23 @@
 #include <vector>
 
 #include "accuracy/error_estimate.hpp"
+#include "accuracy/recovered_path.hpp"
 #include "base/voice.hpp"
 #include "watch/recording.hpp"
 
 namespace langer {
 
-// Estimates and says them, and what half of them would cost; empty where config asks for none, or where there is none (a warning: the
-// result itself stands). With estimate: auto only where it takes less than a third of the solve.
-// Throws Failure with the signal's code where one has come.
+// Which estimate a run gets: that of its config; with auto that by other meshes where it takes less than a third of the solve by the
+// forecast; else, and where the config has no such key, that by recovery where it tells anything (accuracy/recovered_path.hpp), else none.
+// auto says why.
+EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+                       const Run::Where& where, Run& run);
+
+// Estimates and says them, and what half of them would cost; empty where config.estimate says none, or where there is none (a warning: the
+// result itself stands). Throws Failure with the signal's code where one has come.
 PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording);
+                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
+                      const RecoveredPath& recovered);
 
 // What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
 std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,

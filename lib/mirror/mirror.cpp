@@ -39,12 +39,12 @@ std::array<NamedTurn, 8> operations() {
            {"quarter turn about -y of", turn_of(0, -1, 1, 0)}}};
 }
 
-// Torques change their sign in a mirror, derivatives belong to named components, errors to the cells they were told on.
+// Torques change their sign in a mirror, derivatives belong to named components, deviations to parameters.
 bool knows_how_to_turn(const StepRecord& step) {
   return step.point_fields.empty() && std::none_of(step.scalars.begin(), step.scalars.end(), [](const auto& scalar) {
            const std::string& name = scalar.first;
            return name.starts_with("torque_") || name.starts_with("angle_") || name.starts_with("d_") ||
-                  name.ends_with("_deviation") || name.ends_with("_error");
+                  name.ends_with("_deviation");
          });
 }
 
@@ -68,7 +68,9 @@ std::map<std::string, std::string> without_mirror(std::map<std::string, std::str
 std::string other_task(const MirrorTask& task, const Identity& theirs, const SolveConfig& their_config) {
   const SolveConfig& own = task.config;
   if (own.symmetry == SymmetryChoice::none) return "symmetry: none";
-  if (own.accuracy || own.fidelity || own.reduce == Reduce::automatic || (own.estimate && own.estimate != EstimateBy::none))
+  const EstimateBy by = own.estimate.value_or(EstimateBy::recovery);
+  const bool cheap = by == EstimateBy::none || by == EstimateBy::recovery;
+  if (own.accuracy || own.fidelity || own.reduce == Reduce::automatic || !cheap)
     return "cells that are chosen, or errors that are estimated, are its own";
   SolveConfig same = their_config;
   same.fibre_angles = own.fibre_angles;

@@ -52,37 +52,63 @@ double spread_around(const Body& body, const GaussValues& gauss, const std::vect
 
 double deviatoric(const Vec6& stress) { return std::pow(von_mises(tensor(stress)), 2) / 1.5; }  // |dev s|^2
 
+int n_regions(const Body& body) {
+  int regions = 1;
+  for (int e = 0; e < body.mesh().n_cells(); ++e) regions = std::max(regions, body.region(e) + 1);
+  return regions;
+}
+
+struct Energies {
+  double error = 0, whole = 0;
+  double eta() const { return whole > 0 ? std::sqrt(error / whole) : 0; }
+};
+// of_cell: where the error of each is put, or nullptr
+void add_region(Energies& energies, const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth, int region,
+                std::vector<double>* of_cell) {
+  const Mesh& mesh = body.mesh();
+  const ReferenceCell& cell = mesh.cell();
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    if (body.region(e) != region) continue;
+    const double mu = shear_modulus(body.material(e)), before = energies.error;
+    for (int g = 0; g < cell.n_gauss; ++g) {
+      Vec6 s = Vec6::Zero();
+      for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
+      const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
+      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()), energies.whole += w * deviatoric(s);
+    }
+    if (of_cell) (*of_cell)[static_cast<std::size_t>(e)] = energies.error - before;
+  }
+}
+
 }  // namespace
+
+double recovered_energy_share(const Body& body, const std::vector<Vec3>& u) {
+  const GaussValues gauss = gauss_values(body, u);
+  Energies energies;
+  for (int region = 0; region < n_regions(body); ++region)
+    add_region(energies, body, gauss, smoothed(body, gauss, region), region, nullptr);
+  return energies.eta() * energies.eta();
+}
 
 RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
   const Mesh& mesh = body.mesh();
-  const ReferenceCell& cell = mesh.cell();
   const GaussValues gauss = gauss_values(body, u);
-  int regions = 1;
-  for (int e = 0; e < mesh.n_cells(); ++e) regions = std::max(regions, body.region(e) + 1);
   RecoveredError out;
-  double error = 0, whole = 0;
-  for (int region = 0; region < regions; ++region) {
+  out.of_cell.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
+  Energies energies;
+  for (int region = 0; region < n_regions(body); ++region) {
     const std::vector<Vec6> smooth = smoothed(body, gauss, region);
+    add_region(energies, body, gauss, smooth, region, &out.of_cell);
     int worst = -1;
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (body.region(e) != region) continue;
-      const double mu = shear_modulus(body.material(e));
-      for (int a = 0; a < cell.n_nodes; ++a) {
-        const int node = mesh.cell(e)[a];
+      for (int node : mesh.cell(e))
         if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max) out.von_mises_max = here, worst = node;
-      }
-      for (int g = 0; g < cell.n_gauss; ++g) {
-        Vec6 s = Vec6::Zero();
-        for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
-        const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
-        error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()), whole += w * deviatoric(s);
-      }
     }
-    if (worst < 0) continue;
-    out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
+    if (worst >= 0) out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
   }
-  out.eta = whole > 0 ? std::sqrt(error / whole) : 0;
+  out.eta = energies.eta();
+  for (double& part : out.of_cell) part = energies.whole > 0 ? part / energies.whole : 0;
   return out;
 }
 

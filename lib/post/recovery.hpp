@@ -14,8 +14,10 @@ struct RecoveredError {
   double eta = 0;               // relative error of the deviatoric stress, weighted as energy [-]
   double von_mises_max = 0;     // greatest of the nodal averages [MPa]
   double von_mises_spread = 0;  // around it: the greatest difference between a cell and the average at a node of its cells [MPa]
+  std::vector<double> of_cell = {};  // what each cell has of energy_share()
   double energy_share() const { return eta * eta; }
 };
 RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u);  // u (n) [mm]
+double recovered_energy_share(const Body& body, const std::vector<Vec3>& u);   // of it energy_share() alone
 
 }  // namespace langer

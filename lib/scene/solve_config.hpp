@@ -215,10 +215,10 @@ struct SolveConfig {
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
       "a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is taken where accuracy or "
-      "fidelity is asked for; auto does so where it takes less than a third of the solve, by the forecast. dual, on any mesh of an elastic "
+      "fidelity is asked for; auto does so where it takes less than a third of the solve by the forecast, else as recovery. dual, on any mesh of an elastic "
       "body, without friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration; beside "
       "accuracy hex8 are cut where the error comes from. recovery, on any mesh and at once: what the stress lacks to be smooth; of force and "
-      "stress, and in an indentation some times too large");
+      "stress, in an indentation some times too large; the default for elastic bodies of one material whose indenters move as told. none");
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");

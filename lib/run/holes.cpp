@@ -1,4 +1,4 @@
-#include "accuracy/holes.hpp"
+#include "run/holes.hpp"
 
 #include <fmt/format.h>
 
