@@ -1,8 +1,9 @@
 // Whether an accuracy that is asked for is kept, on scenes drawn at random (random_scenes/draw.hpp), and whether error bars hold.
-//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps]
+//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps] [default]
 // Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and again on shorter cells and half the
 // increments, whose limit is the truth and whose own error bar is what remains unknown of it; scenes that this would take longer than
-// `seconds` of CPU have no truth. One line a scene, then the counts.
+// `seconds` of CPU have no truth. One line a scene, then the counts. default: the scene as it is drawn, without `accuracy`, is judged, by the
+// bars that a config without `estimate` gets; its truth is the limit of the solution for the accuracy that is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <fstream>
 
 #include "accuracy/accuracy.hpp"
+#include "accuracy/recovered_path.hpp"
 #include "base/stopwatch.hpp"
 #include "random_scenes/draw.hpp"
 #include "run/body_mesh.hpp"
@@ -27,6 +29,7 @@ struct Options {
   double asked = 1, seconds = 120;
   std::string kind = "any";
   bool steps = false;  // bars along the path are judged, too
+  bool by_default = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -37,6 +40,8 @@ Options options_of(int argc, char** argv) {
     const std::string key = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
     if (key == "steps")
       o.steps = true;
+    else if (key == "default")
+      o.by_default = true;
     else if (value.empty() && !text.starts_with("-"))
       o.folder = text;
     else if (key == "seed")
@@ -116,6 +121,24 @@ Answer asked_for(const SolveConfig& config, double seconds) {
   return answer;
 }
 
+Answer by_default(SolveConfig config) {
+  const double start = cpu_seconds();
+  config.accuracy.reset();
+  Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
+  RecoveredPath recovered(run, config, recovered_by_default(config, run));
+  Answer answer;
+  const Companion beside = recovered.beside({});
+  const RunListener collect = collecting({}, config, run, answer.solved.path);
+  const RunEnd end = run.follow(beside.along ? beside.along(collect) : collect);
+  if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
+  if (recovered.wanted()) {
+    const PathErrors found = recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last));
+    answer.solved.errors = found.at_end, answer.solved.along = found.along;
+  }
+  answer.seconds = cpu_seconds() - start;
+  return answer;
+}
+
 // on cells of 0.8 times the length; of sections, which are cheap, of half
 Solved truth_of(SolveConfig config, double seconds) {
   scale_cells(config.mesh->geometry, is_section(config.mesh->geometry) ? 0.5 : 0.8);
@@ -142,9 +165,10 @@ void judge_steps(const std::string& name, const Solved& found, const Solved& tru
     for (std::size_t i = 0; i + 1 < bars.size() && i < found.path.size(); ++i) {
       const double t = found.path[i].t, q = found.path[i].of.at(force);
       if (q == 0) continue;
-      double unknown = 0;
+      double unknown = -1;  // between its steps the truth is known to nobody
       for (std::size_t k = 0; k < truth.path.size(); ++k)
         if (std::abs(truth.path[k].t - t) < 1e-9) unknown = 0.5 * truth.along.at(force)[k];
+      if (unknown < 0) continue;
       const double off = q - force_at(truth.path, force, t);
       const bool holds = std::abs(off) <= bars[i] + unknown;
       ++counts.steps, counts.steps_hold += holds;
@@ -206,6 +230,14 @@ int main(int argc, char** argv) try {
       config.accuracy = fmt::format("{:g}%", o.asked);
       const Answer answer = asked_for(config, o.seconds);
       ++counts.ended;
+      if (o.by_default) {
+        const Answer plain = by_default(config);
+        if (plain.solved.errors.empty()) fmt::print("| {} | no bar | | | | | | |\n", scene.name);
+        judge(o, scene.name, plain, answer.solved.errors, counts);
+        if (o.steps) judge_steps(scene.name, plain.solved, answer.solved, counts);
+        std::fflush(stdout);
+        continue;
+      }
       Solved truth;
       try {
         truth = truth_of(answer.config, o.seconds);
@@ -234,7 +266,7 @@ int main(int argc, char** argv) try {
 } catch (const std::logic_error& wrong) {
   fmt::print(
       stderr,
-      "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps]; found {}\n",
+      "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps] [default]; found {}\n",
       wrong.what());
   return 2;
 }
