@@ -320,8 +320,7 @@ void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::stri
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
-  if (estimates.empty() && config_.estimate != EstimateBy::refinement && config_.estimate != EstimateBy::dual)
-    return voice_.warn("accuracy: " + found.words);
+  if (estimates.empty() && config_.estimate == EstimateBy::none) return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
   throw Failure(Exit::not_accurate,
                 Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),

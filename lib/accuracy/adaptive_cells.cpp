@@ -47,9 +47,11 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
 }
 
 std::string why_not_cut(const SolveConfig& config) {
-  if (config.estimate != EstimateBy::dual) return "cells are cut by the parts of a dual solution";
-  if (has_friction(config)) return "a dual solution knows no friction";
-  if (config.path.seconds) return "a dual solution is that of an elastic body";
+  const bool dual = config.estimate == EstimateBy::dual;
+  if (!dual && config.estimate != EstimateBy::recovery) return "cells are cut by the parts of a dual solution or of recovery";
+  if (!dual && config.mesh && has_edge_in_contact_radii(config.mesh->geometry)) return "recovery judges graded lines as they are";
+  if (dual && has_friction(config)) return "a dual solution knows no friction";
+  if (config.path.seconds) return "errors by cells are those of an elastic body";
   const std::vector<Complaint> never = not_on_cut_cells(config);
   return never.empty() ? "" : never.front().found;
 }

@@ -1,4 +1,5 @@
-// Cells cut where the error of a force comes from, until an accuracy is reached: from the dual estimate of one mesh to the next one.
+// Cells cut where the error of a force comes from, until an accuracy is reached: from the estimate of one mesh, dual or by recovery, to the
+// next one.
 // [D96] marks the cells with the largest parts, as many as cutting them takes the sum to what is wanted; what 2:1 asks for is cut beside
 // them (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
 #pragma once
@@ -15,7 +16,7 @@ namespace langer {
 // tenths of the sum and a seventh of the cells, at most nine tenths. Parts that are alike, as symmetry makes them, are marked together.
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order);
 
-// Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose errors a dual solution tells, and
+// Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose errors are known by cells, and
 // nothing that hanging nodes do not know (scene/hanging.hpp).
 std::string why_not_cut(const SolveConfig& config);
 std::string why_not_cut(const Mesh& mesh);

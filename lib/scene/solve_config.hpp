@@ -296,8 +296,10 @@ struct SolveConfig {
       if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
         found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
     }
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && estimate != EstimateBy::dual)
-      found.push_back({key, other_mesh, laid_out, "accuracy chooses their cells; estimate: dual beside it cuts those of any mesh"});
+    const bool by_cells = estimate == EstimateBy::dual || estimate == EstimateBy::recovery;
+    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && !by_cells)
+      found.push_back(
+          {key, other_mesh, laid_out, "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
     complain_of_cuts(found);
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;

@@ -104,6 +104,10 @@ TEST_CASE("cells of which dual solutions or hanging nodes know nothing are not c
   SolveConfig config = test::config_of(sheared);
   CHECK(why_not_cut(config).empty());
   config.estimate = EstimateBy::recovery;
+  CHECK(why_not_cut(config).empty());
+  config.mesh->geometry = IndentedBlock{{0, 0, 0}, {10, 4, 10}, 2.5, 0.5};
+  CHECK(why_not_cut(config) == "recovery judges graded lines as they are");
+  config.estimate = EstimateBy::refinement;
   CHECK(!why_not_cut(config).empty());
   config = test::config_of(sheared);
   config.sensitivity = {"matrix.neo_hooke.a1"};
