@@ -48,10 +48,28 @@ Mesh ModelChoice::mesh() {
 
 bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
   if (!section_.accurate(errors.at_end)) {
+    before_.reset();
     accuracy_ = of_model();
     return true;
   }
-  return errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
+  if (is_last_) return false;
+  std::optional<Level> here;
+  if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_};
+  const bool again = errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
+  if (again) before_ = std::move(here);
+  return again;
+}
+
+bool ModelChoice::another(const Failure& failure) {
+  if (accuracy_.begin_anew(failure)) return true;
+  if (!before_ || failure.code() != Exit::not_converged) return false;
+  const std::string why = fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
+  voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
+  accuracy_ = before_->accuracy, cells_ = before_->cells;
+  accuracy_.ends_here(why);
+  before_.reset();
+  is_last_ = true;
+  return true;
 }
 
 bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {

@@ -19,9 +19,9 @@ class ModelChoice {
   Mesh mesh();                                                      // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
   // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too large, or it found no
-  // equilibrium. Says so.
+  // equilibrium: then it is that of the level before, which is the last. Says so.
   bool another(const PathErrors& errors, const Mesh& mesh);
-  bool another(const Failure& failure) { return accuracy_.begin_anew(failure); }
+  bool another(const Failure& failure);
   // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept. Says so.
   void leave_point();
 
@@ -44,6 +44,12 @@ class ModelChoice {
   SectionInPlace section_;
   Accuracy accuracy_;
   std::optional<CutMesh> cells_;
+  struct Level {
+    Accuracy accuracy;
+    std::optional<CutMesh> cells;
+  };
+  std::optional<Level> before_;  // whose errors are known
+  bool is_last_ = false;
   bool at_a_point_;
 };
 

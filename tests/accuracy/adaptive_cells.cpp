@@ -118,6 +118,31 @@ TEST_CASE("cells of which dual solutions or hanging nodes know nothing are not c
   CHECK(!why_not_cut(mesh).empty());
 }
 
+TEST_CASE("where a next level finds no equilibrium the one before it is the last, and the accuracy that it reached is told") {
+  const SolveConfig config = test::config_of(sheared + "accuracy: 1%\n");
+  ModelChoice model({"solve", true}, config, "", config.material, test::nowhere, false);
+  const Failure stuck(Exit::not_converged, Error{{}, "", "stopped at t = 0.5", "", ""});
+  CHECK(!model.another(stuck));  // of the first level nothing is known
+  const Mesh first = model.mesh();
+  PathErrors errors;
+  errors.at_end = {{{"reaction_top", "N", 2.0}, 0.06}};  // 3 %
+  errors.of_cells.assign(static_cast<std::size_t>(first.n_cells()), 1);
+  REQUIRE(model.another(errors, first));
+  CHECK(model.mesh().n_cells() > first.n_cells());
+  REQUIRE(model.another(stuck));
+  CHECK(model.mesh().n_cells() == first.n_cells());
+  CHECK(!model.another(errors, first));
+  CHECK(!model.another(stuck));
+  try {
+    model.need(errors.at_end, "out.h5");
+    FAIL("3 % are taken for 1 %");
+  } catch (const Failure& failure) {
+    CHECK(failure.code() == Exit::not_accurate);
+    CHECK(failure.errors()[0].found ==
+          "asked for 1 %, and the error of the force is estimated at 3 %; a next level found no equilibrium: stopped at t = 0.5");
+  }
+}
+
 TEST_CASE("a layer of one cell is cut everywhere before its error is asked for") {
   std::string thin = sheared;
   thin.replace(thin.find("[5, 3, 4]"), 9, "[5, 1, 4]");
