@@ -6,7 +6,7 @@ set(floors base tensor config mesh contact sensitivity geometry material element
 
 # include pattern -> where it may stand
 set(third_parties
-  "yaml-cpp/=lib/config/" "hdf5=lib/hdf5/" "gmsh=lib/geometry/gmsh/" "petsc=lib/linear/petsc/" "mpi=lib/linear/petsc/" "cholmod=lib/linear/" "umfpack=lib/linear/"
+  "yaml-cpp/=lib/config/" "hdf5=lib/hdf5/" "gmsh=lib/geometry/gmsh/" "petsc=lib/linear/petsc/" "mpi=lib/linear/petsc/" "metis=lib/linear/petsc/" "cholmod=lib/linear/" "umfpack=lib/linear/"
   "kinsol=lib/nonlinear/kinsol.cpp" "sundials=lib/nonlinear/kinsol.cpp" "nvector=lib/nonlinear/kinsol.cpp" "CLI/=stages/common/arguments.cpp" "spdlog/=stages/" "nlopt=lib/fit/" "muParser=lib/config/formula.cpp"
   "boost/=lib/sensitivity/sobol_sequence.cpp")
 set(failed FALSE)

@@ -4,14 +4,26 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/in_order.hpp"
 #include "element/dilatation.hpp"
 
 namespace langer {
 
+namespace {
+
+std::vector<int> cells_of_rank(const std::optional<Division>& division, int n) {
+  if (division) return division->cells();
+  std::vector<int> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
 Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation,
-                         Dofs dofs, int threads, Kernel kernel, std::vector<double> cell_share)
+                         Dofs dofs, int threads, Kernel kernel, std::vector<double> cell_share, std::optional<Division> division)
     : mesh_(mesh),
       materials_(std::move(materials)),
       directions_(std::move(directions)),
@@ -20,14 +32,20 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
       n_dofs_(3 * n_nodes_),
       n_p_(n_pressures(formulation, n_nodes_)),
       dofs_(std::move(dofs)),
+      division_(std::move(division)),
+      own_(cells_of_rank(division_, mesh.n_cells())),
       moving_(mesh),
-      pattern_(make_pattern(mesh, moving_, dofs_)),
+      pattern_(make_pattern(mesh, moving_, dofs_, own_)),
       threads_(threads),
       asked_(kernel),
       kernel_(kernel) {
   const int n = mesh.n_cells();
   geometry_.reserve(n);
   for (int e = 0; e < n; ++e) {
+    if (division_ && !division_->ranks->first() && !division_->own(e)) {
+      geometry_.emplace_back();
+      continue;
+    }
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
     if (const MatX* C = moving_.weights(e))
       for (Gradients& dN : geometry_[e].dN_dX) dN = C->transpose() * dN;
@@ -58,7 +76,7 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
 
 void Equilibrium::make_blocks() {
   std::vector<std::vector<int>> of_body(std::max<std::size_t>(1, mesh_.bodies.size()));
-  for (int e = 0; e < mesh_.n_cells(); ++e) of_body[mesh_.body.empty() ? 0 : mesh_.body[e]].push_back(e);
+  for (int e : own_) of_body[mesh_.body.empty() ? 0 : mesh_.body[e]].push_back(e);
   for (const auto& cells : of_body)
     for (std::size_t first = 0; first < cells.size(); first += Packet::lanes) {
       Block block;
@@ -86,7 +104,7 @@ void Equilibrium::pack_fibres() {
 
 void Equilibrium::find_beginnings() {
   const int per_element = pattern_.blocks_per_element;
-  begins_.assign(static_cast<std::size_t>(mesh_.n_cells()) * per_element, 0);
+  begins_.assign(own_.size() * per_element, 0);
   std::vector<char> met(pattern_.nnz(), 0);
   for (const Block& block : blocks_)
     for (int l = 0; l < block.n; ++l) {
@@ -100,7 +118,7 @@ void Equilibrium::find_beginnings() {
         const int at = pattern_.blocks(e)[3 * k];
         if (at == Pattern::none) continue;
         char& first_entry = met[at >= 0 ? at : Pattern::turned(at)];  // no cell meets a part of a block
-        begins_[static_cast<std::size_t>(e) * per_element + k] = !first_entry;
+        begins_[pattern_.number(e) * per_element + k] = !first_entry;
         first_entry = 1;
       }
     }
@@ -256,7 +274,7 @@ void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
     return;
   }
   const int* at = pattern_.blocks(e);
-  const char* begins = &begins_[static_cast<std::size_t>(e) * pattern_.blocks_per_element];
+  const char* begins = &begins_[pattern_.number(e) * pattern_.blocks_per_element];
   const auto column = [this](int position, bool first, int n, const auto& value) {
     static constexpr double nothing[3] = {};
     double* to = &K_[position];
@@ -322,6 +340,16 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
   }
 }
 
+void Equilibrium::sum_over_ranks(bool with_tangent) {
+  J_min_ = division_->ranks->smallest(J_min_);
+  if (!(J_min_ > 0)) return;
+  VecX all(f_.size() + 2 + (with_tangent ? K_du_.size() : 0));
+  all << f_, W_, floor_, K_du_.head(all.size() - f_.size() - 2);
+  division_->ranks->sum(all.data(), static_cast<std::size_t>(all.size()));
+  f_ = all.head(f_.size()), W_ = all[f_.size()], floor_ = all[f_.size() + 1];
+  if (with_tangent) K_du_ = all.tail(K_du_.size());
+}
+
 bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   // blocks computed by one thread before it waits for its turn to add them; they stay in its cache
   const int chunk = threads_ == 1 ? 1 : mesh_.cell().second_order() ? 2 : 8;
@@ -345,6 +373,7 @@ bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_pres
           if (J_min_ > 0) add(blocks_[b], element, u, with_tangent, du_prescribed);
         }
       });
+  if (division_) sum_over_ranks(with_tangent);
   floor_ = std::sqrt(floor_);
   if (!loads_.empty() && J_min_ > 0) add_loads(u, with_tangent, du_prescribed);
   const bool whole = J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
@@ -360,7 +389,7 @@ double Equilibrium::smallest_J(const VecX& u) const {
     packet_dilatations(packet_geometry_[b], q, J_minus_1);
     for (int g = 0; g < packet_geometry_[b].n_gauss; ++g) J_min = std::min(J_min, 1 + smallest(J_minus_1[g]));
   }
-  return J_min;
+  return division_ ? division_->ranks->smallest(J_min) : J_min;
 }
 
 }  // namespace langer

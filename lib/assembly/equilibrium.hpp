@@ -5,11 +5,14 @@
 // A cell counts cell_share[e] times: for a body that symmetry reduces, the number of cells of the whole that it stands for.
 // The parallel loop over elements lives here; sums are made in order,
 // so the number of threads does not change a bit of the result.
+// Divided among ranks, K() is what a rank's own cells make of it, in a pattern of their own, and so is what it knows of single cells;
+// forces, energy and bounds are those of the whole body on every rank.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "assembly/division.hpp"
 #include "assembly/dofs.hpp"
 #include "assembly/loads.hpp"
 #include "assembly/pattern.hpp"
@@ -25,7 +28,8 @@ enum class Kernel { packets, one_by_one };  // one_by_one: the scalar element, t
 class Equilibrium {
  public:
   Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation, Dofs dofs,
-              int threads = 1, Kernel kernel = Kernel::packets, std::vector<double> cell_share = {});
+              int threads = 1, Kernel kernel = Kernel::packets, std::vector<double> cell_share = {},
+              std::optional<Division> division = {});
 
   // Forces on the surface, at t from now on: K() then has the symmetric part of what pressures take from the tangent.
   void set_loads(Loads loads);
@@ -101,12 +105,15 @@ class Equilibrium {
   const std::optional<ViscousPoints>& memory() const { return viscous_; }
   double viscous_work() const;  // integral of the branch stresses over the strain since rest [N mm]
 
+  const Division* division() const { return division_ ? &*division_ : nullptr; }  // nullptr: all cells are this rank's
+  const std::vector<int>& own_cells() const { return own_; }                      // ascending
   const Dofs& dofs() const { return dofs_; }
   const Pattern& pattern() const { return pattern_; }
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }
   const Material& material(int e) const { return materials_[mesh_.body.empty() ? 0 : mesh_.body[e]]; }
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }
+  // of all cells on rank 0; else of a rank's own
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
   ElementNodes element_displacements(const VecX& u, int e) const;  // of the nodes that move the cell (MovingNodes)
 
@@ -124,6 +131,7 @@ class Equilibrium {
     int cells[Packet::lanes];
     int n;
   };
+  void sum_over_ranks(bool with_tangent);
   void make_blocks();
   void find_beginnings();
   void load(const Block& block, const VecX& u, Packet* q) const;
@@ -141,6 +149,8 @@ class Equilibrium {
   Formulation formulation_;
   int n_nodes_, n_dofs_, n_p_;  // of a cell; dilatations
   Dofs dofs_;
+  std::optional<Division> division_;
+  std::vector<int> own_;
   MovingNodes moving_;
   Pattern pattern_;
   int threads_;

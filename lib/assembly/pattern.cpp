@@ -6,13 +6,15 @@ namespace langer {
 
 namespace {
 // neighbours of each node through cells, ascending, itself included; tied nodes are those they are tied to
-std::vector<std::vector<int>> node_graph(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs) {
+std::vector<std::vector<int>> node_graph(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs,
+                                         const std::vector<int>& cells) {
   std::vector<std::vector<int>> cells_of(mesh.n_nodes());
-  for (int e = 0; e < mesh.n_cells(); ++e)
+  for (int e : cells)
     for (int a : moving.of(e)) cells_of[dofs.node(a)].push_back(e);
   std::vector<std::vector<int>> graph(mesh.n_nodes());
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     auto& near = graph[i];
+    near.push_back(i);
     for (int e : cells_of[i])
       for (int b : moving.of(e)) near.push_back(dofs.node(b));
     std::sort(near.begin(), near.end());
@@ -37,11 +39,11 @@ bool even(const Dofs& dofs, int node) {
 }
 }  // namespace
 
-Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs) {
+Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs, const std::vector<int>& cells) {
   Pattern pattern;
   pattern.n = dofs.n_free();
   pattern.column_start.assign(pattern.n + 1, 0);
-  const auto graph = node_graph(mesh, moving, dofs);
+  const auto graph = node_graph(mesh, moving, dofs, cells);
   for (int c = 0; c < pattern.n; ++c) {  // rows are numbered by node, so neighbours in order give ascending rows
     const int dof = dofs.free[c];
     for (int b : graph[dof / 3])
@@ -51,10 +53,14 @@ Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& do
   }
   const int n_nodes = nodes_per_cell(mesh.type), n_dofs = 3 * n_nodes;
   pattern.blocks_per_element = n_nodes * (n_nodes + 1) / 2, pattern.slots_per_element = n_dofs * (n_dofs + 1) / 2;
-  pattern.block.assign(static_cast<std::size_t>(mesh.n_cells()) * 3 * pattern.blocks_per_element, Pattern::none);
+  if (cells.size() < static_cast<std::size_t>(mesh.n_cells())) {
+    pattern.block_of.assign(mesh.n_cells(), Pattern::none);
+    for (std::size_t i = 0; i < cells.size(); ++i) pattern.block_of[cells[i]] = static_cast<int>(i);
+  }
+  pattern.block.assign(cells.size() * 3 * pattern.blocks_per_element, Pattern::none);
   pattern.slot_of.assign(mesh.n_cells(), Pattern::none);
   int n_scattered = 0;
-  for (int e = 0; e < mesh.n_cells(); ++e) {
+  for (int e : cells) {
     const auto nodes = moving.of(e);
     const auto equation = [&](int i) { return dofs.equation[3 * dofs.node(nodes[i / 3]) + i % 3]; };
     if (!std::all_of(nodes.begin(), nodes.end(), [&](int node) { return even(dofs, node); })) {
@@ -63,7 +69,7 @@ Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& do
         for (int j = 0; j <= i; ++j) pattern.slot.push_back(position(pattern, equation(i), equation(j)));
       continue;
     }
-    int* at = pattern.block.data() + static_cast<std::size_t>(e) * 3 * pattern.blocks_per_element;
+    int* at = pattern.block.data() + pattern.number(e) * 3 * pattern.blocks_per_element;
     for (int a = 0; a < n_nodes; ++a)
       for (int b = 0; b <= a; ++b, at += 3) {
         const int row = equation(3 * a), column = equation(3 * b);

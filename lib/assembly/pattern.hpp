@@ -23,15 +23,17 @@ struct Pattern {
   int n = 0;
   int blocks_per_element = 0, slots_per_element = 0;
   std::vector<int> column_start, row;
-  std::vector<int> block;
-  std::vector<int> slot, slot_of;  // slot_of: by element, the number of its slots; none
+  std::vector<int> block, block_of;  // block_of: by element, the number of its blocks; empty: its own
+  std::vector<int> slot, slot_of;    // slot_of: by element, the number of its slots; none
 
   int nnz() const { return static_cast<int>(row.size()); }
-  const int* blocks(int e) const { return block.data() + static_cast<std::size_t>(e) * 3 * blocks_per_element; }
+  std::size_t number(int e) const { return static_cast<std::size_t>(block_of.empty() ? e : block_of[static_cast<std::size_t>(e)]); }
+  const int* blocks(int e) const { return block.data() + number(e) * 3 * blocks_per_element; }
   bool scattered(int e) const { return slot_of[e] >= 0; }
   const int* slots(int e) const { return slot.data() + static_cast<std::size_t>(slot_of[e]) * slots_per_element; }
 };
 
-Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs);
+// cells: ascending, those that have entries; the block of a node with itself is there for all nodes
+Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& dofs, const std::vector<int>& cells);
 
 }  // namespace langer

@@ -38,7 +38,7 @@ VecX Equilibrium::turned_dilatations() const {
 void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
   const std::vector<double>& dJ_du = kept ? dJ_du_kept_ : dJ_du_;
   std::vector<double> change(n_p_), p(n_p_);
-  for (int e = 0; e < mesh_.n_cells(); ++e) {
+  for (int e : own_) {
     const ElementNodes q = element_displacements(du, e);
     const std::size_t first = static_cast<std::size_t>(e) * n_p_;
     for (int k = 0; k < n_p_; ++k) {
@@ -56,7 +56,7 @@ void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
 void Equilibrium::pressures_from(const VecX& u) {
   const bool known = J_at_.size() == u.size() && J_at_ == u;
   if (!known && !assemble(u, false)) return;
-  for (int e = 0; e < mesh_.n_cells(); ++e) {
+  for (int e : own_) {
     const std::size_t first = static_cast<std::size_t>(e) * n_p_;
     pressures_of(e, &J_minus_1_[first], &p_[first]);
   }
@@ -71,13 +71,13 @@ void Equilibrium::extrapolate_pressures(const VecX& u_before, double s) {
 }
 
 void Equilibrium::move_pressures(const VecX& dp, double step) {
-  for (int e = 0; e < mesh_.n_cells(); ++e) p_[static_cast<std::size_t>(e)] += step * dp[e];
+  for (int e : own_) p_[static_cast<std::size_t>(e)] += step * dp[e];
 }
 
 Equilibrium::VolumetricPart Equilibrium::volumetric_part() const {
   const int n = mesh_.n_cells();
-  VolumetricPart part{dJ_du_, VecX(n), VecX(n), VecX(n)};
-  for (int e = 0; e < n; ++e) {
+  VolumetricPart part{dJ_du_, VecX::Zero(n), VecX::Zero(n), VecX::Zero(n)};
+  for (int e : own_) {
     const ModalVolume<double> volume =
         modal_volume(material(e).volume, n_p_, &J_minus_1_[static_cast<std::size_t>(e)], local_[e], geometry_[e]);
     part.V[e] = geometry_[e].V, part.kappa[e] = volume.kappa[0][0];
@@ -89,6 +89,9 @@ Equilibrium::VolumetricPart Equilibrium::volumetric_part() const {
       b = (dofs_.tie[nodes[a]].T.transpose() * b).eval();
     }
   }
+  if (!division_) return part;
+  division_->ranks->sum(part.b.data(), part.b.size());  // 0 in the cells of others
+  for (VecX* of_cells : {&part.V, &part.kappa, &part.missing}) division_->ranks->sum(of_cells->data(), of_cells->size());
   return part;
 }
 

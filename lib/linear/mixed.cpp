@@ -1,69 +1,96 @@
 #include "linear/mixed.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/traps.hpp"
 
 namespace langer {
 
-MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
-                         const petsc_module::Functions& module, int threads)
-    : pattern_(pattern), module_(module), cell_rows_(std::move(cell_rows)), cycle_(module.multigrid()) {
+namespace {
+
+// three times the number of its node, plus its axis: of each row
+std::vector<int> by_nodes(const std::vector<int>& dof_of_row) {
+  std::vector<int> out;
   int nodes = 0, last = -1;
   for (int dof : dof_of_row) {
     if (dof / 3 != last) last = dof / 3, ++nodes;
-    block_row_.push_back(3 * (nodes - 1) + dof % 3);
+    out.push_back(3 * (nodes - 1) + dof % 3);
   }
-  start_.assign(3 * static_cast<std::size_t>(nodes) + 1, 0);
+  return out;
+}
+
+int rows_of_nodes(const std::vector<int>& block_row) { return block_row.empty() ? 0 : block_row.back() / 3 * 3 + 3; }
+
+std::vector<int> in_nodes(std::vector<int> rows, const std::vector<int>& block_row) {
+  for (int& row : rows)
+    if (row >= 0) row = block_row[row];
+  return rows;
+}
+
+}  // namespace
+
+MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
+                         const petsc_module::Functions& module, int threads, const Division* division)
+    : pattern_(pattern),
+      module_(module),
+      ranks_(division ? division->ranks : nullptr),
+      cell_rows_(std::move(cell_rows)),
+      block_row_(by_nodes(dof_of_row)),
+      schur_(in_nodes(cell_rows_, block_row_), rows_of_nodes(block_row_), division, threads),
+      cycle_(module.multigrid(ranks_)) {
+  const auto rows = static_cast<std::size_t>(rows_of_nodes(block_row_));
+  start_.assign(rows + 1, 0);
   for (int column = 0; column < pattern.n; ++column)
     for (int at = pattern.column_start[column]; at < pattern.column_start[column + 1]; ++at) {
       ++start_[block_row_[column] + 1];
       if (pattern.row[at] != column) ++start_[block_row_[pattern.row[at]] + 1];
     }
   for (std::size_t row = 1; row < start_.size(); ++row) start_[row] = start_[row - 1] + std::max(start_[row], 1);
-
-  // cells that share a row
-  const int n = n_cells();
-  std::vector<std::vector<int>> cells_of(static_cast<std::size_t>(nodes));
-  for (int e = 0; e < n; ++e)
-    for (int a = 0; a < per_cell / 3; ++a)
-      for (int i = 0; i < 3; ++i)
-        if (const int row = cell_rows_[per_cell * e + 3 * a + i]; row >= 0) {
-          std::vector<int>& cells = cells_of[block_row_[row] / 3];
-          if (cells.empty() || cells.back() != e) cells.push_back(e);
-        }
-  schur_pattern_.n = n;
-  schur_pattern_.column_start.assign(1, 0);
-  std::vector<int> neighbours;
-  for (int e = 0; e < n; ++e) {
-    neighbours.assign(1, e);
-    for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0)
-        for (int f : cells_of[block_row_[row] / 3])
-          if (f > e) neighbours.push_back(f);
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-    schur_pattern_.row.insert(schur_pattern_.row.end(), neighbours.begin(), neighbours.end());
-    schur_pattern_.column_start.push_back(static_cast<int>(schur_pattern_.row.size()));
+  if (!division) {
+    own_.resize(static_cast<std::size_t>(n_cells()));
+    std::iota(own_.begin(), own_.end(), 0);
+    return;
   }
-  schur_ = std::make_unique<LinearSolver>(schur_pattern_, std::vector<int>{}, threads);
+  own_ = division->cells();
+  rank_of_node_.assign(rows / 3, -1);  // that of the first cell around it
+  for (std::size_t k = 0; k < cell_rows_.size(); ++k)
+    if (cell_rows_[k] >= 0)
+      if (int& rank = rank_of_node_[block_row_[cell_rows_[k]] / 3]; rank < 0) rank = division->rank_of[k / per_cell];
+  for (int& rank : rank_of_node_) rank = std::max(rank, 0);
 }
 
 VecX MixedSolver::gather(const std::vector<double>& b, const VecX& d) const {
   VecX out = VecX::Zero(n_cells());
-  for (Eigen::Index e = 0; e < out.size(); ++e)
+  for (int e : own_)
     for (int k = 0; k < per_cell; ++k)
       if (const int row = cell_rows_[per_cell * e + k]; row >= 0) out[e] += b[per_cell * e + k] * d[row];
+  if (ranks_) ranks_->sum(out.data(), static_cast<std::size_t>(out.size()));
   return out;
 }
 
-void MixedSolver::spread(const std::vector<double>& b, const VecX& q, VecX& f) const {
-  for (Eigen::Index e = 0; e < q.size(); ++e)
+void MixedSolver::spread_own(const std::vector<double>& b, const VecX& q, VecX& f) const {
+  for (int e : own_)
     for (int k = 0; k < per_cell; ++k)
       if (const int row = cell_rows_[per_cell * e + k]; row >= 0) f[row] += b[per_cell * e + k] * q[e];
 }
 
-void MixedSolver::fill(const std::vector<double>& A) {
+void MixedSolver::spread(const std::vector<double>& b, const VecX& q, VecX& f) const {
+  if (!ranks_) return spread_own(b, q, f);
+  VecX all = VecX::Zero(f.size());
+  spread_own(b, q, all);
+  ranks_->sum(all.data(), static_cast<std::size_t>(all.size()));
+  f += all;
+}
+
+VecX MixedSolver::diagonal_of(const std::vector<double>& A) const {
+  VecX diagonal(pattern_.n);
+  for (int row = 0; row < pattern_.n; ++row) diagonal[row] = A[pattern_.column_start[row]];
+  if (ranks_) ranks_->sum(diagonal.data(), static_cast<std::size_t>(diagonal.size()));
+  return diagonal;
+}
+
+void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
   const std::size_t rows = start_.size() - 1;
   if (column_.empty()) column_.resize(start_.back()), value_.resize(start_.back());
   std::vector<int> to(start_.begin(), start_.end() - 1);
@@ -73,18 +100,23 @@ void MixedSolver::fill(const std::vector<double>& A) {
       put(block_row_[pattern_.row[at]], block_row_[column], A[at]);
   double sum = 0;
   for (int column = 0; column < pattern_.n; ++column) {
-    sum += A[pattern_.column_start[column]];
+    sum += diagonal[column];
     for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
       put(block_row_[column], block_row_[pattern_.row[at]], A[at]);
   }
   inverse_diagonal_.assign(rows, 0);
+  const double held = ranks_ && !ranks_->first() ? 0 : sum / pattern_.n;
   for (std::size_t row = 0; row < rows; ++row)  // held directions of nodes that are free in others
-    if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), sum / pattern_.n);
-  for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / A[pattern_.column_start[row]];
+    if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), held);
+  for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / diagonal[row];
 }
 
 VecX MixedSolver::times(const VecX& x) const {
   VecX y(x.size());
+  if (ranks_) {
+    cycle_->times(x.data(), y.data());
+    return y;
+  }
   for (Eigen::Index row = 0; row < x.size(); ++row) {
     double sum = 0;
     for (int at = start_[row]; at < start_[row + 1]; ++at) sum += value_[at] * x[column_[at]];
@@ -93,41 +125,25 @@ VecX MixedSolver::times(const VecX& x) const {
   return y;
 }
 
-// L = B M^-1 B^T + D^-1
 bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed) {
   std::vector<double> scaled(b);  // B M^-1/2
   for (std::size_t k = 0; k < scaled.size(); ++k) {
     const int row = cell_rows_[k];
     scaled[k] *= row >= 0 && !fixed[row] ? std::sqrt(inverse_diagonal_[block_row_[row]]) : 0;
   }
-  std::vector<double> values(schur_pattern_.row.size());
-  std::vector<double> of_row(start_.size() - 1, 0);  // entries of a cell
-  for (int e = 0; e < n_cells(); ++e) {
-    for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) of_row[block_row_[row]] += scaled[per_cell * e + k];
-    for (int at = schur_pattern_.column_start[e]; at < schur_pattern_.column_start[e + 1]; ++at) {
-      const int f = schur_pattern_.row[at];
-      double sum = f == e ? inverse_D_[e] : 0;
-      for (int k = 0; k < per_cell; ++k)
-        if (const int row = cell_rows_[per_cell * f + k]; row >= 0) sum += scaled[per_cell * f + k] * of_row[block_row_[row]];
-      values[at] = sum;
-    }
-    for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) of_row[block_row_[row]] = 0;
-  }
-  return schur_->factorize(values);
+  return schur_.factorize(scaled, inverse_D_);
 }
 
 bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
                                const std::vector<char>& fixed, const MatX& rigid, std::string& why) {
   preconditioned_ = false;
-  for (int row = 0; row < pattern_.n; ++row)
-    if (!(A[pattern_.column_start[row]] > 0)) {
-      why = "the tangent has a diagonal entry that is not positive";
-      return false;
-    }
+  const VecX diagonal = diagonal_of(A);
+  if (!(diagonal.array() > 0).all()) {
+    why = "the tangent has a diagonal entry that is not positive";
+    return false;
+  }
   fixed_ = fixed;
-  fill(A);
+  fill(A, diagonal);
   inverse_D_ = D.cwiseInverse();
   if (!factorize_schur(b, fixed)) {
     why = "the Schur complement of the pressures is not positive definite";
@@ -136,9 +152,11 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
   MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
   for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
   const NoTraps in_petsc;
-  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data()};
+  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data(),
+                                rank_of_node_.data()};
   preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
   again_ = preconditioned_;
+  if (ranks_) column_ = {}, value_ = {};  // PETSc has the whole rows of this rank
   return preconditioned_;
 }
 
@@ -152,11 +170,11 @@ VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
     for (Eigen::Index row = 0; row < n; ++row) free[row] = fixed_[row] ? 0 : of[block_row_[row]];
   };
   const Eigen::Map<const VecX> M(inverse_diagonal_.data(), rows);
-  const VecX pressed = schur_->solve(r.tail(n_cells()));
+  const VecX pressed = schur_.solve(r.tail(n_cells()));
   spread(b, pressed, free);
   to_block();
   from_block(times(block.cwiseProduct(M)).cwiseProduct(M));
-  z.tail(n_cells()) = -schur_->solve(gather(b, free) + inverse_D_.cwiseProduct(pressed));
+  z.tail(n_cells()) = -schur_.solve(gather(b, free) + inverse_D_.cwiseProduct(pressed));
   free = VecX::Zero(n);
   spread(b, -z.tail(n_cells()), free);
   for (Eigen::Index row = 0; row < n; ++row) block[block_row_[row]] = r[row] + (fixed_[row] ? 0 : free[row]);
@@ -190,7 +208,7 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
     Eigen::Map<VecX>(to, all) = apply(b, Eigen::Map<const VecX>(from, all));
   };
   system.right_side = right.data(), system.solution = x.data();
-  system.relative = wanted / right.norm(), system.most = most;
+  system.relative = wanted / right.norm(), system.most = most, system.ranks = ranks_;
   const NoTraps in_petsc;
   const petsc_module::KrylovEnd end = module_.fgmres(system);
   x += begin;
@@ -199,8 +217,8 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
 
 double MixedSolver::bytes() const {
   // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors of GMRES
-  const double entries = start_.empty() ? 0 : start_.back();
-  return 2.6 * 12 * entries + schur_->size().factor_bytes + 8.0 * 2 * 20 * (pattern_.n + n_cells());
+  const double entries = start_.empty() ? 0 : start_.back(), share = ranks_ ? 1.0 / ranks_->n() : 1;
+  return (ranks_ ? 4 : 2.6) * 12 * entries + schur_.size().factor_bytes + 8.0 * 2 * 20 * share * (pattern_.n + n_cells());
 }
 
 }  // namespace langer

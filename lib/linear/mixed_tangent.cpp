@@ -16,17 +16,13 @@ constexpr double kept = 2;
 }  // namespace
 
 std::unique_ptr<MixedTangent> MixedTangent::of(const Equilibrium& body, int threads, std::string& why) {
-  if (body.formulation() != Formulation::mean_dilatation || body.mesh().cell().n_nodes != 8) {
-    why = "only 8-node hexahedra with a mean dilatation";
-    return nullptr;
-  }
   const petsc_module::Functions* module = petsc(why);
   if (!module) return nullptr;
   auto out = std::make_unique<MixedTangent>();
   const Dofs& dofs = body.dofs();
   out->cell_dofs_ = body.cell_dofs();
   for (int dof : out->cell_dofs_) out->cell_rows_.push_back(dofs.equation[dof]);
-  out->solver_ = std::make_unique<MixedSolver>(body.pattern(), dofs.free, out->cell_rows_, *module, threads);
+  out->solver_ = std::make_unique<MixedSolver>(body.pattern(), dofs.free, out->cell_rows_, *module, threads, body.division());
   Vec3 middle = Vec3::Zero();
   for (const Vec3& X : body.mesh().X) middle += X / static_cast<double>(body.mesh().X.size());
   out->rigid_ = MatX::Zero(dofs.n_free(), 6);
@@ -63,7 +59,7 @@ void MixedTangent::linearise(const Equilibrium& body, const VecX& du_prescribed)
 std::vector<double> MixedTangent::rest_of(const Equilibrium& body) const {
   std::vector<double> A = body.K();
   const Pattern& pattern = body.pattern();
-  for (Eigen::Index e = 0; e < V_.size(); ++e) {
+  for (int e : body.own_cells()) {
     const int* rows = &cell_rows_[n_dofs * e];
     const double* b = &b_[n_dofs * e];
     for (int j = 0; j < n_dofs; ++j) {

@@ -14,7 +14,7 @@ namespace langer {
 
 class MixedTangent {
  public:
-  // nullptr: such a body is not solved so, or PETSc is not at hand; `why`
+  // body: of 8-node hexahedra with a mean dilatation. nullptr: PETSc is not at hand, `why`
   static std::unique_ptr<MixedTangent> of(const Equilibrium& body, int threads, std::string& why);
 
   // As assembled last; du_prescribed: (3 n) movement of prescribed dofs still to be made. b() is then in the axes of the free rows.

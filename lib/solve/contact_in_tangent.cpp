@@ -161,11 +161,11 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
   return y;
 }
 
-// symmetric part of the system in the own axes, given movements taken out
-std::vector<double> ContactInTangent::matrix(bool with_friction) const {
+// symmetric part of the system in the own axes, given movements taken out; with_contact: of several ranks one adds it
+std::vector<double> ContactInTangent::matrix(bool with_friction, bool with_contact) const {
   std::vector<double> values = K_;
   for (const Candidate& c : candidates_) {
-    if (c.status != ContactStatus::slip || c.n == 1) continue;
+    if (!with_contact || c.status != ContactStatus::slip || c.n == 1) continue;
     Mat3 follows = -c.D;
     if (with_friction && c.friction()) follows.bottomRightCorner<2, 2>() += c.k * across(c.e) * c.T.bottomRightCorner<2, 2>();
     const Mat3 own = c.G.transpose() * (0.5 * (follows + follows.transpose())) * c.G;

@@ -80,9 +80,10 @@ class ContactInTangent {
   void turn(std::vector<double>& values) const;
   void turn_own_columns(const Candidate& c, std::vector<double>& values) const;
   VecX turned(const VecX& free, bool back) const;
-  std::vector<double> matrix(bool with_friction) const;
+  std::vector<double> matrix(bool with_friction, bool with_contact = true) const;
   VecX given(std::vector<char>& is_given) const;
   VecX times(const VecX& y) const;
+  VecX force_of(MixedTangent& mixed, const VecX& y, const VecX* q = nullptr) const;
   Vec3 change_of(const Candidate& c, const VecX& y, const VecX& Ky, double constants) const;
   VecX missing(const VecX& y, const VecX& Ky, double constants, const std::vector<char>& is_given) const;
   std::optional<Solved> solution(const LinearSolver& linear, bool exact, int& solutions) const;

@@ -30,7 +30,16 @@ bool ContactInTangent::precondition(MixedTangent& mixed) {
   MatX rigid = mixed.rigid();
   for (Eigen::Index k = 0; k < rigid.cols(); ++k) rigid.col(k) = turned(rigid.col(k), false);
   std::string why;
-  return mixed.solver().precondition(matrix(true), mixed.b(), mixed.D(), is_given, rigid, why);
+  const Ranks* ranks = mixed.solver().ranks();
+  return mixed.solver().precondition(matrix(true, !ranks || ranks->first()), mixed.b(), mixed.D(), is_given, rigid, why);
+}
+
+// A y + B^T q
+VecX ContactInTangent::force_of(MixedTangent& mixed, const VecX& y, const VecX* q) const {
+  VecX force = times(y);
+  if (q) mixed.solver().spread_own(mixed.b(), *q, force);
+  if (const Ranks* ranks = mixed.solver().ranks()) ranks->sum(force.data(), static_cast<std::size_t>(force.size()));
+  return force;
 }
 
 // K_ is A here, and Ky of what is returned A y + B^T q. from: y and q of a solution with other states of the candidates, and then of
@@ -41,20 +50,19 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
   const std::vector<double>& b = mixed.b();
   std::vector<char> is_given;
   Solved at{given(is_given), {}};
-  at.Ky = times(at.y);
+  at.Ky = force_of(mixed, at.y);
   const auto given_out = [&](VecX& d) {
     for (Eigen::Index row = 0; row < d.size(); ++row)
       if (is_given[static_cast<std::size_t>(row)]) d[row] = 0;
   };
   const VecX f = missing(at.y, at.Ky, 1, is_given), g = mixed.known_strain() - solver.gather(b, at.y);
+  const VecX diagonal = solver.diagonal_of(K_);
   const auto product = [&](const VecX& d, const VecX& q, VecX& of_f, VecX& of_g) {
     VecX own = d;
     given_out(own);
-    VecX force = times(own);
-    solver.spread(b, q, force);
-    of_f = -missing(own, force, 0, is_given);
+    of_f = -missing(own, force_of(mixed, own, &q), 0, is_given);
     for (Eigen::Index row = 0; row < own.size(); ++row)
-      if (is_given[static_cast<std::size_t>(row)]) of_f[row] = K_[pattern_.column_start[row]] * d[row];
+      if (is_given[static_cast<std::size_t>(row)]) of_f[row] = diagonal[row] * d[row];
     of_g = solver.gather(b, own) - q.cwiseQuotient(mixed.D());
   };
   if (from.d.size() > 0) given_out(from.d);
@@ -65,8 +73,7 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
   given_out(from.d);
   at.y += from.d;
   from.d = at.y;
-  at.Ky = times(at.y);
-  solver.spread(b, from.q, at.Ky);
+  at.Ky = force_of(mixed, at.y, &from.q);
   dp = mixed.pressures(solver.gather(b, at.y), from.q);
   return at;
 }

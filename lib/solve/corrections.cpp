@@ -102,6 +102,7 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
     const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
     answer = factor_.in_tangent()->solve({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_, rhs,
                                          *mixed, dp_);
+    if (!answer && equilibrium_.division()) return std::nullopt;  // shorter increments are left
     if (!answer) factor_.take_factor(equilibrium_), dp_.resize(0);
   }
   if (!answer) {

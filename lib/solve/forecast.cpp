@@ -92,6 +92,7 @@ Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::
     for (const RigidContact& contact : contacts) candidates += static_cast<double>(contact.nodes.size());
     out.bytes += 8 * 9 * (6 * covered * covered + 2 * covered * candidates);
   }
+  if (body.division()) body.division()->ranks->sum(&out.bytes, 1);
   const bool friction = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& c) { return c.mu > 0; });
   // 2.3 iterations in steps of 0.01 of the path, 3.7 in steps of 0.1; with tangents used again 1.3 and 2.4, and 6 to 8 corrections
   // with them, and with friction 3.8 in steps of 0.25: measured on the indentation

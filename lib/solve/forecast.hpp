@@ -33,6 +33,7 @@ struct CorrectionsBy {
   const MixedSolver* mixed = nullptr;
 };
 
+// Of a body divided among ranks: the memory of all, the time of each; all of them call it.
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
 Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::vector<RigidContact>& contacts,
                   const LoadPathOptions& path, const std::vector<double>& stops, const CorrectionsBy& by);

@@ -32,12 +32,24 @@ bool with_friction(const std::vector<RigidContact>& contacts) {
 
 }  // namespace
 
+std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation, const std::vector<RigidContact>& contacts,
+                          bool follows, LinearBy linear_by) {
+  if (linear_by == LinearBy::direct) return "linear: direct asks for one";
+  if (linear_by == LinearBy::automatic && dofs.n_free() < large) return "it is small, and quickly factorized";
+  if (!contacts.empty() && !zero_energy_modes(mesh, dofs).empty()) return "only contact holds the body";
+  if (!ContactInTangent::serves(contacts)) return "an indenter adheres or is pushed with a given force, or two may touch one node";
+  if (follows) return "pressures follow the surface";
+  if (formulation != Formulation::mean_dilatation || mesh.cell().n_nodes != 8)
+    return "only 8-node hexahedra with a mean dilatation";
+  return "";
+}
+
 TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, ContactBy contact_by,
                              LinearBy linear_by)
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
   const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
-  if (take_iterative(body, contacts, loose, linear_by)) return;
+  if (take_iterative(body, contacts, linear_by)) return;
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
   const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);
@@ -69,18 +81,9 @@ void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector
   linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
 }
 
-bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, bool loose,
-                                   LinearBy linear_by) {
-  if (linear_by == LinearBy::direct || (linear_by == LinearBy::automatic && body.dofs().n_free() < large)) return false;
-  std::string why;
-  if (loose)
-    why = "only contact holds the body";
-  else if (!ContactInTangent::serves(contacts))
-    why = "an indenter adheres or is pushed with a given force, or two may touch one node";
-  else if (body.loads().follow())
-    why = "pressures follow the surface";
-  else
-    mixed_ = MixedTangent::of(body, threads_, why);
+bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, LinearBy linear_by) {
+  std::string why = why_by_factor(body.mesh(), body.dofs(), body.formulation(), contacts, body.loads().follow(), linear_by);
+  if (why.empty()) mixed_ = MixedTangent::of(body, threads_, why);
   if (mixed_) {
     in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
   } else if (linear_by == LinearBy::iterative) {

@@ -23,6 +23,10 @@ namespace langer {
 // and deep in tangent_factor.cpp)
 enum class ContactBy { by_cost, compliance, tangent };
 
+// Why a body has to be solved by a factor; "" where it may be solved without (if PETSc is at hand). follows: pressures the surface
+std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation, const std::vector<RigidContact>& contacts,
+                          bool follows, LinearBy linear_by);
+
 class TangentFactor {
  public:
   enum class Kind { none, whole, supported, indefinite };
@@ -43,7 +47,7 @@ class TangentFactor {
   // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
   MixedTangent* mixed() const { return by_factor_ ? nullptr : mixed_.get(); }
   bool iterative() const { return mixed_ != nullptr; }
-  // In the rest of this increment by a factor, as the iterative solution did not converge. The next one begins as if nothing had been, so
+  // In the rest of this increment by a factor, which only one rank can make, as the iterative solution did not converge. The next one begins as if nothing had been, so
   // that an interrupted path goes on with the same digits.
   void take_factor(const Equilibrium& body);
   bool gave_up_iterating() const { return gave_up_; }  // ever
@@ -69,7 +73,7 @@ class TangentFactor {
   void uncount(const Counts& before) { counts_.indefinite = before.indefinite, counts_.unstable = before.unstable; }
 
  private:
-  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, bool loose, LinearBy linear_by);
+  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, LinearBy linear_by);
   void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Equilibrium& body);
 

@@ -12,8 +12,9 @@ inline Directions directions(const Mesh& mesh, const std::vector<Material>& mate
 }
 
 inline Equilibrium equilibrium(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation, Dofs dofs,
-                               int threads = 1, Kernel kernel = Kernel::packets) {
-  return Equilibrium(mesh, materials, directions(mesh, materials), formulation, std::move(dofs), threads, kernel);
+                               int threads = 1, Kernel kernel = Kernel::packets, std::optional<Division> division = {}) {
+  return Equilibrium(mesh, materials, directions(mesh, materials), formulation, std::move(dofs), threads, kernel, {},
+                     std::move(division));
 }
 
 inline Body body(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation) {

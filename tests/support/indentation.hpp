@@ -30,6 +30,7 @@ struct Indentation {
   bool loose_base = false;  // the bottom may glide in x
   ContactBy contact_by = ContactBy::by_cost;
   NewtonOptions newton;
+  const Ranks* ranks = nullptr;                                                      // that share the cells
   std::optional<KinsolOptions> kinsol;                                               // in place of newton
   std::function<void(Equilibrium&, const Statics&, const LoadPathOptions&)> before;  // told before the first step
   std::function<void(const Statics&, const Equilibrium&)> after;                     // told after each step
@@ -72,8 +73,11 @@ struct Indentation {
     if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
+    std::optional<Division> division;
+    if (ranks)
+      division = Division{ranks, ranks->divide(result.mesh.connectivity, nodes_per_cell(result.mesh.type), result.mesh.n_nodes())};
     Equilibrium body = equilibrium(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
-                                   number_dofs(result.mesh.n_nodes(), held).dofs, threads);
+                                   number_dofs(result.mesh.n_nodes(), held).dofs, threads, Kernel::packets, division);
     StaticsOptions options;
     options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by,
     options.linear_by = newton.linear;

@@ -45,6 +45,14 @@ const petsc_module::Functions* petsc(std::string& why) {
   return functions;
 }
 
+Ranks* begin_ranks(std::string& why) {
+  if (launched().n < 2) return nullptr;
+  const petsc_module::Functions* module = petsc(why);
+  if (!module) return nullptr;
+  const NoTraps in_its_libraries;
+  return ranks() = module->ranks(why);
+}
+
 void end_petsc() {
   if (functions) functions->end();
 }
