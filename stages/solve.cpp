@@ -18,21 +18,53 @@ namespace {
 
 using Law = std::optional<Material>;
 
+std::string one_rank(const Job<SolveConfig>& job) {
+  return ranks() ? why_one_rank(job.config, job.has("mirror") && !job.dry_run) : "";
+}
+
+void say_alone(const Job<SolveConfig>& job, const std::string& why) {
+  job.say("{} of {} ranks have nothing to do: {}", ranks()->n() - 1, ranks()->n(), why);
+}
+
+// What the other ranks do while rank 0 speaks and writes.
+std::vector<Summary> beside_first(Run& run, bool dry_run, const SolveConfig& config) {
+  if (!run.shared_by()) return {};
+  if (dry_run) {
+    forecast_of(config, run.body, run.statics, run.scene.stops);
+    return {};
+  }
+  by_first(run.shared_by(), [] { return true; });
+  run.resume_all();
+  run.follow();
+  return {};
+}
+
 // Nothing where another model is to be solved now.
 std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material, const ParameterKnowledge& known,
                                              ModelChoice& model) {
   SolveConfig config = model.config();
-  Run run(model.mesh(), config, material, job.where, model.at_a_point());
+  Run run(model.mesh(), config, material, job.where, model.at_a_point(), one_rank(job).empty());
+  if (ranks() && !ranks()->first()) return beside_first(run, job.dry_run, config);
+  if (!run.why_alone.empty()) say_alone(job, run.why_alone);
   const double jump = say_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, material, job.where, run);
   RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run) return say_forecast(job.voice(), config, material, job.where, run, watch);
-  need_memory(run.statics, watch.of_mesh(), config.threads);
-  const std::string loose = held_by_contact(run, job.where);
-  Sensitivity sensitivity(run, config, job.where);
-  const Uncertainty uncertainty(known, run, sensitivity);
   RecoveredPath recovered(run, config, config.estimate == EstimateBy::recovery);
-  Recording recording(run, watch, config, job.identity, job.output, recovered.beside(uncertainty.beside(sensitivity.companion())));
+  std::string loose;
+  std::optional<Sensitivity> sensitivity;
+  std::optional<Uncertainty> uncertainty;
+  std::optional<Recording> kept;
+  by_first(run.shared_by(), [&] {
+    need_memory(run.statics, watch.of_mesh(), config.threads);
+    loose = held_by_contact(run, job.where);
+    sensitivity.emplace(run, config, job.where);
+    uncertainty.emplace(known, run, *sensitivity);
+    kept.emplace(run, watch, config, job.identity, job.output, recovered.beside(uncertainty->beside(sensitivity->companion())));
+    return true;
+  });
+  Recording& recording = *kept;
+  run.resume_all();
   Progress progress(job.voice(), run);
   const Interruptible at_the_end_of_a_step;
   std::optional<EndsSoon> steps_are_kept(std::in_place, SIGINT);
@@ -48,9 +80,9 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
   if (again && interrupted()) recording.stopped_in_estimate();
   if (again) return {};
   all_is_kept.reset();
-  const auto forces = uncertainty.of(end.last);
+  const auto forces = uncertainty->of(end.last);
   say_forces(job.voice(), known, forces, estimate.at_end);
-  const auto said = joined({sensitivity.summary(end.last), summary_of(forces), summary_of(estimate.at_end),
+  const auto said = joined({sensitivity->summary(end.last), summary_of(forces), summary_of(estimate.at_end),
                             model.summary(estimate.at_end), watch.contact_summary()});
   recording.finish(said, histories_of(estimate));
   progress.finished(end.path, run.statics, recording.seconds());
@@ -61,6 +93,12 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
 
 std::vector<Summary> solve(const Job<SolveConfig>& given) {
   Job<SolveConfig> job = given;
+  std::optional<Interruptible> until_first_ends;
+  if (ranks() && !ranks()->first()) until_first_ends.emplace();
+  if (const std::string why = one_rank(job); !why.empty()) {
+    if (!ranks()->first()) return {};
+    say_alone(job, why);
+  }
   const std::string file = job.has("material") ? job.input("material") : "", mesh = job.has("mesh") ? job.input("mesh") : "";
   const Law material = job.has("material") ? Law(material_of_body(file)) : job.config.material;
   const ParameterKnowledge known = take_uncertain(job.config, file, job.where);

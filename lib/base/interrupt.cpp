@@ -16,7 +16,12 @@ timespec seen_at;
 
 bool is_awaited(int signal) { return patience == any || patience == signal; }
 
-void say(const char* words) { [[maybe_unused]] const ssize_t n = write(2, words, std::char_traits<char>::length(words)); }
+bool other_speaks = false;
+
+void say(const char* words) {
+  if (!other_speaks) [[maybe_unused]]
+    const ssize_t n = write(2, words, std::char_traits<char>::length(words));
+}
 
 [[noreturn]] void end_at_once(int signal) {
   say(signal == SIGINT ? "ended by SIGINT\n" : "ended by SIGTERM\n");
@@ -47,7 +52,8 @@ void on_signal(int signal) {
 
 }  // namespace
 
-void listen_to_signals() {
+void listen_to_signals(bool silent) {
+  other_speaks = silent;
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;  // writing and reading go on
@@ -77,6 +83,10 @@ EndsSoon::~EndsSoon() {
 }
 
 int interrupted() { return signal_seen; }
+
+void note_signal(int signal) {
+  if (signal_seen == 0) signal_seen = signal;
+}
 
 Exit exit_code_of(int signal) { return static_cast<Exit>(128 + signal); }
 

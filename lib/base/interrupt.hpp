@@ -8,7 +8,8 @@
 namespace langer {
 
 // Call once, first of all. Also: a closed pipe and a file beyond the size limit become errors of writing, not deaths.
-void listen_to_signals();
+// silent: another rank speaks
+void listen_to_signals(bool silent = false);
 
 // While one of these lives, the first signal waits for interrupted() to be asked.
 class Interruptible {
@@ -30,7 +31,8 @@ class EndsSoon {
   EndsSoon& operator=(const EndsSoon&) = delete;
 };
 
-int interrupted();  // the signal, 0 where none has come
+int interrupted();             // the signal, 0 where none has come
+void note_signal(int signal);  // that has come to another rank
 
 Exit exit_code_of(int signal);
 const char* signal_name(int signal);  // "SIGINT"

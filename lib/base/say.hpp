@@ -18,6 +18,8 @@ namespace langer {
 namespace said {
 inline std::FILE* log = nullptr;
 inline bool status = false;  // a status line stands on the terminal
+inline bool silent = false;  // another rank speaks
+inline std::string unsaid;   // then: what this one said last
 }  // namespace said
 
 inline bool on_terminal() {
@@ -34,6 +36,10 @@ inline bool in_colour() {
 }
 
 inline void say_raw(const std::string& shown, const std::string& plain) {
+  if (said::silent) {
+    said::unsaid = plain;
+    return;
+  }
   const std::string text = (said::status ? "\r\033[K" : "") + shown + "\n";
   said::status = false;
   std::fwrite(text.data(), 1, text.size(), stderr);
@@ -64,7 +70,7 @@ inline void say_error(const std::string& lines) {
 
 // replaces the status line; nothing where nobody could see it replaced
 inline void say_status(const std::string& line) {
-  if (!on_terminal()) return;
+  if (!on_terminal() || said::silent) return;
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   const std::string text = "\r\033[K" + line.substr(0, known ? size.ws_col - 1u : 79u);

@@ -61,6 +61,9 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
     line("body",
          fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().cell().names.shape,
                      body.mesh().n_nodes(), body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
+    if (const Division* division = body.division())
+      line("ranks", fmt::format("{} ranks, {} cells on this one; memory of all, time of each", division->ranks->n(),
+                                body.own_cells().size()));
     const int families = scene.families();
     line("fibres", families == 0 ? "off, not in the material"
                                  : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",

@@ -38,10 +38,10 @@ const Mesh& Reduction::mesh() const { return point_ ? point_->mesh() : part_ ? p
 
 const Scene& Reduction::scene() const { return point_ ? point_->scene() : part_ ? part_->scene() : scene_; }
 
-Equilibrium Reduction::equilibrium() const {
+Equilibrium Reduction::equilibrium(std::optional<Division> division) const {
   const std::vector<double> share = part_ ? part_->cell_share() : std::vector<double>{};
   Equilibrium body(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs, point_ ? 1 : threads_,
-                   Kernel::packets, share);
+                   Kernel::packets, share, std::move(division));
   if (!scene().loads.empty()) body.set_loads({mesh(), scene().loads, share});
   return body;
 }

@@ -33,7 +33,7 @@ class Reduction {
   Kind kind() const;
   const Mesh& mesh() const;  // of the part, as what follows
   const Scene& scene() const;
-  Equilibrium equilibrium() const;
+  Equilibrium equilibrium(std::optional<Division> division = {}) const;
   Solver solver(const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
   std::string words() const;                 // "symmetry: half turn about y through (18, 18): 6160 of 12320 cells"; empty for none
 

@@ -8,6 +8,7 @@
 
 #include "nonlinear/load_path.hpp"
 #include "run/reduction.hpp"
+#include "run/shared_run.hpp"
 
 namespace langer {
 
@@ -33,8 +34,9 @@ class Run {
  public:
   using Where = std::function<Place(const std::string&)>;
 
-  // at_a_point: one hexahedron may stand for a body that deforms alike everywhere
-  Run(Mesh mesh, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point = false);
+  // at_a_point: one hexahedron may stand for a body that deforms alike everywhere; by_ranks: cells may be divided among those there are
+  Run(Mesh mesh, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point = false,
+      bool by_ranks = false);
   // of a scene that is there, or what is left of it
   Run(Mesh mesh, Scene scene, const std::optional<ReducedScene>& part, const LoadPathOptions& path, Solver solver,
       const StaticsOptions& options = {});
@@ -44,20 +46,26 @@ class Run {
   const Mesh mesh;
   const Scene scene;  // of the whole body
   const Reduction reduction;
-  Equilibrium body;  // balance of the part
+  std::string why_alone;  // where it is not divided among ranks that are there
+  Equilibrium body;       // balance of the part
   Statics statics;
   LoadPathOptions path;
   Solver solver;
 
   // To go on after `last`; before: the step before it, none where that was the body at rest.
   void resume(const StepRecord& last, const std::optional<StepRecord>& before);
+  // Divided among ranks: puts the others where rank 0 goes on from.
+  void resume_all();
   // Before that, of a viscous body: every step so far, in order. Its branches follow from them to the last digit.
   void replay(const StepRecord& step);
-  // From where it stands to t = 1. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
+  const Ranks* shared_by() const { return body.division() ? body.division()->ranks : nullptr; }
+  // From where it stands to t = 1; of several ranks rank 0 alone has a listener and the last record. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
   RunEnd follow(const RunListener& listener = {});
 
  private:
+  RunEnd::At told(const RunListener& listener, double t, double taken, double next, const SolveReport& report, RunEnd& end);
   std::optional<double> increment_;  // to begin with
+  std::optional<Resumed> resumed_;
 };
 
 }  // namespace langer

@@ -54,8 +54,9 @@ Progress::Progress(const Voice& voice, const Run& run)
     : voice_(voice), live_(rewrites(voice)), contact_(!run.scene.contacts.empty()), start_(wall_seconds()) {
   const Scene& scene = run.reduction.scene();
   const int families = scene.families();
-  voice_.say("{}; fibre families: {}; contacts: {}", sizes(run), families == 0 ? "none" : std::to_string(families),
-             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()));
+  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run), families == 0 ? "none" : std::to_string(families),
+             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()),
+             run.shared_by() ? fmt::format("; {} ranks", run.shared_by()->n()) : "");
 }
 
 void Progress::resumed(int steps, double t) {

@@ -19,6 +19,7 @@
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
 #include "base/memory.hpp"
+#include "base/ranks.hpp"
 #include "base/say.hpp"
 #include "base/stopwatch.hpp"
 #include "base/traps.hpp"
@@ -29,6 +30,7 @@
 namespace langer {
 
 void put_out(const std::string& text) {
+  if (said::silent) return;
   errno = 0;
   if ((std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) && errno != EPIPE)
     throw Failure(Exit::input, Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
@@ -47,6 +49,7 @@ RunLog::~RunLog() {
 }
 
 void RunLog::open(const std::string& path, const std::string& command, bool goes_on) {
+  if (said::silent) return;
   need_own_log(path);
   std::error_code failed;  // a folder that cannot be made has no file either
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
@@ -79,11 +82,16 @@ void end_log(int code) {
                cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
 }
 
+// why this rank has failed, where the one that speaks has not
+void say_of_rank(const char* why) { std::fprintf(stderr, "rank %d: %s\n", launched().rank, why); }
+
 // The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
 // (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
 [[noreturn]] void leave(int code) {
   std::fflush(nullptr);
-  if (code != static_cast<int>(Exit::input)) end_petsc();
+  if (said::silent && !ranks() && code != 0) sleep(1);  // the first to fail ends all: let it be the one that speaks
+  if (ranks()) code = ranks()->end(code, code != 0, say_of_rank, said::unsaid);
+  if (ranks() || code != static_cast<int>(Exit::input)) end_petsc();
 #ifdef LANGER_SANITIZE
   __lsan_do_leak_check();
 #endif
@@ -97,10 +105,12 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
     say_line("{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)", program, what);
     return static_cast<int>(Exit::input);
   };
-  listen_to_signals();
+  listen_to_signals(said::silent);
   set_traps();
   try {
     return body();
+  } catch (const EndedByFirst&) {
+    return static_cast<int>(Exit::ok);  // with the code of rank 0
   } catch (const Failure& failure) {
     say_error(failure.what());
     return static_cast<int>(failure.code());
@@ -121,6 +131,8 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
 }  // namespace
 
 int guarded(const std::string& program, const std::function<int()>& body) {
+  said::silent = launched().rank > 0;
+  if (said::silent && program != shared_by_ranks) _exit(0);
   const int code = exit_code_after(program, body);
   end_log(code);
   leave(code);

@@ -22,6 +22,9 @@ class RunLog {
   void open(const std::string& path, const std::string& command, bool goes_on);
 };
 
+// The only program whose work several ranks share; of any other those beside the first end at once.
+inline constexpr const char* shared_by_ranks = "langer-solve";
+
 // Runs the body, turns what it throws into a message and an exit code, and leaves the program.
 [[noreturn]] int guarded(const std::string& program, const std::function<int()>& body);
 

@@ -5,7 +5,9 @@
 
 #include "arguments.hpp"
 #include "base/memory.hpp"
+#include "base/ranks.hpp"
 #include "base/stopwatch.hpp"
+#include "linear/petsc/load.hpp"
 #include "pipeline/effective.hpp"
 #include "pipeline/ports.hpp"
 #include "store/lock.hpp"
@@ -13,6 +15,15 @@
 namespace langer {
 
 namespace {
+
+// What one rank does for all.
+template <class Work>
+void first(Work work) {
+  by_first(ranks(), [&] {
+    work();
+    return true;
+  });
+}
 
 // -v: what this run is made from
 void say_inputs(const Identity& identity, const std::string& program) {
@@ -80,11 +91,13 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
   need_one_source(spec, tree, ports);
   ReadConfig config = own.read(std::move(tree));
   task.where = config.where;
-  if (!task.dry_run) need_output(task.output, given.config_file, task.inputs);
+  if (!task.dry_run) first([&] { need_output(task.output, given.config_file, task.inputs); });
   task.identity = identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);
-  if (!task.dry_run) need_replaceable(task.output);  // by now it is known what the config names
-  begin_beside(task.output);
+  first([&] {
+    if (!task.dry_run) need_replaceable(task.output);  // by now it is known what the config names
+    begin_beside(task.output);
+  });
   return config;
 }
 
@@ -95,10 +108,21 @@ void need_own_files(const CommandLine& given, const Task& task) {
     throw Failure(Exit::input, Error{{given.log}, "", "is the output too", "another name for --log", ""});
 }
 
+// Says once what becomes of those that were started together. False on ranks that have nothing to do.
+bool take_ranks(const std::string& program, bool quiet) {
+  const Launched started = launched();
+  if (started.n == 1) return true;
+  std::string why = program + " is the work of one process";
+  if (program == shared_by_ranks && begin_ranks(why)) return true;
+  if (started.rank > 0) return false;
+  if (!quiet) say_line("{}: {} of {} ranks have nothing to do: {}", program, started.n - 1, started.n, why);
+  return true;
+}
+
 int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept, const std::string& command,
         const StageWork& own) {
   need_own_files(given, task);
-  if (!given.log.empty()) kept.open(given.log, command, std::filesystem::exists(task.output + ".part"));
+  if (!given.log.empty()) first([&] { kept.open(given.log, command, std::filesystem::exists(task.output + ".part")); });
   const ReadConfig config = read_task(task, spec, given, command, own);
   if (task.verbose) say_inputs(task.identity, "langer-" + std::string(spec.name));
   if (task.dry_run && !spec.forecasts) {
@@ -108,7 +132,7 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kep
     return static_cast<int>(Exit::ok);
   }
   std::optional<OutputLock> lock;
-  if (!task.dry_run) lock.emplace(task.output, task.identity.command);
+  if (!task.dry_run) first([&] { lock.emplace(task.output, task.identity.command); });
   const std::vector<Summary> results = own.work();
   if (task.verbose)
     say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
@@ -138,6 +162,7 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
       say_error(fmt::format("{}: --output is required\n  hint: {} --help", program, program));
       return static_cast<int>(Exit::config);
     }
+    if (!take_ranks(program, task.quiet)) return static_cast<int>(Exit::ok);
     return run(task, spec, given, kept, command_line(argc, argv), own);
   });
 }

@@ -1,0 +1,113 @@
+# mpirun -n N langer-solve: N ranks give what one gives, the same bits for the same N, and rank 0 alone speaks and writes. Killed or stopped
+# they go on with the same bits; where there is nothing to share the others are idle; where one fails none is left waiting.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(folder ${WORK}/project)
+run(0 ${BIN}/langer doctor)
+find_program(mpirun mpirun)
+if(NOT said MATCHES "yes  petsc" OR NOT mpirun)
+  message("not tried: PETSc or mpirun is not here")
+  return()
+endif()
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT_CONFIRM} 1)
+macro(by ranks)
+  set(launch timeout -s KILL 300 ${mpirun} --oversubscribe -n ${ranks})
+endmacro()
+macro(expect_same found wanted)
+  run(0 ${BIN}/langer-compare-h5 ${found} ${wanted} 0 --data)
+endmacro()
+
+run(0 ${BIN}/langer-mesh configs/mesh/smoke.yaml -o mesh.h5 --quiet)
+set(config configs/solve/smoke.yaml --mesh mesh.h5 --material configs/material/abdomen_hgo_yeoh.yaml --set symmetry=none)
+set(solve ${BIN}/langer-solve ${config})
+set(iterative ${solve} --set solver.newton.linear=iterative --set solver.newton.relative=1e-10)
+
+# friction, fibres: as one rank to 1e-8, twice the same
+run(0 ${iterative} -o alone.h5)
+by(1)
+run(0 ${launch} ${iterative} --quiet -o one.h5)
+expect_same(one.h5 alone.h5)
+foreach(n 2 3)
+  by(${n})
+  run(0 ${launch} ${iterative} -o ${n}a.h5 --json)
+  string(REGEX MATCHALL "step   1 " steps "${said}")
+  expect_equal("${steps}" "step   1 " "steps of ${n} ranks, said once")
+  string(REGEX MATCHALL "\"stage\"" results "${said}")
+  expect_equal("${results}" "\"stage\"" "results of ${n} ranks, said once")
+  run(0 ${launch} ${iterative} --quiet -o ${n}b.h5)
+  expect_same(${n}a.h5 ${n}b.h5)
+  execute_process(COMMAND ${BIN}/langer-compare-h5 ${n}a.h5 alone.h5 1e-8 --data WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT said MATCHES "datasets, largest" OR said MATCHES "/(u|reaction|force_ind|gap|r|status|pressure|bottom|iterations|energy):")
+    message(FATAL_ERROR "${n} ranks and one differ:\n${said}")
+  endif()
+endforeach()
+foreach(symmetry quarter half_turn)  # nodes that move as others do
+  run(0 ${iterative} --set symmetry=${symmetry} --quiet --json -o ${symmetry}.h5)
+  string(REGEX MATCH "\"force_N\": ([0-9.]+)" _ "${said}")
+  string(SUBSTRING "${CMAKE_MATCH_1}" 0 9 wanted)
+  by(2)
+  run(0 ${launch} ${iterative} --set symmetry=${symmetry} --quiet --json -o ${symmetry}.h5)
+  string(REGEX MATCH "\"force_N\": ([0-9.]+)" _ "${said}")
+  string(SUBSTRING "${CMAKE_MATCH_1}" 0 9 found)
+  expect_equal("${found}" "${wanted}" "force of a ${symmetry} by two ranks")
+endforeach()
+by(2)
+run(0 ${launch} ${iterative} --dry-run)
+expect_said("2 ranks")
+
+# nothing to share
+run(0 ${solve} --quiet -o factor.h5)
+run(0 ${launch} ${solve} -o idle.h5)
+expect_said("1 of 2 ranks have nothing to do: it is small, and quickly factorized")
+expect_same(idle.h5 factor.h5)
+run(0 ${launch} ${solve} --set solver.newton.linear=iterative --set estimate=dual -o idle.h5)
+expect_said("1 of 2 ranks have nothing to do: the estimate of its errors")
+run(0 ${launch} ${BIN}/langer-post configs/post/smoke.yaml --solution 2a.h5 -o curves.h5)
+expect_said("1 of 2 ranks have nothing to do: langer-post is the work of one process")
+
+# the same code on all, said once; a failure of one ends the others
+run(2 ${launch} ${iterative} --set path.frist=1 -o no.h5)
+string(REGEX MATCHALL "unknown key" errors "${said}")
+expect_equal("${errors}" "unknown key" "an error of all ranks, said once")
+run(2 ${launch} ${iterative} --set formulation=displacement -o no.h5)
+expect_said("only 8-node hexahedra")
+run(3 ${launch} ${iterative} -o ${folder}/mesh.h5/no.h5)
+expect_said("cannot be made")
+run(4 ${launch} ${iterative} --set path.first=0.5 --set path.smallest=0.4 --set solver.newton.iterations=1 -o no.h5)
+expect_said("smallest increment reached")
+file(MAKE_DIRECTORY ${folder}/other/configs)
+file(COPY ${folder}/configs/solve DESTINATION ${folder}/other/configs)
+file(COPY ${folder}/mesh.h5 DESTINATION ${folder}/other)
+string(REPLACE ";" " " words "${iterative}")
+run(3 ${mpirun} --oversubscribe -n 1 ${iterative} -o no.h5 : -n 1 sh -c "cd other && exec ${words} -o no.h5")
+expect_said("rank 1: ")
+expect_said("abdomen_hgo_yeoh.yaml")
+
+# stopped: the signal comes to one rank, all end after this step
+set(many ${solve} --set solver.newton.linear=iterative --quiet --set path.first=0.02 --set path.largest=0.02 -o)
+by(2)
+run(0 ${launch} ${many} whole/solution.h5)
+string(REPLACE ";" " " words "${launch};${many}")
+file(WRITE ${WORK}/stop.sh "
+${words} stopped/solution.h5 &
+for i in $(seq 600); do
+  [ -s stopped/solution.h5.steps ] && [ $(stat -c %s stopped/solution.h5.steps) -gt 100000 ] && break
+  sleep 0.05
+done
+kill -TERM $(pgrep -P $(pgrep -P $!) | tail -1)
+wait $!
+")
+file(MAKE_DIRECTORY ${folder}/stopped)
+run(143 bash ${WORK}/stop.sh)
+expect_said("stopped by SIGTERM")
+run(0 ${launch} ${solve} --set solver.newton.linear=iterative --set path.first=0.02 --set path.largest=0.02 -o stopped/solution.h5)
+expect_said("continues after")
+expect_same(stopped/solution.h5 whole/solution.h5)
+
+# killed
+kill_until_done(killed/solution.h5 900 250 27 ${mpirun} --oversubscribe -n 2 ${many} killed/solution.h5)
+if(kept EQUAL 0)
+  message(FATAL_ERROR "no attempt was killed on its way: the scene is too small for this test")
+endif()
+expect_same_curves(configs/post/smoke.yaml)
