@@ -141,3 +141,29 @@ langer-plan launched.yaml --quiet || fail "langer-plan launched.yaml"
 salloc --quiet -n $cpus make --no-print-directory -C runs/launched -j64 LAUNCH="srun --quiet -n1 --exact" || fail "make with LAUNCH=srun"
 [ -s runs/launched/table/table.csv ] || fail "no table"
 echo "launched: $(find runs/launched -name '*.log' | wc -l) steps by srun"
+
+# 4. one solution by two ranks of a job step, and a pipeline whose steps all have two: those of other programs leave
+if ! langer doctor 2> /dev/null | grep -q "yes  petsc" || ! srun --mpi=list 2>&1 | grep -q pmix; then
+  echo "two ranks: not tried, PETSc or Slurm's PMIx is not here"
+  exit 0
+fi
+srun="srun --quiet --mpi=pmix -n 2 --kill-on-bad-exit"
+set -- langer-solve configs/solve/smoke.yaml --mesh runs/launched/mesh/mesh.h5 --material configs/material/abdomen_hgo_yeoh.yaml \
+  --set symmetry=none --set solver.newton.linear=iterative --set solver.newton.relative=1e-10
+"$@" --quiet -o alone.h5 || fail "the same by one rank"
+timeout 120 $srun "$@" -o ranks.h5 > ranks.txt 2>&1 || fail "srun of two ranks: $(cat ranks.txt)"
+[ "$(grep -c '; 2 ranks$' ranks.txt)" = 1 ] || fail "two ranks do not say so, once: $(cat ranks.txt)"
+for name in VTKHDF/PointData/u VTKHDF/PointData/reaction history/force_ind; do
+  langer-compare-h5 alone.h5 ranks.h5 1e-8 --data 2>&1 | grep -q "$name:" && fail "two ranks and one differ in $name"
+done
+timeout 120 $srun "$@" --set path.frist=1 -o no.h5 > wrong.txt 2>&1
+[ $? = 2 ] && [ "$(grep -c 'unknown key' wrong.txt)" = 1 ] || fail "an error of two ranks: $(cat wrong.txt)"
+timeout 120 srun --quiet --mpi=none -n 2 "$@" -o lonely.h5 > lonely.txt 2>&1 || fail "two processes that do not know of each other: $(cat lonely.txt)"
+langer-compare-h5 alone.h5 lonely.h5 0 --data || fail "one of two processes has another result"
+[ "$(grep -c '1 of 2 ranks have nothing to do: .*srun --mpi=pmix' lonely.txt)" = 1 ] || fail "nothing says how ranks get to know of each other: $(cat lonely.txt)"
+sed -e 's/^pipeline: .*/pipeline: shared/' -e 's/^    sweep:/    set: {symmetry: none, solver.newton.linear: iterative}\n    sweep:/' pipelines/smoke.yaml > shared.yaml
+langer-plan shared.yaml --quiet || fail "langer-plan shared.yaml"
+salloc --quiet -n 2 make --no-print-directory -C runs/shared -j1 LAUNCH="$srun" > shared.txt 2>&1 || fail "make with ranks: $(tail -20 shared.txt)"
+[ "$(grep -l '; 2 ranks$' runs/shared/*/solve/solution.log | wc -l)" = 2 ] || fail "the solves of the pipeline are not shared: $(cat runs/shared/*/solve/solution.log)"
+[ -s runs/shared/table/table.csv ] || fail "no table of ranks"
+echo "two ranks: by srun, and in every step of a pipeline"
