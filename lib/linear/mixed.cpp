@@ -218,7 +218,7 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
 double MixedSolver::bytes() const {
   // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors of GMRES
   const double entries = start_.empty() ? 0 : start_.back(), share = ranks_ ? 1.0 / ranks_->n() : 1;
-  return (ranks_ ? 4 : 2.6) * 12 * entries + schur_.size().factor_bytes + 8.0 * 2 * 20 * share * (pattern_.n + n_cells());
+  return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes + 8.0 * 2 * 20 * share * (pattern_.n + n_cells());
 }
 
 }  // namespace langer
