@@ -1,7 +1,7 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, wide,
-//                               control
+//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, ranks,
+//                               wide, control
 #include <fmt/format.h>
 
 #include <array>
@@ -174,6 +174,7 @@ int main(int argc, char** argv) {
   if (asked.count("depths")) measure_depths(fine);
   if (asked.count("cells")) measure_depths(both);
   if (asked.count("growth")) measure_growth(skin);
+  if (asked.count("ranks")) measure_ranks(skin);
   if (asked.count("wide")) measure_wide();
   if (asked.count("control")) measure_control();
   if (asked.count("grading")) {

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <optional>
 
+#include "base/ranks.hpp"
 #include "base/stopwatch.hpp"
+#include "linear/petsc/load.hpp"
 #include "plot/figure_style.hpp"
 #include "plot/gnuplot.hpp"
 #include "solve/forecast.hpp"
@@ -21,10 +23,12 @@ namespace {
 struct Row {
   double dofs = 0, cells = 0, analysis = 0, assembly = 0, factor = 0, solve = 0, contact = 0, flops = 0, nonzeros = 0, rate = 0;
   double iterations = 0, forecast_bytes = 0, forecast_seconds = 0;
+  double wall = 0;  // of an iteration
 };
 
 Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   test::Indentation scene;
+  scene.ranks = ranks();
   scene.nx = scene.nz = nx, scene.ny = ny, scene.h = 0, scene.depth = 0.04, scene.step = 0.02;
   scene.newton.linear = linear;
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
@@ -32,7 +36,13 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   scene.before = [&](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
     told = forecast(body, statics.size(), {}, path, {}, {false, statics.contact_in_tangent(), statics.mixed()});
   };
+  double begun = 0;
+  scene.before = [told_of = scene.before, &begun](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
+    told_of(body, statics, path);
+    begun = wall_seconds();
+  };
   const auto result = scene.run(skin);
+  const double ended = wall_seconds();
   const double n = static_cast<double>(linear == LinearBy::direct ? result.cost.factorizations : result.path.iterations);
   const auto& cost = result.cost;
   return {static_cast<double>(3 * (nx + 1) * (nx + 1) * ny),
@@ -47,7 +57,8 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
           multiplication_rate(),
           n,
           told.bytes,
-          told.per_iteration()};
+          told.per_iteration(),
+          (ended - begun) / n};
 }
 
 // in a process of its own, whose largest memory the system tells
@@ -98,7 +109,40 @@ void measure(const Material& skin, LinearBy linear, const std::vector<std::pair<
   }
 }
 
+double peak_of_all() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  double megabytes = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  if (ranks()) ranks()->sum(&megabytes, 1);
+  return megabytes;
+}
+
 }  // namespace
+
+void measure_ranks(const Material& skin) {
+  std::string why;
+  if (!begin_ranks(why) && !why.empty()) fmt::print("ranks: {}\n", why);
+  const bool first = !ranks() || ranks()->first();
+  if (first)
+    fmt::print(
+        "ranks: {}, two steps of 0.02 mm; seconds by the clock, CPU seconds of rank 0, memory of all\n"
+        "       dofs  memory (forecast) MB   iteration by the clock    CPU (forecast)   assembly   solve\n",
+        ranks() ? ranks()->n() : 1);
+  for (const auto& [nx, ny] : {std::pair{75, 10}, {103, 14}, {143, 20}}) {
+    const double begin = wall_seconds();
+    const Row r = indentation(skin, nx, ny, LinearBy::iterative);
+    const double megabytes = peak_of_all(), seconds = wall_seconds() - begin;
+    if (!first) continue;
+    fmt::print("  {:9.0f}  {:9.0f} ({:.0f})  {:8.3f}  {:8.3f} ({:.3f})  {:8.3f}  {:8.3f}   whole {:.1f}, {:.0f} iterations\n",
+               r.dofs, megabytes, r.forecast_bytes / 1048576, r.wall, r.assembly + r.solve, r.forecast_seconds, r.assembly, r.solve,
+               seconds, r.iterations);
+    std::fflush(stdout);
+  }
+  if (ranks())
+    ranks()->end(
+        0, false, [](const char*) {}, "");
+  end_petsc();
+}
 
 void measure_growth(const Material& skin) {
   fmt::print(

@@ -5,4 +5,6 @@
 
 namespace langer {
 void measure_growth(const Material& skin);
-}
+// The same without a factor in this process, or by the ranks that were started together: mpirun -n 2 langer-bench ranks
+void measure_ranks(const Material& skin);
+}  // namespace langer
