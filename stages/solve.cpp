@@ -75,7 +75,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
     return {};
   }
   std::optional<EndsSoon> all_is_kept(std::in_place);
-  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last, recording, recovered);
+  const PathErrors estimate =
+      say_errors(job.voice(), config, material, job.where, run, end.last, recording, recovered, watch.contact_warnings().empty());
   const bool again = model.another(estimate, run.mesh);
   if (again && interrupted()) recording.stopped_in_estimate();
   if (again) return {};

@@ -118,7 +118,7 @@ void RecoveredPath::look_at(const StepRecord& whole) {
     shares_.emplace_back(whole.t, recovered_energy_share(*body_, whole.u));
 }
 
-PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Valued>& found) const {
+PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Valued>& found, bool resolved) const {
   const bool asked = asks_for_accuracy(config_);
   PathErrors out;
   if (const std::string why = why_not_recovered(run_); !why.empty()) {
@@ -133,6 +133,10 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   const std::vector<ErrorEstimate> errors =
       recovered_errors(config_, at_end, forces, unloaded_now ? of_forces(found) : found, relative_residual(last));
   if (asked && !nothing_left) out.of_cells = parts(at_end, errors, last);
+  if (!resolved) {
+    out.not_known.push_back("errors are not told: contact is not resolved by the cells, as said above");
+    return out;
+  }
   if (at_end.energy_share() > beyond_telling) {
     out.not_known.push_back(fmt::format(
         "errors are not told: by recovery they are more than {:.0f} % of the force, and that is no more than a sign that "

@@ -32,8 +32,9 @@ class RecoveredPath {
   RecoveredPath(const Run& run, const SolveConfig& config, bool wanted);
   bool wanted() const { return body_ != nullptr; }
   Companion beside(Companion companion);
-  // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be trusted.
-  PathErrors errors(const StepRecord& last, const std::vector<Valued>& found) const;
+  // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be trusted. resolved: contact is, by the
+  // cells (watch/contact_watch.hpp)
+  PathErrors errors(const StepRecord& last, const std::vector<Valued>& found, bool resolved = true) const;
 
  private:
   void look_at(const StepRecord& whole);

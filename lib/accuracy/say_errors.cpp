@@ -55,12 +55,12 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std:
 
 PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
                       const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
-                      const RecoveredPath& recovered) {
+                      const RecoveredPath& recovered, bool resolved) {
   PathErrors found;
   try {
     if (config.estimate == EstimateBy::none) return found;
     if (config.estimate == EstimateBy::recovery)
-      found = recovered.errors(last, valued(config, run.scene, run.mesh, last));
+      found = recovered.errors(last, valued(config, run.scene, run.mesh, last), resolved);
     else
       found = estimated(config, material, where, run, last, recording.forces(),
                         [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });

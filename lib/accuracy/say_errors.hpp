@@ -18,10 +18,10 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std:
                        const Run::Where& where, Run& run);
 
 // Estimates and says them, and what half of them would cost; empty where config.estimate says none, or where there is none (a warning: the
-// result itself stands). Throws Failure with the signal's code where one has come.
+// result itself stands). resolved: contact is, by the cells. Throws Failure with the signal's code where one has come.
 PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
                       const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
-                      const RecoveredPath& recovered);
+                      const RecoveredPath& recovered, bool resolved);
 
 // What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
 std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,

@@ -17,6 +17,7 @@
 #include "run/body_mesh.hpp"
 #include "run/dry_run.hpp"
 #include "scene/config_io.hpp"
+#include "watch/run_watch.hpp"
 
 using namespace langer;
 
@@ -128,11 +129,16 @@ Answer by_default(SolveConfig config) {
   RecoveredPath recovered(run, config, recovered_by_default(config, run));
   Answer answer;
   const Companion beside = recovered.beside({});
-  const RunListener collect = collecting({}, config, run, answer.solved.path);
+  RunWatch watch(run, config, nowhere, {});
+  RunListener watched;
+  watched.of_part = [&](StepRecord& record) { return watch.of_part(record); };
+  watched.of_whole = [&](StepRecord& record, const SolveReport& report) { watch.of_whole(record, report); };
+  const RunListener collect = collecting(watched, config, run, answer.solved.path);
   const RunEnd end = run.follow(beside.along ? beside.along(collect) : collect);
   if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
   if (recovered.wanted()) {
-    const PathErrors found = recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last));
+    const PathErrors found =
+        recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last), watch.contact_warnings().empty());
     answer.solved.errors = found.at_end, answer.solved.along = found.along;
   }
   answer.seconds = cpu_seconds() - start;
