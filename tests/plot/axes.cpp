@@ -1,4 +1,6 @@
 // What stands at the axes of figures by gnuplot: one notation on each, by the texts of the SVG.
+#include <unistd.h>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,8 +49,11 @@ std::vector<std::string> texts_of(const std::string& svg) {
   return texts;
 }
 
+// of this process: cases run side by side
+std::string folder() { return (fs::path(BINARY_DIR) / "test_files" / fmt::format("axes_{}", getpid())).string(); }
+
 Figure drawn(const std::string& script) {
-  const std::string where = (fs::path(BINARY_DIR) / "test_files" / "axes").string();
+  const std::string where = folder();
   std::ofstream(where + "/f.gp") << script;
   REQUIRE(run_gnuplot(where, "f.gp") == "");
   std::ostringstream svg;
@@ -57,7 +62,7 @@ Figure drawn(const std::string& script) {
 }
 
 Figure drawn(const Ends& x, const Ends& y, DecimalSign sign = DecimalSign::point) {
-  const std::string where = (fs::path(BINARY_DIR) / "test_files" / "axes").string();
+  const std::string where = folder();
   fs::create_directories(where);
   std::ofstream(where + "/c.csv") << fmt::format("x,y\n{},{}\n{},{}\n", x.low, y.low, x.high, y.high);
   FigureStyle style;
