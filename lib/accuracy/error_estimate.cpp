@@ -184,10 +184,14 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
   return solved_path(config, material, where, listener).found;
 }
 
-std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
+std::vector<Valued> valued_forces(const StepForces& forces) {
   std::vector<Valued> found;
-  for (const auto& [name, size] : step_forces(config, scene, mesh, state).of)
-    found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
+  for (const auto& [name, size] : forces.of) found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
+  return found;
+}
+
+std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
+  std::vector<Valued> found = valued_forces(step_forces(config, scene, mesh, state));
   // the stress of a viscous body follows from all of its steps, and one is here
   if (const Body body(mesh, scene.materials, scene.directions, scene.formulation); !body.viscous()) {
     const GaussValues gauss = gauss_values(body, state.u);

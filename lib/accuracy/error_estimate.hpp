@@ -46,6 +46,7 @@ struct Valued {
   double value = 0;
   bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
 };
+std::vector<Valued> valued_forces(const StepForces& forces);
 // of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
 // moved, torque_<name> of what turns, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);

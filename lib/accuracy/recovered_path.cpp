@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "accuracy/cell_parts.hpp"
 
@@ -32,12 +31,11 @@ double share_at(const std::vector<std::pair<double, double>>& shares, double t) 
   return share0 + (t - t0) / (t1 - t0) * (share1 - share0);
 }
 
-// their stress is rounding where these are none
-std::vector<Valued> of_forces(const std::vector<Valued>& found) {
-  std::vector<Valued> forces;
-  std::ranges::copy_if(found, std::back_inserter(forces), [](const Valued& q) { return q.of_force(); });
-  return forces;
-}
+// what is told, over the share of the energy
+double told_times(const SolveConfig& config) { return order_of_force(config) < 2 ? below_edges : 1; }
+
+// nothing is seen across one cell
+bool is_too_thin(const Run& run) { return !is_homogeneous(run) && with_a_corner_inside(run.mesh) <= least_inside; }
 
 Body body_of(const Run& run) { return {run.mesh, run.scene.materials, run.scene.directions, run.scene.formulation}; }
 
@@ -55,20 +53,19 @@ std::string why_not_recovered(const Run& run) {
 
 bool recovered_by_default(const SolveConfig& config, const Run& run) {
   if (asks_for_accuracy(config) || run.mesh.n_cells() > unasked_cells || !why_not_recovered(run).empty()) return false;
-  return is_homogeneous(run) || with_a_corner_inside(run.mesh) > least_inside;
+  return !is_too_thin(run);
 }
 
 std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error, const StepForces& forces,
                                             const std::vector<Valued>& found, double residual) {
   const bool section = config.mesh && is_section(config.mesh->geometry);
-  const double order = order_of_force(config);
   std::vector<ErrorEstimate> estimates;
   for (const Valued& q : found) {
     const double size = std::abs(q.value);
     ErrorEstimate e{q, 0, 0, 0, residual * size, 2, false};
     if (q.of_force()) {
       const double touching = touching_at({forces}, forces.touching.contains(q.name) ? q.name : "force", forces.t);
-      e.cells = std::max((order < 2 ? below_edges : 1) * error.energy_share(), sticks_early(config, touching)) * size;
+      e.cells = std::max(told_times(config) * error.energy_share(), sticks_early(config, touching)) * size;
       e.scatter = 0.5 * one_by_one(touching, section) * size;
       if (has_friction(config)) e.increments = by_increments * std::pow(config.path.largest_increment(), 2) * size;
     } else if (q.name == "von_mises_max") {
@@ -125,13 +122,12 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
     out.not_known = {"recovery does not tell errors of such a scene: " + why};
     if (asked) return out;
   }
-  if (asked && !is_homogeneous(run_) && with_a_corner_inside(run_.mesh) <= least_inside)
-    return to_be_cut_everywhere(run_.mesh, across_one_cell);
+  if (asked && is_too_thin(run_)) return to_be_cut_everywhere(run_.mesh, across_one_cell);
   const bool unloaded_now = unloaded(), nothing_left = is_homogeneous(run_) || unloaded_now;
   const RecoveredError at_end = nothing_left ? RecoveredError{} : recovered_error(*body_, last.u);
   const StepForces forces = step_forces(config_, run_.scene, run_.mesh, last);
   const std::vector<ErrorEstimate> errors =
-      recovered_errors(config_, at_end, forces, unloaded_now ? of_forces(found) : found, relative_residual(last));
+      recovered_errors(config_, at_end, forces, unloaded_now ? valued_forces(forces) : found, relative_residual(last));
   if (asked && !nothing_left) out.of_cells = parts(at_end, errors, last);
   if (!resolved) {
     out.not_known.push_back("errors are not told: contact is not resolved by the cells, as said above");
@@ -149,10 +145,8 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   if (!nothing_left || shares.empty()) shares.emplace_back(last.t, at_end.energy_share());
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const StepForces& step = path_[i];
-    std::vector<Valued> there;
-    for (const auto& [name, size] : step.of) there.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
     const RecoveredError error{std::sqrt(share_at(shares, step.t))};
-    for (const ErrorEstimate& e : recovered_errors(config_, error, step, there, residuals_[i]))
+    for (const ErrorEstimate& e : recovered_errors(config_, error, step, valued_forces(step), residuals_[i]))
       out.along[e.of.name].push_back(e.total());
   }
   return out;
@@ -161,13 +155,11 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
 // of the force whose bar is widest, relative to it: those of the stress, and of those that are touched what nodes make
 std::vector<double> RecoveredPath::parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors,
                                          const StepRecord& last) const {
-  double share = error.energy_share(), whole = share;
+  const double times = told_times(config_), smooth = times * error.energy_share();
+  double whole = smooth;
   for (const ErrorEstimate& e : forces_judged(errors))
-    if (const double size = std::abs(e.of.value); size > 0 && (e.total() - e.increments) / size > whole) {
-      whole = (e.total() - e.increments) / size;
-      share = std::min(e.cells / size, (order_of_force(config_) < 2 ? below_edges : 1) * error.energy_share());
-    }
-  return parts_of(error.of_cell, share / std::max(error.energy_share(), 1e-300), touched_cells(run_, last), whole - share);
+    if (const double size = std::abs(e.of.value); size > 0) whole = std::max(whole, (e.total() - e.increments) / size);
+  return parts_of(error.of_cell, times, touched_cells(run_, last), whole - smooth);
 }
 
 }  // namespace langer

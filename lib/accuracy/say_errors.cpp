@@ -38,9 +38,11 @@ void say_costs(const Voice& voice, const PathErrors& found) {
 
 EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
                        const Run::Where& where, Run& run) {
+  const bool asked = config.estimate.has_value();
+  if (asked && config.estimate != EstimateBy::automatic) return *config.estimate;
+  if (asked && estimate_forecast(config, material, where, run) > 0) return EstimateBy::automatic;
   const EstimateBy cheap = recovered_by_default(config, run) ? EstimateBy::recovery : EstimateBy::none;
-  if (config.estimate != EstimateBy::automatic) return config.estimate.value_or(cheap);
-  if (estimate_forecast(config, material, where, run) > 0) return EstimateBy::automatic;
+  if (!asked) return cheap;
   const char* why = has_numbers(config) ? "other meshes would take more than a third of the solve"
                                         : "the cells follow from no numbers of this config";
   if (cheap == EstimateBy::recovery)

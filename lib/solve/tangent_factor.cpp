@@ -48,8 +48,8 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
                              LinearBy linear_by)
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
-  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   if (take_iterative(body, contacts, linear_by)) return;
+  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
   const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);

@@ -20,6 +20,9 @@ void begin(bool of_all_ranks = false);  // once
 // Movements that A hardly resists, orthonormal; values(k): (rows of this rank) of the k-th.
 void set_near_null_space(Mat A, const std::function<const double*(int)>& values, int n_modes);
 
+// Multigrid by aggregation for A, with the options that begin with this; to be set up by PCSetUp.
+void make_aggregation(PC& cycle, Mat A, const char* options);
+
 Ranks* world(std::string& why);
 Multigrid* multigrid_of(const Ranks& ranks);
 

@@ -146,12 +146,7 @@ class DividedAggregation : public Multigrid {
       return own.data();
     };
     set_near_null_space(A_, values, 6);
-    need(PCCreate(PETSC_COMM_WORLD, &cycle_));
-    need(PCSetType(cycle_, PCGAMG));
-    need(PCSetOperators(cycle_, A_, A_));
-    need(PCSetOptionsPrefix(cycle_, "langer_ranks_"));
-    need(PCGAMGSetReuseInterpolation(cycle_, PETSC_TRUE));
-    need(PCSetFromOptions(cycle_));
+    make_aggregation(cycle_, A_, "langer_ranks_");
   }
 
   int place_of(int row) const { return place_[static_cast<std::size_t>(row)]; }

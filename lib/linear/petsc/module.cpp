@@ -154,6 +154,15 @@ void set_near_null_space(Mat A, const std::function<const double*(int)>& values,
   for (Vec& mode : modes) need(VecDestroy(&mode));
 }
 
+void make_aggregation(PC& cycle, Mat A, const char* options) {
+  need(PCCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), &cycle));
+  need(PCSetType(cycle, PCGAMG));
+  need(PCSetOperators(cycle, A, A));
+  need(PCSetOptionsPrefix(cycle, options));
+  need(PCGAMGSetReuseInterpolation(cycle, PETSC_TRUE));
+  need(PCSetFromOptions(cycle));
+}
+
 namespace {
 
 class Aggregation : public Multigrid {
@@ -196,12 +205,7 @@ class Aggregation : public Multigrid {
     need(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, A.n, nullptr, &z_));
     set_near_null_space(
         A_, [&](int k) { return rigid + static_cast<std::size_t>(k) * A.n; }, 6);
-    need(PCCreate(PETSC_COMM_SELF, &cycle_));
-    need(PCSetType(cycle_, PCGAMG));
-    need(PCSetOperators(cycle_, A_, A_));
-    need(PCSetOptionsPrefix(cycle_, "langer_"));
-    need(PCGAMGSetReuseInterpolation(cycle_, PETSC_TRUE));
-    need(PCSetFromOptions(cycle_));
+    make_aggregation(cycle_, A_, "langer_");
     need(PCSetUp(cycle_));
   }
 
