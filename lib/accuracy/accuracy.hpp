@@ -1,7 +1,7 @@
 // What a wanted accuracy takes: a level of the refinement study that pipelines/refinement_study.yaml measures on three indentations of a block
 // (isotropic without friction; Table 1 at 60 degrees and c1 = +0.317 at 30 degrees with friction). Isotropic bodies without friction get
-// hex27 for less than 1 %, whose error falls fastest there; all else hex8: with friction nodes stick too early by a share of their distance, and
-// hex8 have more of them in contact for the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4
+// hex27 for less than 1 %, whose error falls fastest there; all else hex8: with friction the shear at the edge of the contact decides, and
+// hex8 have more nodes there for the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4
 // (make accuracy). A level's error is that of the force in the scenes of its kind.
 #pragma once
 

@@ -33,7 +33,7 @@ void need_known_kind(const SolveConfig& config, const Run& run) {
   if (run.reduction.kind() == Reduction::Kind::homogeneous)
     throw not_known("a body that deforms alike everywhere has no error of cells");
   if (run.body.viscous()) throw not_known("the dual solution is that of an elastic body, and this one is viscous");
-  if (has_friction(config)) throw not_known("nodes that stick too early are no error of smooth fields, and there is friction");
+  if (has_friction(config)) throw not_known("with friction the force is no derivative of an energy");
   if (!run.body.loads().empty() && run.body.loads().follow()) throw not_known("the tangent has half of a following pressure alone");
   if (run.scene.formulation == Formulation::displacement) throw not_known("formulation: displacement has no pressures of its own");
   if (!run.mesh.cell().hexahedron()) throw not_known("no scene of tetrahedra was measured");

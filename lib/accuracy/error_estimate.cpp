@@ -93,6 +93,13 @@ double sharpness(const SolveConfig& config) {
   return most;
 }
 
+// Where the cells are as long as the rounding of a punch's edge, what touches ends anywhere on it: share of the force
+// (docs/work_precision.md).
+double round_an_edge(const SolveConfig& config, double touching, bool section) {
+  const double sharp = sharpness(config);
+  return sharp <= 1 || section || touching < 1 ? 0 : std::min(0.5, 0.8 * sharp / touching);
+}
+
 double greatest_friction(const SolveConfig& config) {
   double most = 0;
   for (const auto& [name, contact] : config.contacts) most = std::max(most, contact.friction);
@@ -129,8 +136,7 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 
 }  // namespace
 
-// 0.7 times the square of the nodes' distance in contact radii
-double sticks_early(const SolveConfig& config, double touching) {
+double shear_at_edge(const SolveConfig& config, double touching) {
   constexpr double all_stick = 0.2;  // friction from which on that is so
   const double share = std::min(1.0, greatest_friction(config) / all_stick);
   return touching < 1 ? 0 : share * std::min(0.5, 1.6 / touching);
@@ -285,13 +291,15 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     if (q.unit == unit::mm) e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.of_force()) {
       e.scatter =
-          std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value), 0.5 * beside_hole * std::abs(q.value)});
-      if (refined.sticks_far_apart) e.cells = std::max(e.cells, sticks_early(config, touching) * std::abs(q.value));
+          std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
+                    0.5 * round_an_edge(config, touching, section) * std::abs(q.value), 0.5 * beside_hole * std::abs(q.value)});
+      if (refined.edge_unresolved)  // without a sign: three such meshes tell none of it
+        e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) - std::abs(e.cells));
     }
     return std::optional(e);
   };
   Family increments;
-  if (!all.other.empty()) increments.of = {refined.sticks_far_apart ? all.family.of[1] : all.family.of.back(), all.other[0]};
+  if (!all.other.empty()) increments.of = {refined.edge_unresolved ? all.family.of[1] : all.family.of.back(), all.other[0]};
   for (const Valued& q : itself.found) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));

@@ -8,15 +8,16 @@
 //   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
 //               hex27 longer by sqrt 2 and by 2, reactions without indenters, too
 // Errors have a sign: what is found lies above its limit by
-//   cells       q - f; of hex8 with friction and nodes further apart than 0.14 contact radii at least 1.6 / n of the force: they stick
-//               too early, and three such meshes do not tell it
+//   cells       q - f
 //   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order (Statics::slip_from_touch), r = 2 or more, so that dt / r <= 1/8;
 //               of increments below 0.1 what twice their length changes; on the longest of these cells; nothing where no friction
 //               and no time makes the path matter
 //   scatter     root mean square of what the fit leaves, or what no fit to three meshes shows: nodes come into contact one by one (of a
 //               section a ring of them), and go up and down with the length of the cells: half of 3.1 n^(-3/2) of the force, n nodes
 //               that touch on the finest mesh of those above, and of a section half of 0.25 n^(-2); the greatest stress lies
-//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n; under a punch times its radius over that of its edge   docs/work_precision.md
+//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n; under a punch times its radius over that of its edge
+//               e: there half of 0.8 (R / e) / n of the force. Of hex8 with friction and nodes further apart than 0.14 contact radii
+//               half of what |cells| lacks to 1.6 / n of the force: three such meshes do not tell it         docs/work_precision.md
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
 //   limit       found - cells - increments
@@ -88,8 +89,8 @@ double order_of_force(const SolveConfig& config);  // p of its error
 
 // share of a force that nodes may make which come into contact one by one, from the number of those that touch (run/step_forces.hpp)
 double one_by_one(double touching, bool section);
-// and what nodes add that stick where they touch
-double sticks_early(const SolveConfig& config, double touching);
+// and what the shear at the edge of a contact with friction adds: 0.7 times the square of the nodes' distance in contact radii
+double shear_at_edge(const SolveConfig& config, double touching);
 
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
 // reactions; and torques; where forces alone load the body, the displacements of its named points.

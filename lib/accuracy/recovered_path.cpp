@@ -65,7 +65,7 @@ std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const Rec
     ErrorEstimate e{q, 0, 0, 0, residual * size, 2, false};
     if (q.of_force()) {
       const double touching = touching_at({forces}, forces.touching.contains(q.name) ? q.name : "force", forces.t);
-      e.cells = std::max(told_times(config) * error.energy_share(), sticks_early(config, touching)) * size;
+      e.cells = std::max(told_times(config) * error.energy_share(), shear_at_edge(config, touching)) * size;
       e.scatter = 0.5 * one_by_one(touching, section) * size;
       if (has_friction(config)) e.increments = by_increments * std::pow(config.path.largest_increment(), 2) * size;
     } else if (q.name == "von_mises_max") {

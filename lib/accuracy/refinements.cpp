@@ -19,8 +19,8 @@ struct Lengths {
   double finest;       // of the meshes for coarser ones
 };
 constexpr Lengths of_block{0.18, 0.125};
-constexpr double sticks_by_the_law = 0.14;  // above this length what is fitted to nodes that stick was a third of the error
-constexpr Lengths of_disc{0.07, 0.0442};    // a line of nodes in contact: nothing averages
+constexpr double resolves_edge = 0.14;    // with friction; on longer cells what is fitted was a third of the error
+constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 constexpr std::array cheap{1.4, 1.75};       // for estimate: auto, together about a fifth of the solve
 constexpr double close_enough = 1e-5;        // residual, relative to the reactions: errors are asked to two digits
@@ -102,7 +102,7 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   if (const double* edge = edge_in_contact_radii(geometry)) {
     const Lengths lengths = is_section(geometry) ? of_disc : of_block;
     refined.own = refined.own && *edge * factors.back() <= lengths.fine_enough * longer.back();
-    refined.sticks_far_apart = refined.own && !is_section(geometry) && has_friction(config) && *edge > sticks_by_the_law;
+    refined.edge_unresolved = refined.own && !is_section(geometry) && has_friction(config) && *edge > resolves_edge;
     if (!refined.own) *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * *edge : *edge, lengths.finest);
   } else {
     if (quadratic) scale_cells(geometry, 0.5);  // as many nodes
@@ -125,7 +125,7 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment, ratio = increment / another;
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
   // on cells so long that nodes stick by chance their increments do, too
-  refined.other_increments = refined.sticks_far_apart ? refined.hex8.front() : coarsest;
+  refined.other_increments = refined.edge_unresolved ? refined.hex8.front() : coarsest;
   refined.other_increments.path.use_increment(another);
   refined.other_increments.path.time_error /= ratio * ratio * ratio;  // it grows with the third power of an increment
   return refined;

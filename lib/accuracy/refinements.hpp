@@ -16,7 +16,7 @@ struct Refinements {
   std::vector<double> length;            // of the hex8 meshes' cells, `own` included
   std::vector<double> hex27_length;      // of the hex27 meshes' cells, the solved one included
   bool own = false;                      // the solved mesh is the finest of its family
-  bool sticks_far_apart = false;         // nodes that stick are too far apart for the law
+  bool edge_unresolved = false;          // the cells are too long for the shear at the edge of a contact with friction
   SolveConfig other_increments;
   double per_change = 0;  // error of the increments per what these change; 0: none, the path does not matter
   std::map<Truncation, std::array<SolveConfig, 2>> wider;  // than the one with the longest cells (accuracy/truncation.hpp)

@@ -3,7 +3,7 @@
 //   e^2 = sum over Gauss points of  w J |dev(s* - s)|^2 / (4 mu),   U^2 the same of s* itself,   eta = e / U
 // mu: shear modulus of the matrix at rest. Both are energies of an incompressible linear material; their ratio is that of the stress.
 // In an equilibrium under imposed movements the stored energy and with it the force is too large by about eta^2, relatively.
-// What the smooth field cannot see: where nodes touch and stick too early (contact with friction), locking, the path's increments.
+// What the smooth field cannot see: where nodes come into contact one by one, locking, the path's increments.
 #pragma once
 
 #include "post/fields.hpp"
