@@ -68,6 +68,7 @@ const auto nowhere = [](const std::string&) { return Place{}; };
 const Voice silent{"scenes", true};
 
 struct Solved {
+  double forecast = 0, took = 0;  // CPU seconds of the path
   std::vector<ErrorEstimate> errors;
   std::vector<StepForces> path;
   std::map<std::string, std::vector<double>> along;  // bars at each step
@@ -76,22 +77,28 @@ struct Answer {
   SolveConfig config;  // that it was solved with
   Solved solved;
   double seconds = 0;
+  std::vector<double> forecasts;  // of each level of some seconds: what it took over what was told
 };
+
+constexpr double shortest = 0.2;  // CPU seconds that a clock tells
 
 // Scenes that would take longer than that are left.
 struct TooLong {
   double seconds;
 };
-void need_time(const SolveConfig& config, Run& run, double seconds) {
+double need_time(const SolveConfig& config, Run& run, double seconds) {
   const double takes = forecast_of(config, run.body, run.statics, run.scene.stops).seconds();
   if (takes > seconds) throw TooLong{takes};
+  return takes;
 }
 
 Solved solved_once(const SolveConfig& config, double seconds) {
   Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
-  need_time(config, run, seconds);
   Solved out;
+  out.forecast = need_time(config, run, seconds);
+  const double begun = cpu_seconds();
   const RunEnd end = run.follow(collecting({}, config, run, out.path));
+  out.took = cpu_seconds() - begun;
   if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
   try {
     const PathErrors found = estimated(config, config.material, nowhere, run, end.last, out.path, {});
@@ -111,6 +118,7 @@ Answer asked_for(const SolveConfig& config, double seconds) {
     answer.config = accuracy.config();
     try {
       answer.solved = solved_once(answer.config, seconds);
+      if (answer.solved.took >= shortest) answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
       again = accuracy.refine(answer.solved.errors);
     } catch (const Failure& failure) {
       again = accuracy.begin_anew(failure);
@@ -161,6 +169,8 @@ struct Counts {
   int bars = 0, hold = 0, wide = 0;  // of forces
   int others = 0, others_hold = 0;   // of what no accuracy is asked of
   int steps = 0, steps_hold = 0;
+  int nearer = 0;                 // limits than what was found, of forces
+  std::vector<double> forecasts;  // sorted at the end
 };
 
 // Bars of the steps before the end against the truth's forces there, each known to half its own bar.
@@ -181,7 +191,7 @@ void judge_steps(const std::string& name, const Solved& found, const Solved& tru
       words += fmt::format(" {:.3g}: {:+.2f} bar {:.2g} unknown {:.2g}{};", t, 100 * off / q, 100 * bars[i] / q, 100 * unknown / q,
                            holds ? "" : " FAILS");
     }
-    if (!words.empty()) fmt::print("| {} | {} at |{} | | | | | |\n", name, force, words);
+    if (!words.empty()) fmt::print("| {} | {} at |{} | | | | | | |\n", name, force, words);
   }
 }
 
@@ -195,7 +205,7 @@ void judge(const Options& o, const std::string& name, const Answer& answer, cons
     const auto t =
         std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) { return other.of.name == e.of.name; });
     if (t == truths.end()) {
-      fmt::print("| {} | {} | {:.4g} | no truth | | {:.2g} | | {:.1f} |\n", name, e.of.name, e.of.value, e.in_percent(e.total()),
+      fmt::print("| {} | {} | {:.4g} | no truth | | {:.2g} | | | {:.1f} |\n", name, e.of.name, e.of.value, e.in_percent(e.total()),
                  answer.seconds);
       counts.without_truth += asked;
       continue;
@@ -214,10 +224,22 @@ void judge(const Options& o, const std::string& name, const Answer& answer, cons
     const bool holds = std::abs(off) <= bar + unknown;
     (asked ? counts.hold : counts.others_hold) += holds;
     if (asked) counts.wide += bar > 5 * (std::abs(off) + unknown);
+    const double limit = e.in_percent(e.limit() - truth);
+    counts.nearer += asked && e.has_limit && std::abs(limit) < std::abs(off);
     if (!holds) verdict += " bar fails";
-    fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {:.1f} |\n", name, e.of.name, e.of.value, off, unknown, bar,
-               verdict, answer.seconds);
+    fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {} | {:.1f} |\n", name, e.of.name, e.of.value, off, unknown,
+               bar, e.has_limit ? fmt::format("{:+.2f}", limit) : "", verdict, answer.seconds);
   }
+}
+
+void say_forecasts(Counts& counts) {
+  std::vector<double>& took = counts.forecasts;
+  std::sort(took.begin(), took.end());
+  if (took.empty()) return;
+  const auto within = std::count_if(took.begin(), took.end(), [](double x) { return x > 1 / 1.5 && x < 1.5; });
+  fmt::print(
+      "{} of {} limits are nearer. {} of {} levels of {:g} s and more took what was told within 1.5 times; {:.2f} to {:.2f} times.\n",
+      counts.nearer, counts.bars, within, took.size(), shortest, took.front(), took.back());
 }
 
 }  // namespace
@@ -227,7 +249,8 @@ int main(int argc, char** argv) try {
   std::filesystem::create_directories(o.folder);
   Counts counts;
   fmt::print(
-      "| scene | quantity | found | off by % | unknown +- % | bar +- % | | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "| scene | quantity | found | off by % | unknown +- % | bar +- % | limit: off by % | | CPU s |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (int i = o.from; i < o.from + o.scenes; ++i) {
     const test::DrawnScene scene = test::drawn_scene(o.seed, i, o.kind);
     std::ofstream(o.folder + "/" + scene.name + ".yaml") << scene.yaml << "accuracy: " << o.asked << "%\n";
@@ -236,9 +259,10 @@ int main(int argc, char** argv) try {
       config.accuracy = fmt::format("{:g}%", o.asked);
       const Answer answer = asked_for(config, o.seconds);
       ++counts.ended;
+      counts.forecasts.insert(counts.forecasts.end(), answer.forecasts.begin(), answer.forecasts.end());
       if (o.by_default) {
         const Answer plain = by_default(config);
-        if (plain.solved.errors.empty()) fmt::print("| {} | no bar | | | | | | |\n", scene.name);
+        if (plain.solved.errors.empty()) fmt::print("| {} | no bar | | | | | | | |\n", scene.name);
         judge(o, scene.name, plain, answer.solved.errors, counts);
         if (o.steps) judge_steps(scene.name, plain.solved, answer.solved, counts);
         std::fflush(stdout);
@@ -248,16 +272,16 @@ int main(int argc, char** argv) try {
       try {
         truth = truth_of(answer.config, o.seconds);
       } catch (const Failure& failure) {
-        fmt::print("| {} | truth | {} | | | | | |\n", scene.name, failure.what());
+        fmt::print("| {} | truth | {} | | | | | | |\n", scene.name, failure.what());
       }
       judge(o, scene.name, answer, truth.errors, counts);
       if (o.steps) judge_steps(scene.name, answer.solved, truth, counts);
     } catch (const TooLong& too_long) {
       ++counts.left;
-      fmt::print("| {} | left: {:.0f} s for one solve | | | | | | |\n", scene.name, too_long.seconds);
+      fmt::print("| {} | left: {:.0f} s for one solve | | | | | | | |\n", scene.name, too_long.seconds);
     } catch (const Failure& failure) {
       ++counts.refused;
-      fmt::print("| {} | ended with code {} | {} | | | | | |\n", scene.name, static_cast<int>(failure.code()), failure.what());
+      fmt::print("| {} | ended with code {} | {} | | | | | | |\n", scene.name, static_cast<int>(failure.code()), failure.what());
     }
     std::fflush(stdout);
   }
@@ -267,6 +291,7 @@ int main(int argc, char** argv) try {
              counts.undecided, counts.without_truth);
   fmt::print("Their bars: {} of {} hold, {} more than five times the error. All else: {} of {} bars hold.\n", counts.hold,
              counts.bars, counts.wide, counts.others_hold, counts.others);
+  say_forecasts(counts);
   if (o.steps) fmt::print("At steps before the end: {} of {} hold.\n", counts.steps_hold, counts.steps);
   return 0;
 } catch (const std::logic_error& wrong) {
