@@ -54,9 +54,17 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
 
-// With the config's own cells, shorter where there are too few of them to make coarser ones.
-AccuracyLevel the_configs_own(const SolveConfig& config) {
-  AccuracyLevel level{config.mesh->cells, 1, config.path.largest_increment(), 0, false};
+// Without an indenter hex27 are as near as hex8 for a hundredth of the time and less (docs/work_precision.md).
+bool better_as_hex27(const SolveConfig& config) {
+  return config.contacts.empty() && config.mesh->cells == CellType::hex8 && !has_edge_in_contact_radii(config.mesh->geometry) &&
+         config.formulation.value_or(Formulation::linear_dilatation) == Formulation::linear_dilatation;
+}
+
+// With the config's own cells, or as many nodes; shorter where there are too few of them to make coarser ones.
+AccuracyLevel the_configs_own(const SolveConfig& config, bool cut) {
+  const bool quadratic = !cut && better_as_hex27(config);
+  AccuracyLevel level{quadratic ? CellType::hex27 : config.mesh->cells, quadratic ? 2.0 : 1.0, config.path.largest_increment(), 0,
+                      false};
   for (int n : numbers_of_cells(config.mesh->geometry))
     if (n > 1) level.edge = std::min(level.edge, n / 4.0);
   return level;
@@ -66,7 +74,7 @@ AccuracyLevel the_configs_own(const SolveConfig& config) {
 AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wanted, bool cut) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
-  if (!edge) return the_configs_own(config);
+  if (!edge) return the_configs_own(config, cut);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
   AccuracyLevel level = is_section(geometry)                                   ? of_disc
                         : cut                                                  ? to_be_cut
@@ -78,10 +86,10 @@ AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wa
   return level;
 }
 
-double finest_edge(const MeshConfig& mesh) {
+double finest_edge(const MeshConfig& mesh, CellType type) {
   if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
   if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
-  const double cells = (reference(mesh.cells).second_order() ? 8 : 1) * n_cells(mesh.geometry);
+  const double cells = (reference(type).second_order() ? 8 : 1) * n_cells(mesh.geometry);
   const std::vector<int> along = numbers_of_cells(mesh.geometry);
   const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
   return std::min(1.0, std::pow(cells / most_hex8, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
@@ -101,7 +109,7 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
     else if (*edge != level.edge)
       replace(fmt::format("edge of {:g}", *edge));
   }
-  if (const CellType cells = written.mesh->cells; cells != CellType::hex8 && cells != level.cells)
+  if (const CellType cells = written.mesh->cells; (cells != CellType::hex8 || !level.in_contact_radii) && cells != level.cells)
     replace(names(cells)[static_cast<int>(cells)]);
   const double step = written.path.largest_increment();
   if (!written.path.steps && step == usual.path.largest) return replaced;
@@ -148,7 +156,8 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   const std::optional<Footprint> print =
       std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
-  chosen.written = geometry, chosen.finest = finest_edge(*config.mesh);
+  const CellType first = !chosen.cut && better_as_hex27(config) ? CellType::hex27 : config.mesh->cells;
+  chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
   const bool elastic = !config.path.seconds;  // as the study's bodies
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
   const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
@@ -180,7 +189,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
 std::string in_words(const AccuracyLevel& level) {
   const char* cells = names(CellType{})[static_cast<int>(level.cells)];
   if (level.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, level.edge, level.step);
-  if (level.edge == 1) return fmt::format("the config's {}, increments of {:.3g}", cells, level.step);
+  if (level.edge == 1) return fmt::format("{} of the config's length, increments of {:.3g}", cells, level.step);
   return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, level.edge, level.step);
 }
 
