@@ -54,8 +54,8 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
 
-// Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of the time and less
-// (docs/work_precision.md).
+// Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of
+// the time and less (docs/work_precision.md).
 bool better_as_hex27(const SolveConfig& config) {
   const auto is_plane = [](const auto& contact) { return std::holds_alternative<Plane>(contact.second.rigid); };
   return std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && config.mesh->cells == CellType::hex8 &&

@@ -143,6 +143,42 @@ TEST_CASE("scenes unlike the study's are known as such, and begin coarse without
   CHECK(!shown([](SolveConfig& c) { c.loads.push_back({"x_max", Displacement{HistoryConfig{0.1}, {}, {}}}); }));
 }
 
+TEST_CASE("what is moved at its faces gets hexahedra with 27 nodes, of many cells as many nodes") {
+  const auto chosen = [](std::array<int, 3> divisions, const auto& change) {
+    SolveConfig config;
+    config.mesh.emplace();
+    Block block;
+    block.size = {8, 4, 8}, block.divisions = divisions;
+    config.mesh->geometry = block;
+    config.loads.push_back({"x_max", Displacement{HistoryConfig{0.1}, {}, {}}});
+    config.accuracy = "1%";
+    change(config);
+    const ChosenLevel level = *choose_accuracy(config, std::nullopt, true);
+    CHECK((config.mesh->cells == CellType::hex27) == (level.level.cells == CellType::hex27));
+    if (level.level.cells == CellType::hex27) {
+      CHECK(level.words.find("in place of the config's hex8") != std::string::npos);
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK(level.level.edge * std::get<Block>(config.mesh->geometry).divisions[i] == divisions[i]);
+    }
+    return level.level;
+  };
+  const auto press = [](double friction) {
+    return [friction](SolveConfig& c) {
+      c.loads.clear();
+      c.contacts["press"] = {"", Plane{{0, 4, 0}, {0, -1, 0}}, friction, {{1, {0, -1, 0}}}};
+    };
+  };
+  const auto as_it_is = [](SolveConfig&) {};
+  CHECK(chosen({8, 4, 8}, as_it_is).cells == CellType::hex27);
+  CHECK(chosen({8, 4, 8}, as_it_is).edge == 1);  // four cells at least, from which longer ones can be made
+  CHECK(chosen({16, 8, 16}, as_it_is).edge == 2);
+  CHECK(chosen({8, 4, 8}, press(0)).cells == CellType::hex27);
+  CHECK(chosen({8, 4, 8}, press(0.3)).cells == CellType::hex8);
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.contacts["ball"] = ball(4, 4); }).cells == CellType::hex8);
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.formulation = Formulation::mean_dilatation; }).cells == CellType::hex8);
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.estimate = EstimateBy::dual; }).cells == CellType::hex8);  // to be cut
+}
+
 TEST_CASE("the footprint of indenters is where they cut the top") {
   const SolveConfig config = indentation();
   const Box body = box(config.mesh->geometry);

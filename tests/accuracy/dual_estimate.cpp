@@ -171,8 +171,8 @@ TEST_CASE("symmetry leaves the errors of reactions and forces as they are") {
 
 TEST_CASE("where no scene of the kind was measured the estimate says so") {
   const std::string geometry = test::disc(0.25, "hex8");
-  CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0.3))), doctest::Contains("no derivative of an energy"),
-                       Failure);
+  CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0.3))),
+                       doctest::Contains("no derivative of an energy"), Failure);
   CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0) + "formulation: displacement\n")),
                        doctest::Contains("formulation"), Failure);
   CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0, -0.1))),

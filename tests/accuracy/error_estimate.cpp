@@ -83,6 +83,34 @@ TEST_CASE("three meshes that lie on a line by chance do not make a bar that is t
   CHECK(force.total() < 5 * error);
 }
 
+TEST_CASE("on cells too long for the shear at the edge of the contact the bar knows it, without a sign") {
+  const SolveConfig config = level("positive", CellType::hex8, 0.175, 0.25);
+  const SolvedPath path = solved_path(config, config.material, nowhere);
+  const ErrorEstimate force = estimate_along(config, config.material, nowhere, path, 1e-9).at_end[0];
+  const double shear = shear_at_edge(config, touching_at(path.path, "force", 1)) * force.of.value;
+  CHECK(force.total() > shear);
+  CHECK(std::abs(force.cells) < shear);  // what the meshes tell of it
+  CHECK(force.total() > force.of.value - 12.67);
+}
+
+// 8.746 N by hex27 of 0.1 contact radii (make adaptive)
+TEST_CASE("what touches a punch may end anywhere on a rounding that the cells do not resolve") {
+  SolveConfig config =
+      read_config<SolveConfig>(load_yaml(std::string(SOURCE_DIR) + "/configs/solve/accuracy_elsewhere.yaml")).config;
+  auto& block = std::get<IndentedBlock>(config.mesh->geometry);
+  ContactConfig& punch = config.contacts.at("sphere");
+  punch.rigid = Cylinder{2, 0.3, {0, 4, 0}, {0, 1, 0}};
+  punch.motion.back().to = {0, -0.5, 0};
+  for (double edge : {0.175, 0.125}) {
+    CAPTURE(edge);
+    block.depth = 0.8, block.edge = edge;
+    const SolvedPath path = solved_path(config, config.material, nowhere);
+    const ErrorEstimate force = estimate_along(config, config.material, nowhere, path, 1e-9).at_end[0];
+    CHECK(force.total() > std::abs(force.of.value - 8.746));
+    CHECK(force.total() < 8 * std::abs(force.of.value - 8.746));
+  }
+}
+
 TEST_CASE("on a disc, too, what few nodes in contact get wrong is known") {
   const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
   for (CellType cells : {CellType::hex8, CellType::hex27}) {
