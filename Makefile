@@ -23,7 +23,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -213,7 +213,8 @@ help:
 	@echo "make estimates                estimated errors against true ones, in the scenes of make work-precision"
 	@echo "make accuracy                 whether accuracy: 1% holds on random scenes"
 	@echo "make accuracy-elsewhere       and on scenes unlike those of the refinement study"
-	@echo "make accuracy-random          and on scenes of twelve kinds drawn at random; SEED=1 SCENES=24 ASKED=1 (percent)"
+	@echo "make accuracy-random          and on scenes of twelve kinds drawn at random; SEED=12 SCENES=84 ASKED=3 (percent)"
+	@echo "make contact-discretisations  what error contact with friction has at nodes, in averages, at Gauss points"
 	@echo "make adaptive                 cells cut where the error comes from against even and graded ones: error over CPU seconds"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package; make bundle: as a tar with its libraries, for any Linux; GMSH=1"

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """make contact-discretisations: which discretisation of contact with friction is nearest to the limit, and what its error is.
 
 A linear elastic, nearly incompressible layer on a rigid base, axisymmetric, on bilinear cells with the mean dilatation, pressed by a
