@@ -12,6 +12,7 @@
 #include "run/step_record.hpp"
 #include "scene/config_io.hpp"
 #include "stage.hpp"
+#include "store/step_journal.hpp"
 
 namespace langer {
 namespace {
@@ -111,11 +112,14 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
   }
   ModelChoice model(job.voice(), job.config, mesh, material, job.where, job.dry_run);
   for (;;) {
+    const bool at_a_point = model.at_a_point();
     try {
       if (const auto results = solve_by(job, material, known, model)) return *results;
     } catch (const Failure& failure) {
       if (!model.another(failure)) throw;
     }
+    const bool goes_on = at_a_point && !model.at_a_point();  // the mesh, from the steps of the point
+    if (!goes_on) forget_steps(job.output);
   }
 }
 

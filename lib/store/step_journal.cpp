@@ -212,4 +212,8 @@ void StepJournal::replay(const Take& take) {
 
 void StepJournal::append(const StepRecord& record) { journal_.append(packed(record)); }
 
+void forget_steps(const std::string& output) {
+  for (const char* ending : {".part", ".steps"}) std::filesystem::remove(output + ending);
+}
+
 }  // namespace langer

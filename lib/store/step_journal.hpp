@@ -29,4 +29,7 @@ class StepJournal {
   std::vector<EarlierRun> earlier_;
 };
 
+// what a solve has kept of a model that another one takes the place of
+void forget_steps(const std::string& output);
+
 }  // namespace langer

@@ -38,6 +38,24 @@ run(0 ${BIN}/langer-solve beside.yaml -o fine.h5 --json --quiet --set path.first
 number(force_N fine)
 expect_within(2 "${force}" "${fine}")
 
+# what is pulled between clamped faces is solved as hexahedra with 27 nodes, and a level after another begins without a word about
+# the steps of the one before
+file(WRITE ${folder}/pulled.yaml "include: configs/solve/held_block.yaml
+estimate: refinement
+accuracy: 0.5%
+")
+run(0 ${BIN}/langer-solve pulled.yaml -o pulled.h5 --json)
+expect_said("wanted: hex27")
+expect_said("in place of the config's hex8")
+expect_said("again with hex27")
+if(said MATCHES "starting anew")
+  message(FATAL_ERROR "a level calls the steps of the one before those of another run:\n${said}")
+endif()
+number(accuracy_percent reached)
+if(reached GREATER 0.5)
+  message(FATAL_ERROR "asked for 0.5 %, ended with ${reached} % and exit code 0")
+endif()
+
 # recovery knows no law of the cells' length: it judges the first level, which stays as the result, with what was reached
 file(WRITE ${folder}/coarse.yaml "include: configs/solve/refinement_isotropic.yaml
 mesh:
