@@ -47,20 +47,16 @@ Vec3 nearest(Vec3 q, const Vec3& h) {
   const Vec3 hh = h.cwiseProduct(h);
   int least = 0;
   h.minCoeff(&least);
-  const auto f = [&](double t) {
-    double sum = -1;
-    for (int i = 0; i < 3; ++i) sum += std::pow(h[i] * q[i] / (t + hh[i]), 2);
-    return sum;
-  };
+  const Vec3 hq = h.cwiseProduct(q);
+  const auto f = [&](double t) { return hq.cwiseQuotient(hh + Vec3::Constant(t)).squaredNorm() - 1; };
   double low = -hh.minCoeff() + h.minCoeff() * std::abs(q[least]), high = h.maxCoeff() * q.norm();
   if (f(low) < 0) low = -hh.minCoeff();
   double t = std::clamp(0.0, low, high);
   for (int k = 0; k < 200; ++k) {  // Newton kept inside a shrinking bracket; f falls and is convex
-    const double value = f(t);
+    const Vec3 from = hh + Vec3::Constant(t), part = hq.cwiseQuotient(from).cwiseAbs2();
+    const double value = part.sum() - 1;
     (value > 0 ? low : high) = t;
-    double slope = 0;
-    for (int i = 0; i < 3; ++i) slope -= 2 * std::pow(h[i] * q[i], 2) / std::pow(t + hh[i], 3);
-    double next = t - value / slope;
+    double next = t + 0.5 * value / part.cwiseQuotient(from).sum();
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == t || high - low <= 1e-16 * hh.maxCoeff()) break;
     t = next;
