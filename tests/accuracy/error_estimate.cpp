@@ -133,6 +133,19 @@ TEST_CASE("a formulation that locks is not judged by cells that lock as well") {
   CHECK(std::abs(force.limit() - 10.763) < 0.002 * 10.763);
 }
 
+TEST_CASE("increments of a viscous body of quadratic cells have an error, without an indenter, too") {
+  const SolveConfig config = test::config_of(
+      "mesh: {cells: hex27, geometry: {block: {size: [8, 4, 4], divisions: [4, 4, 4]}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-3}}, viscous: [{tau: 1, gamma: 0.5}]}\n"
+      "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, displacement: {x: 1, y: 0, z: 0}}]\n"
+      "path: {seconds: 2, first: 0.25, largest: 0.25}\nstability: off\n");
+  const std::vector<ErrorEstimate> estimates = estimates_of(config);
+  REQUIRE(!estimates.empty());
+  CHECK(estimates[0].of.name == "reaction_x_max");
+  CHECK(estimates[0].increments != 0);
+  CHECK(std::abs(estimates[0].increments) < 0.1 * estimates[0].of.value);
+}
+
 TEST_CASE("two meshes that agree by chance do not pass for right") {
   const ErrorEstimate force =
       estimates_of(level("isotropic", CellType::hex27, 0.5, 0.25))[0];  // 0.03 % off, its neighbours 0.8 and 1.8
