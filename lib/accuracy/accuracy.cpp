@@ -57,7 +57,7 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
 // Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of
 // the time and less (docs/work_precision.md).
 bool better_as_hex27(const SolveConfig& config) {
-  const auto is_plane = [](const auto& contact) { return std::holds_alternative<Plane>(contact.second.rigid); };
+  const auto is_plane = [](const auto& c) { return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion; };
   return std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && config.mesh->cells == CellType::hex8 &&
          !has_edge_in_contact_radii(config.mesh->geometry) &&
          config.formulation.value_or(Formulation::linear_dilatation) == Formulation::linear_dilatation;
