@@ -54,45 +54,47 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
 
+bool wants_other_than_hex27(const SolveConfig& config) {
+  return config.formulation && *config.formulation != Formulation::linear_dilatation;
+}
+
 // Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of
 // the time and less (docs/work_precision.md).
-bool better_as_hex27(const SolveConfig& config) {
+CellType first_cells(const SolveConfig& config, bool cut) {
   const auto is_plane = [](const auto& c) { return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion; };
-  return std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && config.mesh->cells == CellType::hex8 &&
-         !has_edge_in_contact_radii(config.mesh->geometry) &&
-         config.formulation.value_or(Formulation::linear_dilatation) == Formulation::linear_dilatation;
+  const bool better = std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && !wants_other_than_hex27(config) &&
+                      !has_edge_in_contact_radii(config.mesh->geometry);
+  return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27 : config.mesh->cells;
 }
 
 // With the config's own cells, or as many nodes; shorter where there are too few of them to make coarser ones.
-AccuracyLevel the_configs_own(const SolveConfig& config, bool cut) {
-  const bool quadratic = !cut && better_as_hex27(config);
-  AccuracyLevel level{quadratic ? CellType::hex27 : config.mesh->cells, quadratic ? 2.0 : 1.0, config.path.largest_increment(), 0,
-                      false};
+AccuracyLevel the_configs_own(const SolveConfig& config, CellType cells) {
+  AccuracyLevel level{cells, cells == config.mesh->cells ? 1.0 : 2.0, config.path.largest_increment(), 0, false};
   for (int n : numbers_of_cells(config.mesh->geometry))
     if (n > 1) level.edge = std::min(level.edge, n / 4.0);
   return level;
 }
 
 // in thin layers with cells that are short enough for some layers of them
-AccuracyLevel where_to_begin(const SolveConfig& config, double finest, double wanted, bool cut) {
+AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chosen, CellType cells) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
-  if (!edge) return the_configs_own(config, cut);
+  if (!edge) return the_configs_own(config, cells);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyLevel level = is_section(geometry)                                   ? of_disc
-                        : cut                                                  ? to_be_cut
-                        : has_friction(config) && wanted < enough_for_coarsest ? coarsest_with_friction
-                                                                               : coarsest;
+  AccuracyLevel level = is_section(geometry)                                          ? of_disc
+                        : chosen.cut                                                  ? to_be_cut
+                        : has_friction(config) && chosen.wanted < enough_for_coarsest ? coarsest_with_friction
+                                                                                      : coarsest;
   *edge = level.edge;
-  while (*edge > finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
+  while (*edge > chosen.finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
   level.edge = *edge;
   return level;
 }
 
-double finest_edge(const MeshConfig& mesh, CellType type) {
+double finest_edge(const MeshConfig& mesh, CellType first) {
   if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
   if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
-  const double cells = (reference(type).second_order() ? 8 : 1) * n_cells(mesh.geometry);
+  const double cells = (reference(first).second_order() ? 8 : 1) * n_cells(mesh.geometry);
   const std::vector<int> along = numbers_of_cells(mesh.geometry);
   const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
   return std::min(1.0, std::pow(cells / most_hex8, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
@@ -159,18 +161,15 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optio
   const std::optional<Footprint> print =
       std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
-  const CellType first = !chosen.cut && better_as_hex27(config) ? CellType::hex27 : config.mesh->cells;
+  const CellType first = first_cells(config, chosen.cut);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
   const bool elastic = !config.path.seconds;  // as the study's bodies
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
-  const bool bilinear = config.formulation && config.formulation != Formulation::linear_dilatation;  // hex27 would not be right
-  const bool plain = chosen.shown && !bilinear && !has_friction(config) && !has_fibres(config, material);
+  const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) && !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
-  chosen.level = !chosen.shown ? where_to_begin(config, chosen.finest, chosen.wanted, chosen.cut)
-                 : chosen.met  ? *level
-                               : levels.back();
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen, first) : chosen.met ? *level : levels.back();
   if (!plain && !has_friction(config)) chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
   if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))

@@ -299,7 +299,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     return std::optional(e);
   };
   Family increments;
-  const std::vector<SolvedPath>& meshes = all.family.of.empty() ? all.alike.of : all.family.of;
+  const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.alike : all.family).of;
   if (!all.other.empty()) increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
   for (const Valued& q : itself.found) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
