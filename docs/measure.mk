@@ -91,7 +91,7 @@ adaptive: build
 # the folders of lib and the includes between them: docs/map.svg
 map:
 	@$(MAKE) --no-print-directory deps packages=graphviz
-	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z]*/' lib stages > runs/map_includes
+	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z_0-9/]*/' lib stages > runs/map_includes
 	@awk -f docs/map.awk runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
 
 

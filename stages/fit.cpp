@@ -1,18 +1,18 @@
 // langer-fit: parameters of a law from measured tests.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
-#include "base/interrupt.hpp"
+#include "core/base/interrupt.hpp"
 #include "export/cards.hpp"
-#include "fit/cross_check.hpp"
-#include "fit/doubts.hpp"
-#include "hdf5/seal.hpp"
-#include "inverse/inverse_fit.hpp"
-#include "inverse/scene_candidates.hpp"
+#include "identification/fit/cross_check.hpp"
+#include "identification/fit/doubts.hpp"
+#include "core/hdf5/seal.hpp"
+#include "identification/inverse/inverse_fit.hpp"
+#include "identification/inverse/scene_candidates.hpp"
 #include "stage.hpp"
-#include "store/curves_file.hpp"
-#include "study/fit_report.hpp"
-#include "study/long_work.hpp"
-#include "study/study_files.hpp"
+#include "results/store/curves_file.hpp"
+#include "identification/setup/fit_report.hpp"
+#include "identification/sensitivity/long_work.hpp"
+#include "identification/statistics/study_files.hpp"
 
 namespace langer {
 namespace {

@@ -2,16 +2,16 @@
 // figures and maps of all members.
 #include <cstdlib>
 
-#include "hdf5/seal.hpp"
-#include "inverse/parameter_sample.hpp"
-#include "plot/gnuplot.hpp"
-#include "plot/pictures.hpp"
+#include "core/hdf5/seal.hpp"
+#include "identification/inverse/parameter_sample.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/plot/pictures.hpp"
 #include "stage.hpp"
-#include "store/material_file.hpp"
-#include "sweep/design_tables.hpp"
-#include "sweep/gather.hpp"
-#include "sweep/gather_config.hpp"
-#include "sweep/sweep_file.hpp"
+#include "results/store/material_file.hpp"
+#include "pipeline/sweep/design_tables.hpp"
+#include "pipeline/sweep/gather.hpp"
+#include "pipeline/sweep/gather_config.hpp"
+#include "pipeline/sweep/sweep_file.hpp"
 
 namespace langer {
 namespace {

@@ -2,18 +2,18 @@
 #include <algorithm>
 
 #include "arguments.hpp"
-#include "base/say.hpp"
-#include "pipeline/effective.hpp"
-#include "pipeline/run_files.hpp"
-#include "post/describe_columns.hpp"
+#include "core/base/say.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "results/post/describe_columns.hpp"
 #include "program.hpp"
-#include "tool/check.hpp"
-#include "tool/crate.hpp"
-#include "tool/doctor.hpp"
-#include "tool/run_state.hpp"
-#include "tool/schemas.hpp"
-#include "tool/show.hpp"
-#include "tool/starter.hpp"
+#include "cli/check.hpp"
+#include "cli/crate.hpp"
+#include "cli/doctor.hpp"
+#include "cli/run_state.hpp"
+#include "cli/schemas.hpp"
+#include "cli/show.hpp"
+#include "cli/starter.hpp"
 
 namespace langer {
 namespace {

@@ -2,11 +2,11 @@
 //   langer-mesh indentation.yaml -o mesh.h5
 #include <filesystem>
 
-#include "hdf5/seal.hpp"
-#include "scene/config_io.hpp"
-#include "scene/make_mesh.hpp"
+#include "core/hdf5/seal.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/make_mesh.hpp"
 #include "stage.hpp"
-#include "store/mesh_file.hpp"
+#include "results/store/mesh_file.hpp"
 
 namespace langer {
 namespace {

@@ -1,10 +1,10 @@
 // langer-plan pipelines/x.yaml [-o runs/x]: checks everything that a pipeline names, then writes its Makefile and configs.
-#include "pipeline/plan.hpp"
+#include "pipeline/plan/plan.hpp"
 
 #include <filesystem>
 
 #include "arguments.hpp"
-#include "base/say.hpp"
+#include "core/base/say.hpp"
 #include "program.hpp"
 
 int main(int argc, char** argv) {

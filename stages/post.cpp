@@ -4,20 +4,20 @@
 #include <set>
 
 #include "arguments.hpp"
-#include "base/counted.hpp"
+#include "core/base/counted.hpp"
 #include "export/write_decks.hpp"
-#include "hdf5/seal.hpp"
-#include "material/ellipticity.hpp"
-#include "pipeline/effective.hpp"
-#include "plot/pictures.hpp"
-#include "run/contact_state.hpp"
-#include "run/post_config.hpp"
-#include "run/post_files.hpp"
+#include "core/hdf5/seal.hpp"
+#include "mechanics/material/ellipticity.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "results/plot/pictures.hpp"
+#include "scene/run/recorded_contact.hpp"
+#include "scene/run/post_config.hpp"
+#include "scene/run/post_files.hpp"
 #include "stage.hpp"
-#include "store/curves_file.hpp"
-#include "store/snapshot.hpp"
-#include "store/solution_file.hpp"
-#include "store/vtu.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/snapshot.hpp"
+#include "results/store/solution_file.hpp"
+#include "results/store/vtu.hpp"
 
 namespace langer {
 namespace {

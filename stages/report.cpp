@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/counted.hpp"
-#include "hdf5/seal.hpp"
+#include "core/base/counted.hpp"
+#include "core/hdf5/seal.hpp"
 #include "report/page.hpp"
 #include "report/report_config.hpp"
 #include "report/sources.hpp"

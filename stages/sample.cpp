@@ -1,11 +1,11 @@
 // langer-sample: one of the sets of parameters that a fit leaves open, as a material.
 //   langer-sample sample.yaml --material material.h5 --set number=17 -o sample/material.h5
-#include "hdf5/seal.hpp"
-#include "inverse/parameter_sample.hpp"
-#include "inverse/sample_config.hpp"
-#include "material/at_rest.hpp"
+#include "core/hdf5/seal.hpp"
+#include "identification/inverse/parameter_sample.hpp"
+#include "identification/inverse/sample_config.hpp"
+#include "mechanics/material/at_rest.hpp"
 #include "stage.hpp"
-#include "store/material_file.hpp"
+#include "results/store/material_file.hpp"
 
 namespace langer {
 namespace {

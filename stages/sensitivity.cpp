@@ -2,13 +2,13 @@
 //   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
 #include <memory>
 
-#include "hdf5/seal.hpp"
-#include "run/step_record.hpp"
+#include "core/hdf5/seal.hpp"
+#include "scene/run/step_record.hpp"
 #include "stage.hpp"
-#include "study/long_work.hpp"
-#include "study/ranking.hpp"
-#include "study/sensitivity_tables.hpp"
-#include "study/study_files.hpp"
+#include "identification/sensitivity/long_work.hpp"
+#include "identification/sensitivity/ranking.hpp"
+#include "identification/sensitivity/sensitivity_tables.hpp"
+#include "identification/statistics/study_files.hpp"
 
 namespace langer {
 namespace {

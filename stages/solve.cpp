@@ -2,17 +2,17 @@
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
 #include <csignal>
 
-#include "accuracy/model_choice.hpp"
-#include "accuracy/say_errors.hpp"
-#include "base/interrupt.hpp"
-#include "inverse/uncertainty.hpp"
-#include "mirror/mirror.hpp"
-#include "run/dry_run.hpp"
-#include "run/run_words.hpp"
-#include "run/step_record.hpp"
-#include "scene/config_io.hpp"
+#include "accuracy/refinement/model_choice.hpp"
+#include "accuracy/estimate/say_errors.hpp"
+#include "core/base/interrupt.hpp"
+#include "identification/inverse/uncertainty.hpp"
+#include "scene/run/mirrored_solution.hpp"
+#include "scene/run/dry_run.hpp"
+#include "scene/run/run_words.hpp"
+#include "scene/run/step_record.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "stage.hpp"
-#include "store/step_journal.hpp"
+#include "results/store/step_journal.hpp"
 
 namespace langer {
 namespace {

@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "base/voice.hpp"
-#include "pipeline/run_files.hpp"
-#include "pipeline/stage_config.hpp"
+#include "core/base/voice.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "pipeline/plan/stage_config.hpp"
 #include "program.hpp"
 
 namespace langer {

@@ -3,14 +3,14 @@
 // level for each error wanted that is not below that.
 #include <cmath>
 
-#include "hdf5/seal.hpp"
-#include "plot/gnuplot.hpp"
-#include "plot/pictures.hpp"
+#include "core/hdf5/seal.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/plot/pictures.hpp"
 #include "stage.hpp"
-#include "sweep/gather.hpp"
-#include "sweep/sweep_file.hpp"
-#include "sweep/tune_config.hpp"
-#include "sweep/work_precision.hpp"
+#include "pipeline/sweep/gather.hpp"
+#include "pipeline/sweep/sweep_file.hpp"
+#include "pipeline/sweep/tune_config.hpp"
+#include "pipeline/sweep/work_precision.hpp"
 
 namespace langer {
 namespace {

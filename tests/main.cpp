@@ -1,7 +1,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include "base/traps.hpp"
+#include "core/base/traps.hpp"
 
 int main(int argc, char** argv) {
   langer::set_traps();

@@ -10,7 +10,7 @@
 #include "export/fibre_frame.hpp"
 #include "export/foreign_terms.hpp"
 #include "export/polynomial.hpp"
-#include "material/parameters.hpp"
+#include "mechanics/material/parameters.hpp"
 
 namespace langer {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer {
 

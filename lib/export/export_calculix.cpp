@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 #include "export/calculix_material.hpp"
 #include "export/export_scene.hpp"
 #include "export/fibre_frame.hpp"
-#include "mesh/raise.hpp"
-#include "mesh/reference.hpp"
+#include "mechanics/mesh/raise.hpp"
+#include "mechanics/mesh/reference.hpp"
 
 namespace langer {
 

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "base/xml.hpp"
+#include "core/base/xml.hpp"
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
-#include "mesh/facets.hpp"
-#include "mesh/reference.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/reference.hpp"
 
 namespace langer {
 

@@ -9,13 +9,13 @@
 #include <set>
 #include <tuple>
 
-#include "base/version.hpp"
+#include "core/base/version.hpp"
 #include "export/acting.hpp"
-#include "mesh/facets.hpp"
-#include "mesh/reference.hpp"
-#include "scene/config_io.hpp"
-#include "scene/scene.hpp"
-#include "scene/symmetry.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/reference.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/scene.hpp"
+#include "scene/model/scene_symmetry.hpp"
 
 namespace langer {
 

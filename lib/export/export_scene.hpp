@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "export/rigid_cap.hpp"
-#include "mesh/mesh.hpp"
-#include "scene/solve_config.hpp"
-#include "store/solution_file.hpp"
+#include "mechanics/mesh/mesh.hpp"
+#include "scene/model/solve_config.hpp"
+#include "results/store/solution_file.hpp"
 
 namespace langer {
 

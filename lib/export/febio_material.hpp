@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "export/foreign_law.hpp"
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer {
 

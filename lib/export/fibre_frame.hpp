@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tensor/types.hpp"
+#include "core/tensor/types.hpp"
 
 namespace langer {
 

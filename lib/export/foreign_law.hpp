@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 namespace langer {
 

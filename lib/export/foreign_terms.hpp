@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
-#include "contact/rigid.hpp"
-#include "tensor/types.hpp"
+#include "mechanics/contact/rigid.hpp"
+#include "core/tensor/types.hpp"
 
 namespace langer {
 

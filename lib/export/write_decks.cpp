@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 #include "export/export_scene.hpp"
-#include "hdf5/replace.hpp"
-#include "hdf5/seal.hpp"
+#include "core/hdf5/replace.hpp"
+#include "core/hdf5/seal.hpp"
 
 namespace langer {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "config/tree.hpp"
-#include "config/writer.hpp"
-#include "run/post_files.hpp"
+#include "core/config/tree.hpp"
+#include "core/config/writer.hpp"
+#include "scene/run/post_files.hpp"
 
 namespace langer::report {
 

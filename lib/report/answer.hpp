@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
-#include "store/identity.hpp"
-#include "store/solution_file.hpp"
+#include "core/base/error.hpp"
+#include "results/store/identity.hpp"
+#include "results/store/solution_file.hpp"
 
 namespace langer::report {
 

@@ -7,12 +7,12 @@
 #include <numeric>
 #include <set>
 
-#include "mesh/raise.hpp"
-#include "post/render.hpp"
+#include "mechanics/mesh/raise.hpp"
+#include "results/post/render.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
-#include "run/contact_state.hpp"
-#include "run/post_files.hpp"
+#include "scene/run/recorded_contact.hpp"
+#include "scene/run/post_files.hpp"
 
 namespace langer::report {
 

@@ -10,7 +10,7 @@
 
 #include "report/json.hpp"
 #include "report/report_config.hpp"
-#include "store/solution_file.hpp"
+#include "results/store/solution_file.hpp"
 
 namespace langer::report {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <map>
 
-#include "post/curves.hpp"
+#include "results/post/curves.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
-#include "store/curves_file.hpp"
+#include "results/store/curves_file.hpp"
 
 namespace langer::report {
 

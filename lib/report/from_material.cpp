@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "report/sources.hpp"
-#include "store/material_file.hpp"
+#include "results/store/material_file.hpp"
 
 namespace langer::report {
 

@@ -1,8 +1,8 @@
 #include <sstream>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "report/sources.hpp"
-#include "store/provenance.hpp"
+#include "results/store/provenance.hpp"
 
 namespace langer::report {
 

@@ -3,12 +3,12 @@
 #include <functional>
 #include <map>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "report/answer.hpp"
 #include "report/body_view.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
-#include "store/solution_file.hpp"
+#include "results/store/solution_file.hpp"
 
 namespace langer::report {
 

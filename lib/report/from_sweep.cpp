@@ -2,11 +2,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "hdf5/h5.hpp"
-#include "hdf5/units.hpp"
+#include "core/hdf5/h5.hpp"
+#include "core/hdf5/unit_attribute.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
-#include "store/provenance.hpp"
+#include "results/store/provenance.hpp"
 
 namespace langer::report {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/quoted.hpp"
+#include "core/base/quoted.hpp"
 
 namespace langer::report {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "post/quantity.hpp"
+#include "results/post/quantity.hpp"
 
 namespace langer::report {
 

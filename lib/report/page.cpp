@@ -1,7 +1,7 @@
 #include "report/page.hpp"
 
-#include "base/version.hpp"
-#include "base/xml.hpp"
+#include "core/base/version.hpp"
+#include "core/base/xml.hpp"
 #include "report/embedded.hpp"
 
 namespace langer::report {

@@ -10,7 +10,7 @@
 
 #include "report/answer.hpp"
 #include "report/json.hpp"
-#include "report/symmetry.hpp"
+#include "report/report_symmetry.hpp"
 
 namespace langer::report {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "base/fields.hpp"
-#include "post/fields.hpp"
-#include "post/quantity.hpp"
-#include "scene/solve_config.hpp"
+#include "core/base/fields.hpp"
+#include "results/post/nodal_fields.hpp"
+#include "results/post/quantity.hpp"
+#include "scene/model/solve_config.hpp"
 
 namespace langer {
 

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <filesystem>
 
-#include "hdf5/h5.hpp"
-#include "store/provenance.hpp"
+#include "core/hdf5/h5.hpp"
+#include "results/store/provenance.hpp"
 
 namespace langer::report {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
-#include "base/say.hpp"
+#include "core/base/error.hpp"
+#include "core/base/say.hpp"
 #include "program.hpp"
 
 namespace langer {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tool/usage.hpp"
+#include "cli/usage.hpp"
 
 namespace langer {
 

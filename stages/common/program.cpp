@@ -16,16 +16,16 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
-#include "base/interrupt.hpp"
-#include "base/memory.hpp"
-#include "base/ranks.hpp"
-#include "base/say.hpp"
-#include "base/stopwatch.hpp"
-#include "base/traps.hpp"
-#include "base/version.hpp"
-#include "linear/petsc/load.hpp"
-#include "pipeline/run_files.hpp"
+#include "core/base/error.hpp"
+#include "core/base/interrupt.hpp"
+#include "core/base/memory.hpp"
+#include "core/base/ranks.hpp"
+#include "core/base/say.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/traps.hpp"
+#include "core/base/version.hpp"
+#include "mechanics/linear/petsc/petsc_load.hpp"
+#include "pipeline/plan/run_files.hpp"
 
 namespace langer {
 

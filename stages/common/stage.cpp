@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "arguments.hpp"
-#include "base/memory.hpp"
-#include "base/ranks.hpp"
-#include "base/stopwatch.hpp"
-#include "linear/petsc/load.hpp"
-#include "pipeline/effective.hpp"
-#include "pipeline/ports.hpp"
-#include "store/lock.hpp"
+#include "core/base/memory.hpp"
+#include "core/base/ranks.hpp"
+#include "core/base/stopwatch.hpp"
+#include "mechanics/linear/petsc/petsc_load.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/ports.hpp"
+#include "results/store/lock.hpp"
 
 namespace langer {
 

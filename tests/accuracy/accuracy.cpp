@@ -1,7 +1,7 @@
 // What a wanted accuracy puts into a config.
-#include "accuracy/accuracy.hpp"
-#include "accuracy/level_cost.hpp"
-#include "run/footprint.hpp"
+#include "accuracy/refinement/accuracy.hpp"
+#include "accuracy/refinement/level_cost.hpp"
+#include "scene/run/footprint.hpp"
 #include "support/laws.hpp"
 
 #include <doctest/doctest.h>

@@ -1,14 +1,14 @@
 // Cells that are cut where the error comes from, until an accuracy is reached.
-#include "accuracy/adaptive_cells.hpp"
+#include "accuracy/refinement/adaptive_cells.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "accuracy/dual_estimate.hpp"
-#include "accuracy/model_choice.hpp"
-#include "run/step_record.hpp"
+#include "accuracy/estimate/dual_estimate.hpp"
+#include "accuracy/refinement/model_choice.hpp"
+#include "scene/run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/section.hpp"
 

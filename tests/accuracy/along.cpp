@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/error_estimate.hpp"
-#include "accuracy/refinements.hpp"
-#include "accuracy/truncation.hpp"
-#include "config/tree.hpp"
-#include "scene/config_io.hpp"
+#include "accuracy/estimate/error_estimate.hpp"
+#include "accuracy/estimate/refinements.hpp"
+#include "accuracy/estimate/truncation.hpp"
+#include "core/config/tree.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 

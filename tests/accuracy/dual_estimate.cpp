@@ -1,13 +1,13 @@
 // Errors by dual solutions: what they are made of, and against those of finer cells.
-#include "accuracy/dual_estimate.hpp"
+#include "accuracy/estimate/dual_estimate.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "mesh/section.hpp"
-#include "post/patches.hpp"
-#include "solve/state_tangent.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "results/post/patches.hpp"
+#include "mechanics/solve/state_tangent.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

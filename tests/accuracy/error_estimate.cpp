@@ -1,5 +1,5 @@
 // Estimated errors against true ones.
-#include "accuracy/error_estimate.hpp"
+#include "accuracy/estimate/error_estimate.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "config/tree.hpp"
-#include "post/recovery.hpp"
-#include "scene/config_io.hpp"
+#include "core/config/tree.hpp"
+#include "results/post/recovery.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

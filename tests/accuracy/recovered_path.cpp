@@ -1,14 +1,14 @@
 // The error bars that a config without `estimate` gets, and where it gets none.
-#include "accuracy/recovered_path.hpp"
+#include "accuracy/estimate/recovered_path.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "config/tree.hpp"
-#include "run/body_mesh.hpp"
-#include "scene/config_io.hpp"
+#include "core/config/tree.hpp"
+#include "scene/run/body_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 

@@ -1,6 +1,6 @@
 // A section in place of a block: offered where the scene is the same around an axis, taken where the sides matter little enough,
 // and its force is that of the block within what is named.
-#include "accuracy/section_in_place.hpp"
+#include "accuracy/refinement/section_in_place.hpp"
 
 #include <doctest/doctest.h>
 

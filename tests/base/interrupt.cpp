@@ -1,5 +1,5 @@
 // Signals: what waits for a good place to stop, and what does not wait long.
-#include "base/interrupt.hpp"
+#include "core/base/interrupt.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 #include <csignal>
 #include <functional>
 
-#include "base/stopwatch.hpp"
+#include "core/base/stopwatch.hpp"
 
 using namespace langer;
 

@@ -1,4 +1,4 @@
-#include "base/xml.hpp"
+#include "core/base/xml.hpp"
 
 #include <doctest/doctest.h>
 

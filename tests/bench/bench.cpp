@@ -9,13 +9,13 @@
 #include <set>
 #include <string>
 
-#include "base/memory.hpp"
-#include "base/stopwatch.hpp"
+#include "core/base/memory.hpp"
+#include "core/base/stopwatch.hpp"
 #include "bench/growth.hpp"
 #include "bench/solvers.hpp"
-#include "material/path.hpp"
-#include "sensitivity/sobol.hpp"
-#include "solve/forecast.hpp"
+#include "mechanics/material/path.hpp"
+#include "identification/sensitivity/sobol.hpp"
+#include "mechanics/solve/forecast.hpp"
 #include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"

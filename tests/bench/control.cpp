@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/stopwatch.hpp"
-#include "config/reader.hpp"
-#include "run/run.hpp"
-#include "scene/make_mesh.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/config/reader.hpp"
+#include "scene/run/run.hpp"
+#include "scene/model/make_mesh.hpp"
 
 using namespace langer;
 

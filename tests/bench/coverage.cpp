@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "fit/identifiability.hpp"
+#include "identification/fit/identifiability.hpp"
 #include "support/correlated.hpp"
 
 using namespace langer;

@@ -1,12 +1,12 @@
 // A whole identification: five biaxial protocols of 90 points, HGO-Yeoh with its angle, profiles and 200 bootstrap samples.
-#include "fit/fit.hpp"
+#include "identification/fit/fit.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
 
-#include "base/random.hpp"
-#include "study/study.hpp"
+#include "core/base/random.hpp"
+#include "identification/statistics/study.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;

@@ -8,12 +8,12 @@
 #include <fstream>
 #include <optional>
 
-#include "base/ranks.hpp"
-#include "base/stopwatch.hpp"
-#include "linear/petsc/load.hpp"
-#include "plot/figure_style.hpp"
-#include "plot/gnuplot.hpp"
-#include "solve/forecast.hpp"
+#include "core/base/ranks.hpp"
+#include "core/base/stopwatch.hpp"
+#include "mechanics/linear/petsc/petsc_load.hpp"
+#include "results/plot/figure_style.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "mechanics/solve/forecast.hpp"
 #include "support/indentation.hpp"
 
 namespace langer {

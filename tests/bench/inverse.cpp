@@ -3,7 +3,7 @@
 //                      derivatives of the runs and with difference quotients of whole runs
 //   price              CPU seconds of a run with derivatives by none, one and more numbers, and its tangents
 //   inverse_coverage   how often 95 % intervals hold the true values, over fresh noise
-#include "inverse/inverse_fit.hpp"
+#include "identification/inverse/inverse_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -15,12 +15,12 @@
 #include <map>
 #include <random>
 
-#include "base/stopwatch.hpp"
-#include "inverse/sensitivity.hpp"
-#include "run/body_mesh.hpp"
-#include "scene/config_io.hpp"
-#include "study/config_io.hpp"
-#include "study/fit_report.hpp"
+#include "core/base/stopwatch.hpp"
+#include "identification/inverse/sensitivity.hpp"
+#include "scene/run/body_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "identification/setup/fit_config_io.hpp"
+#include "identification/setup/fit_report.hpp"
 
 using namespace langer;
 

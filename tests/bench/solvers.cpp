@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "base/stopwatch.hpp"
-#include "run/run.hpp"
-#include "scene/config_io.hpp"
-#include "scene/make_mesh.hpp"
+#include "core/base/stopwatch.hpp"
+#include "scene/run/run.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/make_mesh.hpp"
 
 namespace langer {
 

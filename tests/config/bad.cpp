@@ -9,10 +9,10 @@
 #include <fstream>
 
 #include "config/sample.hpp"
-#include "material/material.hpp"
-#include "pipeline/effective.hpp"
-#include "pipeline/expand.hpp"
-#include "scene/config_io.hpp"
+#include "mechanics/material/material.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/expand.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

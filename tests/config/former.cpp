@@ -1,12 +1,12 @@
 // Keys and words by their former names: read as what they are called now, with one notice.
 #include <doctest/doctest.h>
 
-#include "base/former.hpp"
-#include "pipeline/run_files.hpp"
-#include "run/continued.hpp"
-#include "scene/config_io.hpp"
-#include "scene/solve_config.hpp"
-#include "study/config_io.hpp"
+#include "core/base/former.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "scene/run/continued.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/solve_config.hpp"
+#include "identification/setup/fit_config_io.hpp"
 
 using namespace langer;
 

@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-#include "config/reader.hpp"
+#include "core/config/reader.hpp"
 #include "config/sample.hpp"
 
 using namespace langer;

@@ -17,12 +17,12 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/effective.hpp"
-#include "pipeline/expand.hpp"
-#include "scene/config_io.hpp"
-#include "scene/make_mesh.hpp"
-#include "scene/scene.hpp"
-#include "study/config_io.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/expand.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/make_mesh.hpp"
+#include "scene/model/scene.hpp"
+#include "identification/setup/fit_config_io.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "config/sample.hpp"
-#include "material/material.hpp"
-#include "scene/config_io.hpp"
+#include "mechanics/material/material.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 using sample::Sample;

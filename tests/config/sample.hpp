@@ -5,8 +5,8 @@
 #include <optional>
 #include <variant>
 
-#include "base/fields.hpp"
-#include "base/input_path.hpp"
+#include "core/base/fields.hpp"
+#include "core/base/input_path.hpp"
 
 namespace langer::sample {
 

@@ -1,11 +1,11 @@
 // The law of a bond: force and tangent from its potential, what it takes, when it heals.
-#include "contact/adhesion.hpp"
+#include "mechanics/contact/adhesion.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "contact/rigid.hpp"
+#include "mechanics/contact/rigid.hpp"
 
 using namespace langer;
 

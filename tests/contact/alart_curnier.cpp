@@ -1,5 +1,5 @@
 // The contact law as a root: its zeros are the law's states, its derivative that of differences, in each of the three states.
-#include "contact/alart_curnier.hpp"
+#include "mechanics/contact/alart_curnier.hpp"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/local_problem.hpp"
+#include "mechanics/contact/local_problem.hpp"
 #include "contact/random_problem.hpp"
 #include "support/slow_build.hpp"
 

@@ -1,4 +1,4 @@
-#include "contact/coulomb_cone.hpp"
+#include "mechanics/contact/coulomb_cone.hpp"
 
 #include <doctest/doctest.h>
 

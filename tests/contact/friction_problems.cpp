@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "contact/local_problem.hpp"
+#include "mechanics/contact/local_problem.hpp"
 #include "contact/random_problem.hpp"
 
 using namespace langer;

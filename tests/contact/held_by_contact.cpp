@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/supported_problem.hpp"
+#include "mechanics/contact/supported_problem.hpp"
 #include "support/directions.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"

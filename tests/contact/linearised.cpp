@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/contact.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 

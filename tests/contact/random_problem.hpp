@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/local_problem.hpp"
+#include "mechanics/contact/local_problem.hpp"
 
 namespace langer::test {
 

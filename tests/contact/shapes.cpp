@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include "contact/rigid.hpp"
-#include "mesh/reference.hpp"
+#include "mechanics/contact/rigid.hpp"
+#include "mechanics/mesh/reference.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 

@@ -1,5 +1,5 @@
 // An indenter against the whole boundary, between nodes too: what is found is what a dense sampling of every facet finds.
-#include "contact/surface_check.hpp"
+#include "mechanics/contact/surface_check.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,9 @@
 #include <memory>
 #include <random>
 
-#include "mesh/facets.hpp"
-#include "mesh/reference.hpp"
-#include "mesh/select.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/reference.hpp"
+#include "mechanics/mesh/select.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

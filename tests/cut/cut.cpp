@@ -1,5 +1,5 @@
 // Cells cut beside larger ones: the mesh, what hangs in it, and the mechanics through hanging nodes.
-#include "mesh/cut.hpp"
+#include "mechanics/mesh/cut.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -8,12 +8,12 @@
 #include <random>
 #include <set>
 
-#include "element/surface.hpp"
-#include "mesh/hanging.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/select.hpp"
-#include "run/run.hpp"
-#include "store/mesh_file.hpp"
+#include "mechanics/element/surface.hpp"
+#include "mechanics/mesh/hanging.hpp"
+#include "mechanics/mesh/quality.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "scene/run/run.hpp"
+#include "results/store/mesh_file.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "mesh/cut.hpp"
-#include "mesh/hanging.hpp"
-#include "post/contact_surface.hpp"
+#include "mechanics/mesh/cut.hpp"
+#include "mechanics/mesh/hanging.hpp"
+#include "results/post/contact_surface.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

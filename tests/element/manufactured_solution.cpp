@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "assembly/equilibrium.hpp"
-#include "linear/linear.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/voigt.hpp"
+#include "core/tensor/voigt.hpp"
 
 using namespace langer;
 

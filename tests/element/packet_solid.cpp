@@ -1,5 +1,5 @@
 // Eight elements at once give what one at a time gives.
-#include "element/packet_solid.hpp"
+#include "mechanics/element/packet_solid.hpp"
 
 #include <doctest/doctest.h>
 

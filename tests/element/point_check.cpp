@@ -1,12 +1,12 @@
 // The sampled shear stiffness of eight points at once against the exact one.
-#include "element/point_check.hpp"
+#include "mechanics/element/point_check.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-#include "material/ellipticity.hpp"
+#include "mechanics/material/ellipticity.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;

@@ -1,5 +1,5 @@
 // Element tests: patch, rigid motion, tangent, all formulations.
-#include "element/solid.hpp"
+#include "mechanics/element/solid.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <random>
 
-#include "assembly/equilibrium.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/dense.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/dense.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

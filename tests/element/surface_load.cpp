@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "element/surface.hpp"
-#include "mesh/reference.hpp"
+#include "mechanics/element/surface.hpp"
+#include "mechanics/mesh/reference.hpp"
 
 using namespace langer;
 

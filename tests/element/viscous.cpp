@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "element/packet_solid.hpp"
+#include "mechanics/element/packet_solid.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;

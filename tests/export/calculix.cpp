@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "export/cards.hpp"
-#include "material/uniaxial.hpp"
+#include "mechanics/material/uniaxial.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

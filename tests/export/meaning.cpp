@@ -8,8 +8,8 @@
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
 #include "support/foreign_laws.hpp"
-#include "tensor/kinematics.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

@@ -1,5 +1,5 @@
 // The cross-check by another library agrees with an optimum, and says so where there is none.
-#include "fit/cross_check.hpp"
+#include "identification/fit/cross_check.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 using namespace langer;
 using test::Curve, test::parse_curve;

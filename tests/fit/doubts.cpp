@@ -1,5 +1,5 @@
 // What looks wrong in data that can be read.
-#include "fit/doubts.hpp"
+#include "identification/fit/doubts.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Several tests in one fit: known parameters come back from every law and kind of test; real specimens.
-#include "fit/fit.hpp"
+#include "identification/fit/fit.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 #include "material/catalogue.hpp"
 
 using namespace langer;

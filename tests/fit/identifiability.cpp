@@ -1,14 +1,14 @@
 // What data tell: the paper's single curve in numbers, closed forms of a linear model, coverage of intervals, advice.
-#include "fit/identifiability.hpp"
+#include "identification/fit/identifiability.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.hpp"
-#include "fit/advice.hpp"
-#include "fit/fit.hpp"
+#include "core/base/random.hpp"
+#include "identification/fit/advice.hpp"
+#include "identification/fit/fit.hpp"
 #include "material/catalogue.hpp"
 
 using namespace langer;

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <random>
 
-#include "base/error.hpp"
-#include "fit/test_data.hpp"
+#include "core/base/error.hpp"
+#include "identification/fit/test_data.hpp"
 
 using namespace langer;
 

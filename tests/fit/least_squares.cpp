@@ -1,5 +1,5 @@
 // Bounded least squares: optimality at active bounds, hard valleys, models with holes, covariance.
-#include "fit/least_squares.hpp"
+#include "identification/fit/least_squares.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "fit/bounded_linear.hpp"
-#include "tensor/dense.hpp"
+#include "identification/fit/bounded_linear.hpp"
+#include "core/tensor/dense.hpp"
 
 using namespace langer;
 

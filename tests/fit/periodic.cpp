@@ -1,5 +1,5 @@
 // Angles: periodic boxes, places of symmetry, and what is known of the other numbers there; ties between families.
-#include "fit/periodic.hpp"
+#include "identification/fit/periodic.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fit/identifiability.hpp"
+#include "identification/fit/identifiability.hpp"
 #include "material/catalogue.hpp"
 #include "support/correlated.hpp"
 

@@ -1,13 +1,13 @@
 // Residuals that are correlated along curves: what they count as, and that intervals hold what they say.
-#include "fit/residual_noise.hpp"
+#include "identification/fit/residual_noise.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-#include "base/student.hpp"
-#include "fit/identifiability.hpp"
+#include "core/base/student.hpp"
+#include "identification/fit/identifiability.hpp"
 #include "support/correlated.hpp"
 
 using namespace langer;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fit/fit.hpp"
+#include "identification/fit/fit.hpp"
 
 using namespace langer;
 

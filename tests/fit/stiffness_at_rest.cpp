@@ -1,12 +1,12 @@
 // The shear modulus at rest of fits to tests that hardly feel it.
-#include "fit/stiffness_at_rest.hpp"
+#include "identification/fit/stiffness_at_rest.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "base/random.hpp"
-#include "material/at_rest.hpp"
+#include "core/base/random.hpp"
+#include "mechanics/material/at_rest.hpp"
 
 using namespace langer;
 

@@ -1,11 +1,11 @@
 // Tests of any kind from CSV: measures, units, protocols, and what is refused with its place.
-#include "fit/test_data.hpp"
+#include "identification/fit/test_data.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 using namespace langer;
 

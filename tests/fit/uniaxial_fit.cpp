@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 #include "material/catalogue.hpp"
 
 using namespace langer;

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "base/error.hpp"
-#include "fit/fit.hpp"
-#include "fit/test_range.hpp"
+#include "core/base/error.hpp"
+#include "identification/fit/fit.hpp"
+#include "identification/fit/test_range.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;

@@ -1,7 +1,7 @@
 // Text -> CSV -> tests of two kinds, by their columns' names or as told.
 #include <cmath>
 
-#include "fit/test_data.hpp"
+#include "identification/fit/test_data.hpp"
 #include "fuzz.hpp"
 
 namespace {

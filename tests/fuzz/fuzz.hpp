@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 namespace langer::fuzz {
 

@@ -1,7 +1,7 @@
 // material.h5, solution.h5 and curves.h5 as edited by others -> values, or a refusal. The first byte chooses the file.
 #include "edited_h5.hpp"
-#include "store/curves_file.hpp"
-#include "store/material_file.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/material_file.hpp"
 #include "store/solution_example.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Text -> a mesh of Abaqus or CalculiX whose indices all lead somewhere.
 #include "fuzz.hpp"
-#include "geometry/exchange.hpp"
+#include "meshing/exchange.hpp"
 #include "sound_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

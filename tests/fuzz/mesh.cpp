@@ -2,7 +2,7 @@
 #include "edited_h5.hpp"
 #include "sound_mesh.hpp"
 #include "store/example.hpp"
-#include "store/mesh_file.hpp"
+#include "results/store/mesh_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;

@@ -1,6 +1,6 @@
 // Text -> a pipeline -> its steps; configs that it names are a small map, or missing.
 #include "fuzz.hpp"
-#include "pipeline/expand.hpp"
+#include "pipeline/plan/expand.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;

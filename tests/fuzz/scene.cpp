@@ -1,9 +1,9 @@
 // Text -> a scene: read, written and read again as the same, then composed on a block and on a section.
-#include "scene/scene.hpp"
-#include "config/reader.hpp"
-#include "config/writer.hpp"
+#include "scene/model/scene.hpp"
+#include "core/config/reader.hpp"
+#include "core/config/writer.hpp"
 #include "fuzz.hpp"
-#include "scene/make_mesh.hpp"
+#include "scene/model/make_mesh.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "mesh/mesh.hpp"
+#include "mechanics/mesh/mesh.hpp"
 
 namespace langer::fuzz {
 

@@ -1,6 +1,6 @@
 // Bytes -> a surface of triangles whose corners all lead somewhere, at positions that are numbers.
 #include "fuzz.hpp"
-#include "geometry/read_surface.hpp"
+#include "meshing/read_surface.hpp"
 #include "sound_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,9 +1,9 @@
 // Text -> YAML -> configs: one with a member of every kind, and a material.
-#include "config/reader.hpp"
+#include "core/config/reader.hpp"
 #include "config/sample.hpp"
-#include "config/writer.hpp"
+#include "core/config/writer.hpp"
 #include "fuzz.hpp"
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;

@@ -1,5 +1,5 @@
 // Sets of parameters that a fit leaves open: those of its bootstrap, or drawn by its covariance within the bounds; ties follow.
-#include "inverse/parameter_sample.hpp"
+#include "identification/inverse/parameter_sample.hpp"
 
 #include <doctest/doctest.h>
 

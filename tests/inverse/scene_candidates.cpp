@@ -1,5 +1,5 @@
 // Scenes as candidates of the advice: what is foretold of a test is what a fit with it achieves.
-#include "inverse/scene_candidates.hpp"
+#include "identification/inverse/scene_candidates.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/random.hpp"
-#include "inverse/inverse_fit.hpp"
-#include "scene/config_io.hpp"
-#include "study/config_io.hpp"
-#include "study/fit_report.hpp"
-#include "study/study.hpp"
+#include "core/base/random.hpp"
+#include "identification/inverse/inverse_fit.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "identification/setup/fit_config_io.hpp"
+#include "identification/setup/fit_report.hpp"
+#include "identification/statistics/study.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

@@ -1,5 +1,5 @@
 // Parameters from scenes: what is read of a path, what a file may say, fits of data that were made up, what is refused.
-#include "inverse/inverse_fit.hpp"
+#include "identification/inverse/inverse_fit.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "inverse/scene_data.hpp"
-#include "mesh/select.hpp"
-#include "run/body_mesh.hpp"
-#include "scene/config_io.hpp"
-#include "study/config_io.hpp"
+#include "identification/inverse/scene_data.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "scene/run/body_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "identification/setup/fit_config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

@@ -1,12 +1,12 @@
 // Derivatives of whole runs, as a config asks for them, against central differences of runs with other numbers.
-#include "inverse/sensitivity.hpp"
+#include "identification/inverse/sensitivity.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "material/parameters.hpp"
+#include "mechanics/material/parameters.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

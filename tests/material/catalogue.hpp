@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer {
 

@@ -1,5 +1,5 @@
 // Strong ellipticity: the modulus at rest, the definition by differences of the energy, and where Table 1's law loses it.
-#include "material/ellipticity.hpp"
+#include "mechanics/material/ellipticity.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 
 #include "material/catalogue.hpp"
-#include "material/uniaxial.hpp"
-#include "tensor/kinematics.hpp"
+#include "mechanics/material/uniaxial.hpp"
+#include "core/tensor/kinematics.hpp"
 
 using namespace langer;
 

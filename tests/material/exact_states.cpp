@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "material/catalogue.hpp"
-#include "material/material.hpp"
-#include "material/uniaxial.hpp"
-#include "tensor/kinematics.hpp"
-#include "tensor/stress.hpp"
+#include "mechanics/material/material.hpp"
+#include "mechanics/material/uniaxial.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

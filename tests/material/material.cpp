@@ -1,5 +1,5 @@
 // The law: S and D against differences of the energy, its symmetries, rest, the tension switch.
-#include "material/material.hpp"
+#include "mechanics/material/material.hpp"
 
 #include <doctest/doctest.h>
 #include <Eigen/Geometry>
@@ -7,9 +7,9 @@
 #include <random>
 
 #include "material/catalogue.hpp"
-#include "tensor/invariants.hpp"
-#include "tensor/kinematics.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/invariants.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

@@ -1,5 +1,5 @@
 // The numbers of a material by their paths.
-#include "material/parameters.hpp"
+#include "mechanics/material/parameters.hpp"
 
 #include <doctest/doctest.h>
 

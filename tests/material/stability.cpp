@@ -1,5 +1,5 @@
 // Homogeneous tests of a sheet against exact states, and where Table 1's law stops being stable.
-#include "material/stability.hpp"
+#include "mechanics/material/stability.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <ctime>
 
-#include "base/random.hpp"
-#include "material/at_rest.hpp"
+#include "core/base/random.hpp"
+#include "mechanics/material/at_rest.hpp"
 #include "material/catalogue.hpp"
-#include "material/ellipticity.hpp"
+#include "mechanics/material/ellipticity.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;

@@ -1,5 +1,5 @@
 // States of a thin incompressible sheet: closed forms, work, and what is left free carries no stress.
-#include "material/states.hpp"
+#include "mechanics/material/states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "material/catalogue.hpp"
-#include "tensor/invariants.hpp"
-#include "tensor/voigt.hpp"
+#include "core/tensor/invariants.hpp"
+#include "core/tensor/voigt.hpp"
 
 using namespace langer;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "material/existence.hpp"
-#include "material/material.hpp"
+#include "mechanics/material/existence.hpp"
+#include "mechanics/material/material.hpp"
 
 using namespace langer;
 

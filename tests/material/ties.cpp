@@ -1,5 +1,5 @@
 // Numbers that follow others: what is written, chains, what is refused.
-#include "material/ties.hpp"
+#include "mechanics/material/ties.hpp"
 
 #include <doctest/doctest.h>
 

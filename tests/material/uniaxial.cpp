@@ -1,12 +1,12 @@
 // The uniaxial state: free lateral faces, limits, symmetries, and the loss of it.
-#include "material/uniaxial.hpp"
+#include "mechanics/material/uniaxial.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "material/catalogue.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

@@ -1,5 +1,5 @@
 // The branches at one point: closed forms of relaxation, order in time, limits, tangent, objectivity. Random branches each.
-#include "material/viscous.hpp"
+#include "mechanics/material/viscous.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "material/catalogue.hpp"
-#include "tensor/kinematics.hpp"
-#include "tensor/voigt.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/voigt.hpp"
 
 using namespace langer;
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "mesh/reference.hpp"
+#include "mechanics/mesh/reference.hpp"
 #include "support/block.hpp"
 
 namespace langer::example {

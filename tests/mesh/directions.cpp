@@ -1,5 +1,5 @@
 // Directions of fibres by cell and family.
-#include "mesh/directions.hpp"
+#include "mechanics/mesh/directions.hpp"
 
 #include <doctest/doctest.h>
 

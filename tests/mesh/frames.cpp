@@ -1,4 +1,4 @@
-#include "mesh/frames.hpp"
+#include "mechanics/mesh/frames.hpp"
 
 #include <doctest/doctest.h>
 

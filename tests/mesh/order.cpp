@@ -1,4 +1,4 @@
-#include "mesh/order.hpp"
+#include "mechanics/mesh/order.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "mesh/cells.hpp"
-#include "mesh/quality.hpp"
+#include "mechanics/mesh/quality.hpp"
 
 using namespace langer;
 

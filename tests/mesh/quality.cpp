@@ -1,10 +1,10 @@
-#include "mesh/quality.hpp"
+#include "mechanics/mesh/quality.hpp"
 
 #include "support/block.hpp"
 
 #include <doctest/doctest.h>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 #include "mesh/cells.hpp"
 
 using namespace langer;

@@ -1,5 +1,5 @@
 // Quadratic cells: shape functions, nodes between the corners, facets, and everything a mesh is asked.
-#include "mesh/raise.hpp"
+#include "mechanics/mesh/raise.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <set>
 
-#include "element/surface.hpp"
+#include "mechanics/element/surface.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/facets.hpp"
-#include "mesh/order.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/select.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/order.hpp"
+#include "mechanics/mesh/quality.hpp"
+#include "mechanics/mesh/select.hpp"
 
 using namespace langer;
 

@@ -7,10 +7,10 @@
 #include <random>
 #include <set>
 
-#include "mesh/facets.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/raise.hpp"
-#include "mesh/reference.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/quality.hpp"
+#include "mechanics/mesh/raise.hpp"
+#include "mechanics/mesh/reference.hpp"
 
 using namespace langer;
 

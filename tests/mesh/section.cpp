@@ -1,11 +1,11 @@
-#include "mesh/section.hpp"
+#include "mechanics/mesh/section.hpp"
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "mesh/quality.hpp"
-#include "mesh/raise.hpp"
+#include "mechanics/mesh/quality.hpp"
+#include "mechanics/mesh/raise.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

@@ -1,4 +1,4 @@
-#include "mesh/select.hpp"
+#include "mechanics/mesh/select.hpp"
 
 #include <doctest/doctest.h>
 

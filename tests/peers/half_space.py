@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A rigid sphere pulled off an elastic half-space, with the bonds of lib/contact/adhesion.hpp, by boundary elements:
+"""A rigid sphere pulled off an elastic half-space, with the bonds of lib/mechanics/contact/adhesion.hpp, by boundary elements:
 
     python3 tests/peers/half_space.py STIFFNESS [TOUCHED] [RINGS]         MPa/mm, mm, rings in 1.15 TOUCHED; scene of configs/solve/pull_off.yaml
 

@@ -1,12 +1,12 @@
-#include "pipeline/expand.hpp"
+#include "pipeline/plan/expand.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "config/writer.hpp"
-#include "pipeline/makefile.hpp"
+#include "core/config/writer.hpp"
+#include "pipeline/plan/makefile.hpp"
 
 using namespace langer;
 using namespace langer::pipeline;

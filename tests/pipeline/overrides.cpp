@@ -1,12 +1,12 @@
-#include "pipeline/overrides.hpp"
+#include "pipeline/plan/overrides.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "base/error.hpp"
-#include "config/writer.hpp"
-#include "pipeline/expand.hpp"
+#include "core/base/error.hpp"
+#include "core/config/writer.hpp"
+#include "pipeline/plan/expand.hpp"
 
 using namespace langer;
 using namespace langer::pipeline;

@@ -1,4 +1,4 @@
-#include "pipeline/plan.hpp"
+#include "pipeline/plan/plan.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

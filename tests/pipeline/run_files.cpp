@@ -1,4 +1,4 @@
-#include "pipeline/run_files.hpp"
+#include "pipeline/plan/run_files.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // Which members of a sweep over fibre angles may be images of another one.
-#include "pipeline/siblings.hpp"
+#include "pipeline/plan/siblings.hpp"
 
 #include <doctest/doctest.h>
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "plot/figure_style.hpp"
-#include "plot/gnuplot.hpp"
+#include "results/plot/figure_style.hpp"
+#include "results/plot/gnuplot.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

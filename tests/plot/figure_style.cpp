@@ -1,5 +1,5 @@
 // The style of figures: sizes on paper, fonts, colours, decimal signs and formats, by what the files say of themselves.
-#include "plot/figure_style.hpp"
+#include "results/plot/figure_style.hpp"
 
 #include <doctest/doctest.h>
 #include <zlib.h>
@@ -10,10 +10,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "plot/gnuplot.hpp"
-#include "plot/heat_map.hpp"
-#include "plot/map_drawing.hpp"
-#include "plot/pictures.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/plot/heat_map.hpp"
+#include "results/plot/map_drawing.hpp"
+#include "results/plot/pictures.hpp"
 #include "support/marks.hpp"
 
 using namespace langer;

@@ -1,5 +1,5 @@
 // Matrices as coloured cells and groups of bars: what is drawn where.
-#include "plot/heat_map.hpp"
+#include "results/plot/heat_map.hpp"
 #include "support/marks.hpp"
 
 #include <doctest/doctest.h>

@@ -1,15 +1,15 @@
-#include "post/contact_surface.hpp"
+#include "results/post/contact_surface.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "contact/rigid.hpp"
-#include "element/surface.hpp"
-#include "mesh/section.hpp"
-#include "mesh/select.hpp"
-#include "post/energy.hpp"
+#include "mechanics/contact/rigid.hpp"
+#include "mechanics/element/surface.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "results/post/energy_columns.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

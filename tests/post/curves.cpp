@@ -1,5 +1,5 @@
 // What columns are called, what they hold, and what is said of names that do not exist.
-#include "post/curves.hpp"
+#include "results/post/curves.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,17 +8,17 @@
 #include <map>
 #include <set>
 
-#include "mesh/select.hpp"
-#include "post/describe_columns.hpp"
-#include "post/steps.hpp"
-#include "run/post_config.hpp"
-#include "scene/config_io.hpp"
-#include "store/curves_file.hpp"
-#include "store/solution_layout.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "results/post/describe_columns.hpp"
+#include "results/post/steps.hpp"
+#include "scene/run/post_config.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/solution_layout.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

@@ -1,5 +1,5 @@
 // Storage and loss of the last cycle, against what a linear material answers.
-#include "post/cycle.hpp"
+#include "results/post/cycle.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,16 +1,16 @@
 // From Gauss points to elements and nodes.
-#include "post/fields.hpp"
+#include "results/post/nodal_fields.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-#include "material/uniaxial.hpp"
+#include "mechanics/material/uniaxial.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

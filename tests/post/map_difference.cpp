@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "post/map.hpp"
+#include "results/post/map.hpp"
 
 using namespace langer;
 

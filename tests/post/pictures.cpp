@@ -7,13 +7,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "contact/rigid.hpp"
-#include "plot/drawing.hpp"
-#include "plot/figure_style.hpp"
-#include "plot/gnuplot.hpp"
-#include "post/figure.hpp"
-#include "post/map.hpp"
-#include "post/render.hpp"
+#include "mechanics/contact/rigid.hpp"
+#include "results/plot/drawing.hpp"
+#include "results/plot/figure_style.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/post/figure.hpp"
+#include "results/post/map.hpp"
+#include "results/post/render.hpp"
 #include "support/block.hpp"
 #include "support/marks.hpp"
 

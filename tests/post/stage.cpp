@@ -8,15 +8,15 @@
 #include <fstream>
 #include <sstream>
 
-#include "hdf5/h5.hpp"
-#include "scene/config_io.hpp"
-#include "scene/solve_config.hpp"
-#include "store/curves_file.hpp"
-#include "store/provenance.hpp"
-#include "store/solution_file.hpp"
+#include "core/hdf5/h5.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/solve_config.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/provenance.hpp"
+#include "results/store/solution_file.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

@@ -10,14 +10,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "accuracy/accuracy.hpp"
-#include "accuracy/recovered_path.hpp"
-#include "base/stopwatch.hpp"
+#include "accuracy/refinement/accuracy.hpp"
+#include "accuracy/estimate/recovered_path.hpp"
+#include "core/base/stopwatch.hpp"
 #include "random_scenes/draw.hpp"
-#include "run/body_mesh.hpp"
-#include "run/dry_run.hpp"
-#include "scene/config_io.hpp"
-#include "watch/run_watch.hpp"
+#include "scene/run/body_mesh.hpp"
+#include "scene/run/dry_run.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "accuracy/checks/run_watch.hpp"
 
 using namespace langer;
 

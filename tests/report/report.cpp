@@ -7,7 +7,7 @@
 #include "report/packed.hpp"
 #include "report/page.hpp"
 #include "report/sources.hpp"
-#include "report/symmetry.hpp"
+#include "report/report_symmetry.hpp"
 
 using namespace langer::report;
 

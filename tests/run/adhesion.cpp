@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "post/energy.hpp"
-#include "run/post_files.hpp"
+#include "results/post/energy_columns.hpp"
+#include "scene/run/post_files.hpp"
 #include "support/section.hpp"
 
 using namespace langer;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "run/run.hpp"
+#include "scene/run/run.hpp"
 #include "support/section.hpp"
 
 using namespace langer;

@@ -1,14 +1,14 @@
 // The stress tensors of cells that `cell_stress` puts into a solution.
-#include "run/cell_stress.hpp"
+#include "scene/run/cell_stress.hpp"
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "scene/solve_config.hpp"
+#include "scene/model/solve_config.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

@@ -1,9 +1,9 @@
 // Quadratic cells under high pressure.
 #include <doctest/doctest.h>
 
-#include "accuracy/error_estimate.hpp"
-#include "config/tree.hpp"
-#include "scene/config_io.hpp"
+#include "accuracy/estimate/error_estimate.hpp"
+#include "core/config/tree.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 

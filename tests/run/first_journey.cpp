@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "accuracy/accuracy.hpp"
-#include "accuracy/error_estimate.hpp"
-#include "base/random.hpp"
-#include "fit/stiffness_at_rest.hpp"
-#include "material/at_rest.hpp"
-#include "scene/config_io.hpp"
-#include "study/config_io.hpp"
+#include "accuracy/refinement/accuracy.hpp"
+#include "accuracy/estimate/error_estimate.hpp"
+#include "core/base/random.hpp"
+#include "identification/fit/stiffness_at_rest.hpp"
+#include "mechanics/material/at_rest.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "identification/setup/fit_config_io.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

@@ -1,18 +1,18 @@
 // A body that deforms alike everywhere is solved on one hexahedron, and what it then says of the mesh is what the mesh says.
-#include "run/homogeneous.hpp"
+#include "scene/run/homogeneous.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 #include <regex>
 
-#include "run/equilibrium_by.hpp"
-#include "run/step_record.hpp"
+#include "scene/run/equilibrium_by.hpp"
+#include "scene/run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"
-#include "watch/run_watch.hpp"
+#include "accuracy/checks/run_watch.hpp"
 
 using namespace langer;
 

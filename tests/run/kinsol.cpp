@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "scene/config_io.hpp"
-#include "scene/scene.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/scene.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;

@@ -1,5 +1,5 @@
 // What is said of a formulation that does not suit, beside what the usual one gives on the same cells.
-#include "watch/locking.hpp"
+#include "accuracy/checks/locking.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <tuple>
 
-#include "element/viscous_points.hpp"
-#include "post/cycle.hpp"
+#include "mechanics/element/viscous_points.hpp"
+#include "results/post/cycle.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
-#include "tensor/kinematics.hpp"
+#include "core/tensor/kinematics.hpp"
 
 using namespace langer;
 

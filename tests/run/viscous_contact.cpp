@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "post/energy.hpp"
-#include "run/post_files.hpp"
+#include "results/post/energy_columns.hpp"
+#include "scene/run/post_files.hpp"
 #include "support/section.hpp"
 
 using namespace langer;

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "store/mesh_file.hpp"
+#include "results/store/mesh_file.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

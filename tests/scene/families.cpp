@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "scene/section.hpp"
+#include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
 

@@ -1,5 +1,5 @@
 // Fibre directions from formulas and points, and how far they turn between neighbours.
-#include "scene/fibre_field.hpp"
+#include "scene/model/fibre_field.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

@@ -1,14 +1,14 @@
 // Histories of imposed displacements: the same states as in proportion to t, in one path with kinks.
-#include "base/history.hpp"
+#include "core/base/history.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "post/energy.hpp"
-#include "run/homogeneous.hpp"
-#include "run/post_files.hpp"
-#include "scene/image.hpp"
+#include "results/post/energy_columns.hpp"
+#include "scene/run/homogeneous.hpp"
+#include "scene/run/post_files.hpp"
+#include "scene/model/scene_image.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
 

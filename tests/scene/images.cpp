@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <random>
 
-#include "scene/image.hpp"
-#include "scene/symmetry.hpp"
+#include "scene/model/scene_image.hpp"
+#include "scene/model/scene_symmetry.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scene/config_io.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;

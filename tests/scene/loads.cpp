@@ -1,13 +1,13 @@
 // Forces, tractions and pressures of a config: what symmetry and sections make of them, their energy, and what is refused.
-#include "scene/loads.hpp"
+#include "scene/model/scene_loads.hpp"
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "mesh/section.hpp"
-#include "post/energy.hpp"
-#include "run/post_files.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "results/post/energy_columns.hpp"
+#include "scene/run/post_files.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
 

@@ -1,5 +1,5 @@
 // Sections: what an axisymmetric or plane-strain scene gives is what the body of three dimensions gives.
-#include "scene/section.hpp"
+#include "scene/model/scene_section.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <random>
 
-#include "material/uniaxial.hpp"
-#include "mesh/reference.hpp"
-#include "mesh/section.hpp"
+#include "mechanics/material/uniaxial.hpp"
+#include "mechanics/mesh/reference.hpp"
+#include "mechanics/mesh/section.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
 #include "support/section.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scene/section.hpp"
+#include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
 #include "support/section.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/facets.hpp"
-#include "mesh/select.hpp"
-#include "scene/section.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
 #include "support/section.hpp"
 

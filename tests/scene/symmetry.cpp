@@ -1,5 +1,5 @@
 // A scene solved on the part of the body that decides the rest gives what the whole body gives.
-#include "scene/symmetry.hpp"
+#include "scene/model/scene_symmetry.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 // One-at-a-time effects: closed forms, what s sees and what it does not, the law of the paper.
-#include "sensitivity/one_at_a_time.hpp"
+#include "identification/sensitivity/one_at_a_time.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "material/catalogue.hpp"
-#include "material/uniaxial.hpp"
+#include "mechanics/material/uniaxial.hpp"
 
 using namespace langer;
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sensitivity/morris.hpp"
-#include "sensitivity/sobol.hpp"
+#include "identification/sensitivity/morris.hpp"
+#include "identification/sensitivity/sobol.hpp"
 
 using namespace langer;
 

@@ -1,12 +1,12 @@
 // The low-discrepancy sequence: Joe and Kuo's first points, even in one and two dimensions whatever the shift.
-#include "sensitivity/sobol_sequence.hpp"
+#include "identification/sensitivity/sobol_sequence.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <map>
 
-#include "sensitivity/sobol.hpp"
+#include "identification/sensitivity/sobol.hpp"
 
 using namespace langer;
 

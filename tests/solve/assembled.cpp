@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "assembly/equilibrium.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

@@ -1,5 +1,5 @@
 // Contact in the tangent itself finds what contact condensed to its candidates finds.
-#include "solve/contact_in_tangent.hpp"
+#include "mechanics/solve/contact_in_tangent.hpp"
 
 #include <doctest/doctest.h>
 

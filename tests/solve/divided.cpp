@@ -3,8 +3,8 @@
 
 #include <mutex>
 
-#include "base/random.hpp"
-#include "linear/mixed_tangent.hpp"
+#include "core/base/random.hpp"
+#include "mechanics/linear/mixed_tangent.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

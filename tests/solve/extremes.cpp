@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "material/uniaxial.hpp"
-#include "mesh/quality.hpp"
+#include "mechanics/material/uniaxial.hpp"
+#include "mechanics/mesh/quality.hpp"
 #include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

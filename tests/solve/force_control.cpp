@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "nonlinear/kinsol.hpp"
-#include "nonlinear/load_path.hpp"
-#include "nonlinear/newton.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/nonlinear/kinsol.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/newton.hpp"
+#include "mechanics/solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

@@ -1,5 +1,5 @@
 // KINSOL and newton() give the same answers; KINSOL's traps are guarded.
-#include "nonlinear/kinsol.hpp"
+#include "mechanics/nonlinear/kinsol.hpp"
 
 #include <doctest/doctest.h>
 

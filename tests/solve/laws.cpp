@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "material/uniaxial.hpp"
+#include "mechanics/material/uniaxial.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
 

@@ -6,10 +6,10 @@
 #include <random>
 #include <utility>
 
-#include "mesh/select.hpp"
-#include "nonlinear/load_path.hpp"
-#include "nonlinear/newton.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/newton.hpp"
+#include "mechanics/solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

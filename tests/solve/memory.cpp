@@ -1,7 +1,7 @@
 // An elastic body has no memory: its force follows from where the indenter is, not from how it got there.
 #include <doctest/doctest.h>
 
-#include "base/random.hpp"
+#include "core/base/random.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 

@@ -1,11 +1,11 @@
 // Iterative solution of large bodies: the split of the tangent, and results beside those of a factor. Without PETSc nothing is tried.
-#include "linear/mixed_tangent.hpp"
+#include "mechanics/linear/mixed_tangent.hpp"
 
 #include <doctest/doctest.h>
 
-#include "base/error.hpp"
-#include "base/random.hpp"
-#include "linear/petsc/load.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "mechanics/linear/petsc/petsc_load.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 

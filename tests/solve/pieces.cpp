@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "base/in_order.hpp"
-#include "linear/linear.hpp"
-#include "nonlinear/load_path.hpp"
-#include "nonlinear/newton.hpp"
+#include "core/base/in_order.hpp"
+#include "mechanics/linear/linear.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/newton.hpp"
 
 using namespace langer;
 

@@ -7,12 +7,12 @@
 #include <map>
 #include <numbers>
 
-#include "mesh/facets.hpp"
-#include "mesh/select.hpp"
-#include "nonlinear/load_path.hpp"
-#include "nonlinear/newton.hpp"
-#include "post/energy.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/newton.hpp"
+#include "results/post/energy_columns.hpp"
+#include "mechanics/solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

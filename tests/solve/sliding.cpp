@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "post/energy.hpp"
+#include "results/post/energy_columns.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 

@@ -3,12 +3,12 @@
 
 #include <Eigen/Dense>
 
-#include "assembly/equilibrium.hpp"
-#include "linear/linear.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/dense.hpp"
+#include "core/tensor/dense.hpp"
 
 using namespace langer;
 

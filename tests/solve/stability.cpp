@@ -1,16 +1,16 @@
 // What an accepted state says about its stability: signs of the constrained tangent, strong ellipticity, falling force.
-#include "watch/stability_watch.hpp"
+#include "accuracy/checks/stability_watch.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/dense.hpp"
+#include "core/tensor/dense.hpp"
 
 using namespace langer;
 

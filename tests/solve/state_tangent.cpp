@@ -1,12 +1,12 @@
 // Direct differentiation of accepted states against central differences of whole paths.
-#include "solve/state_tangent.hpp"
+#include "mechanics/solve/state_tangent.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "nonlinear/kinsol.hpp"
-#include "nonlinear/load_path.hpp"
+#include "mechanics/nonlinear/kinsol.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

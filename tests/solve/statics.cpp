@@ -1,12 +1,12 @@
 // What an increment may be given and what it refuses: dead loads in proportion to t, elements that are turned inside out.
-#include "solve/statics.hpp"
+#include "mechanics/solve/statics.hpp"
 
 #include <doctest/doctest.h>
 
-#include "element/surface.hpp"
-#include "mesh/select.hpp"
-#include "nonlinear/newton.hpp"
-#include "scene/scene.hpp"
+#include "mechanics/element/surface.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "mechanics/nonlinear/newton.hpp"
+#include "scene/model/scene.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"

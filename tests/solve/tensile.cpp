@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "nonlinear/load_path.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

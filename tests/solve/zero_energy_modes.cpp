@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/dofs.hpp"
-#include "assembly/zero_energy_modes.hpp"
+#include "mechanics/assembly/dofs.hpp"
+#include "mechanics/assembly/zero_energy_modes.hpp"
 #include "support/directions.hpp"
 #include "support/exact_run.hpp"
 #include "support/indentation.hpp"

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "refusal.hpp"
 #include "solution_example.hpp"
-#include "store/curves_file.hpp"
-#include "store/material_file.hpp"
-#include "store/mesh_file.hpp"
-#include "store/provenance.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/material_file.hpp"
+#include "results/store/mesh_file.hpp"
+#include "results/store/provenance.hpp"
 
 using namespace langer;
 using example::bytes;

@@ -4,13 +4,13 @@
 
 #include <cstring>
 
-#include "hdf5/h5.hpp"
-#include "hdf5/units.hpp"
+#include "core/hdf5/h5.hpp"
+#include "core/hdf5/unit_attribute.hpp"
 #include "refusal.hpp"
 #include "solution_example.hpp"
-#include "store/curves_file.hpp"
-#include "store/material_file.hpp"
-#include "store/mesh_file.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/material_file.hpp"
+#include "results/store/mesh_file.hpp"
 
 using namespace langer;
 using example::holds;

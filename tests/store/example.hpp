@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "mesh/mesh.hpp"
-#include "store/identity.hpp"
+#include "mechanics/mesh/mesh.hpp"
+#include "results/store/identity.hpp"
 
 namespace langer::example {
 

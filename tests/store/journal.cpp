@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "solution_example.hpp"
-#include "store/journal.hpp"
+#include "results/store/journal.hpp"
 
 using namespace langer;
 using example::bytes;

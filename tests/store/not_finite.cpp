@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "solution_example.hpp"
-#include "store/curves_file.hpp"
-#include "store/material_file.hpp"
-#include "store/mesh_file.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/material_file.hpp"
+#include "results/store/mesh_file.hpp"
 
 using namespace langer;
 using example::bytes;

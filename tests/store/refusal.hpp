@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 namespace langer::example {
 

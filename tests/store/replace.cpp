@@ -1,5 +1,5 @@
 // What belongs to the user is never written over.
-#include "hdf5/replace.hpp"
+#include "core/hdf5/replace.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -7,11 +7,11 @@
 #include <array>
 
 #include "example.hpp"
-#include "hdf5/h5.hpp"
-#include "hdf5/seal.hpp"
+#include "core/hdf5/h5.hpp"
+#include "core/hdf5/seal.hpp"
 #include "refusal.hpp"
-#include "store/curves_file.hpp"
-#include "store/mesh_file.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/mesh_file.hpp"
 
 using namespace langer;
 using example::holds;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <thread>
 
-#include "hdf5/h5.hpp"
-#include "mesh/raise.hpp"
+#include "core/hdf5/h5.hpp"
+#include "mechanics/mesh/raise.hpp"
 #include "solution_example.hpp"
-#include "store/curves_file.hpp"
-#include "store/material_file.hpp"
-#include "store/mesh_file.hpp"
-#include "store/provenance.hpp"
+#include "results/store/curves_file.hpp"
+#include "results/store/material_file.hpp"
+#include "results/store/mesh_file.hpp"
+#include "results/store/provenance.hpp"
 
 using namespace langer;
 using example::bytes;

@@ -1,12 +1,12 @@
-#include "store/snapshot.hpp"
+#include "results/store/snapshot.hpp"
 
 #include <doctest/doctest.h>
 
 #include <numeric>
 
 #include "example.hpp"
-#include "hdf5/h5.hpp"
-#include "store/provenance.hpp"
+#include "core/hdf5/h5.hpp"
+#include "results/store/provenance.hpp"
 
 using namespace langer;
 

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <functional>
 
-#include "hdf5/h5.hpp"
+#include "core/hdf5/h5.hpp"
 #include "solution_example.hpp"
 
 using namespace langer;

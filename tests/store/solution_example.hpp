@@ -2,7 +2,7 @@
 #pragma once
 
 #include "example.hpp"
-#include "store/solution_file.hpp"
+#include "results/store/solution_file.hpp"
 
 namespace langer::example {
 

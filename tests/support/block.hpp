@@ -4,8 +4,8 @@
 #include <functional>
 #include <random>
 
-#include "mesh/mesh.hpp"
-#include "mesh/raise.hpp"
+#include "mechanics/mesh/mesh.hpp"
+#include "mechanics/mesh/raise.hpp"
 
 namespace langer::test {
 

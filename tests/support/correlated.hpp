@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/random.hpp"
-#include "fit/fit.hpp"
+#include "core/base/random.hpp"
+#include "identification/fit/fit.hpp"
 #include "support/laws.hpp"
 
 namespace langer::test {

@@ -1,9 +1,9 @@
 // Bodies whose fibres lie as the angles of their laws and the frames of their cells say.
 #pragma once
 
-#include "assembly/equilibrium.hpp"
-#include "mesh/directions.hpp"
-#include "post/fields.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/mesh/directions.hpp"
+#include "results/post/nodal_fields.hpp"
 
 namespace langer::test {
 

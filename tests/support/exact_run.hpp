@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "nonlinear/load_path.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/solve/statics.hpp"
 
 namespace langer::test {
 

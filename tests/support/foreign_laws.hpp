@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "tensor/types.hpp"
+#include "core/tensor/types.hpp"
 
 namespace langer::foreign {
 

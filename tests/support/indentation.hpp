@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "nonlinear/kinsol.hpp"
-#include "nonlinear/load_path.hpp"
-#include "solve/statics.hpp"
+#include "mechanics/nonlinear/kinsol.hpp"
+#include "mechanics/nonlinear/load_path.hpp"
+#include "mechanics/solve/statics.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "element/solid.hpp"
-#include "material/material.hpp"
+#include "mechanics/element/solid.hpp"
+#include "mechanics/material/material.hpp"
 
 namespace langer::test {
 

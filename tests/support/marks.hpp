@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "plot/drawing.hpp"
+#include "results/plot/drawing.hpp"
 
 namespace langer::test {
 

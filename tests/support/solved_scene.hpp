@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "run/run.hpp"
-#include "scene/config_io.hpp"
-#include "scene/make_mesh.hpp"
+#include "scene/run/run.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/make_mesh.hpp"
 
 namespace langer::test {
 

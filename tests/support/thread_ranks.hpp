@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-#include "assembly/division.hpp"
+#include "mechanics/assembly/division.hpp"
 
 namespace langer::test {
 

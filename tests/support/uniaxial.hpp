@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fit/fit.hpp"
-#include "material/uniaxial.hpp"
+#include "identification/fit/fit.hpp"
+#include "mechanics/material/uniaxial.hpp"
 
 namespace langer::test {
 

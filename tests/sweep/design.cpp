@@ -1,5 +1,5 @@
 // Designs of experiments on whole runs: their points are what the methods ask for, and answers give the methods' effects.
-#include "sweep/design.hpp"
+#include "pipeline/sweep/design.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sweep/design_tables.hpp"
+#include "pipeline/sweep/design_tables.hpp"
 
 using namespace langer;
 

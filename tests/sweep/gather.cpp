@@ -1,11 +1,11 @@
-#include "sweep/gather.hpp"
+#include "pipeline/sweep/gather.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
+#include "core/base/error.hpp"
 
 using namespace langer;
 

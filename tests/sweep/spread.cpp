@@ -1,11 +1,11 @@
 // What a fit leaves open, from a sweep over sets of its parameters: closed form for a linear quantity, bands of curves.
-#include "sweep/spread.hpp"
+#include "pipeline/sweep/spread.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "base/random.hpp"
+#include "core/base/random.hpp"
 
 using namespace langer;
 

@@ -1,5 +1,5 @@
 // Fronts and limits of refinement studies.
-#include "sweep/work_precision.hpp"
+#include "pipeline/sweep/work_precision.hpp"
 
 #include <doctest/doctest.h>
 

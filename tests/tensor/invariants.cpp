@@ -1,12 +1,12 @@
 // Invariants of C: derivatives against central differences, and frame indifference.
-#include "tensor/invariants.hpp"
+#include "core/tensor/invariants.hpp"
 
 #include <doctest/doctest.h>
 
 #include <functional>
 #include <random>
 
-#include "tensor/kinematics.hpp"
+#include "core/tensor/kinematics.hpp"
 
 using namespace langer;
 

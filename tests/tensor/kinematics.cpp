@@ -1,11 +1,11 @@
 // J - 1 without cancellation, and stress measures.
-#include "tensor/kinematics.hpp"
+#include "core/tensor/kinematics.hpp"
 
 #include <doctest/doctest.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "tensor/stress.hpp"
+#include "core/tensor/stress.hpp"
 
 using namespace langer;
 

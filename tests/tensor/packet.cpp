@@ -1,4 +1,4 @@
-#include "tensor/packet.hpp"
+#include "core/tensor/packet.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,123 @@
+#include "accuracy/checks/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/interrupt.hpp"
+#include "core/base/stopwatch.hpp"
+#include "scene/run/continued.hpp"
+#include "scene/run/step_record.hpp"
+
+namespace langer {
+
+Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
+                     Companion companion)
+    : run_(run),
+      watch_(watch),
+      output_(output),
+      config_(identity.config),
+      companion_(std::move(companion)),
+      stress_(run.mesh, run.scene, config.cell_stress),
+      collect_(by_refinement(config)
+                   ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
+                   : std::function<void(const StepRecord&)>()),
+      file_(output, header_of(run.mesh, run.scene.formulation, run.scene, with_steps_hash(identity, config)),
+            [this, &run, &watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
+              if (!good(step, earlier)) return false;
+              if (collect_) collect_(step);
+              watch.kept(step);
+              run.replay(step);
+              stress_.kept(step);
+              if (companion_.kept) companion_.kept(step);
+              return true;
+            }),
+      resumed_(file_.resumed()) {
+  if (resumed_) run_.resume(*resumed_, file_.before_resumed());
+}
+
+bool Recording::with_other_settings() const {
+  return std::any_of(file_.earlier().begin(), file_.earlier().end(),
+                     [&](const EarlierRun& earlier) { return earlier.config != config_; });
+}
+
+RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::string& loose) {
+  if (!loose.empty()) voice.say("{}: only contact holds it", loose);
+  if (with_other_settings()) voice.say("these steps were made with other settings: /provenance/earlier of the result holds them");
+  const RunEnd end = along_the_path(progress);
+  if (end.at == RunEnd::At::not_homogeneous) return end;
+  for (const std::string& line : watch_.warnings()) voice.warn(line);
+  if (end.path.complete)
+    for (const std::string& line : watch_.contact_warnings()) voice.warn(line);
+  need_the_end(end, loose);
+  return end;
+}
+
+RunEnd Recording::along_the_path(Progress& progress) {
+  RunListener listener;
+  listener.watched = [&](Problem problem, double t) { return progress.watched(std::move(problem), t); };
+  listener.jumping = [&](double t, int equilibria) { progress.jumping(t, equilibria); };
+  listener.failed = [&](double t, const SolveReport& report) { progress.failed(t, report); };
+  listener.of_part = [&](StepRecord& record) { return watch_.of_part(record); };
+  listener.of_whole = [&](StepRecord& record, const SolveReport& report) {
+    if (auto refused = watch_.of_whole(record, report)) {
+      refused->hint += fmt::format("; kept: the {} steps before in {}.part", n_steps(), output_);
+      throw Failure(Exit::not_converged, *refused);
+    }
+    {
+      const Stopwatch writing(seconds_);
+      stress_.add(record);
+      file_.append(record);
+    }
+    if (collect_) collect_(record);
+    progress.accepted(record, report);
+  };
+  if (resumed_) progress.resumed(n_steps(), resumed_->t);
+  RunEnd end = run_.follow(companion_.along ? companion_.along(std::move(listener)) : listener);
+  if (resumed_ && end.last.u.empty()) end.last = *resumed_;  // it was at the end
+  return end;
+}
+
+void Recording::need_the_end(const RunEnd& end, const std::string& loose) const {
+  const auto fail = [](Exit code, std::string found, std::string expected, std::string hint) {
+    throw Failure(code, Error{{}, "", std::move(found), std::move(expected), std::move(hint)});
+  };
+  if (end.at == RunEnd::At::listener)
+    fail(Exit::not_converged, watch_.unstable(), "a stable state (on_unstable: stop)",
+         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", n_steps(), output_));
+  if (end.at == RunEnd::At::signal)
+    fail(exit_code_of(interrupted()),
+         fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()), end.path.t, n_steps()), "",
+         fmt::format("kept: {}.part (the next run continues from there)", output_));
+  const char* cure =
+      run_.body.loads().follow()
+          ? "the next run continues from there); the tangent of a pressure whose rim is free is not symmetric, and Newton's "
+            "method has the symmetric part of it: solver: {kinsol: {strategy: picard}} goes further, and begins anew"
+          : "the next run continues from there); try path.smallest or solver.newton.iterations";
+  if (end.at == RunEnd::At::no_equilibrium)
+    fail(Exit::not_converged,
+         fmt::format(
+             "stopped at t = {:.6g} after {} steps: {}{}{}{}; smallest increment reached", end.path.t, n_steps(), end.path.why,
+             run_.statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : "",
+             watch_.last_said().empty() ? "" : "; at the last state " + watch_.last_said(), loose.empty() ? "" : "; " + loose),
+         "",
+         fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
+                     loose.empty()
+                         ? cure
+                         : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
+                           "turning, one beside it, where contact does not: that begins anew"));
+}
+
+void Recording::stopped_in_estimate() const {
+  throw Failure(
+      exit_code_of(interrupted()),
+      Error{{},
+            "",
+            fmt::format("stopped by {} while its errors were estimated; the path is at its end", signal_name(interrupted())),
+            "",
+            fmt::format("kept: all {} steps in {}.part (the next run goes on with the estimate, --set estimate=none ends "
+                        "without it)",
+                        n_steps(), output_)});
+}
+
+}  // namespace langer

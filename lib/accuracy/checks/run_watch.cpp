@@ -1,0 +1,75 @@
+#include "accuracy/checks/run_watch.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/run/step_record.hpp"
+
+namespace langer {
+
+RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
+    : run_(run), when_(config.stability), on_unstable_(config.on_unstable), stability_(std::move(tests)), result_(run.body) {
+  if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
+  if (Equilibrium* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
+    StaticsOptions options;
+    options.threads = config.blas_threads;
+    mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);
+  }
+}
+
+void RunWatch::kept(const StepRecord& step) {
+  stability_.resume(step);
+  if (contact_) contact_->kept(step);
+  if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end())
+    last_said_ =
+        found->second < 0 ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second) : "";
+}
+
+std::optional<StabilityReport> RunWatch::looked(const StepRecord& record) {
+  if (!mesh_) return stability_.look(run_.body, run_.statics);
+  const std::optional<StepRecord> whole = run_.reduction.whole(record);
+  if (!whole) return std::nullopt;
+  mesh_->restore(state_of(*whole, run_.scene));
+  return stability_.look(*run_.reduction.mesh_of_point(), *mesh_);
+}
+
+bool RunWatch::of_part(StepRecord& record) {
+  const bool at_end = at_end_of_path(record.t);
+  if (when_ != StabilityCheck::each_step && !(when_ == StabilityCheck::last && at_end)) return true;
+  const std::optional<StabilityReport> report = looked(record);
+  if (!report) return true;
+  stability_.keep(*report);
+  if (when_ == StabilityCheck::each_step) stability_.add_to(record, *report);
+  last_said_ = in_words(*report);
+  if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
+  unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
+  return false;
+}
+
+std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& report) {
+  if (contact_) contact_->look(record);
+  result_.look(record.t, run_.statics.accepted().u, report);
+  return result_.refusal();
+}
+
+std::vector<std::string> RunWatch::warnings() const {
+  std::vector<std::string> lines = stability_.warnings();
+  if (run_.statics.gave_up_iterating())
+    lines.push_back(
+        "iterative solutions of the tangent did not converge: it was factorized in those increments (solver.newton.linear)");
+  for (std::string& line : result_.warnings()) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> RunWatch::contact_warnings() const {
+  if (!contact_) return {};
+  contact_->finish();
+  return contact_->warnings();
+}
+
+std::vector<Summary> RunWatch::contact_summary() const { return contact_ ? contact_->summary() : std::vector<Summary>{}; }
+
+std::vector<Summary> RunWatch::stability_summary() const {
+  return when_ == StabilityCheck::off ? std::vector<Summary>{} : stability_.summary();
+}
+
+}  // namespace langer

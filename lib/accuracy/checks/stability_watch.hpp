@@ -1,0 +1,74 @@
+// Whether what the solver accepted can be trusted: stability of the equilibrium and of the material, and the range of the tests.
+//   tangent       signs of the constrained tangent's eigenvalues (Signature in solve/statics.hpp)
+//   material      smallest shear stiffness over all Gauss points (material/ellipticity.hpp): first on a grid of wave normals
+//                 (element/point_check.hpp), then exactly where it is lowest
+//   fitted range  Ī1 and each fibre's Ī4 up to the largest values in the tests; only where the material comes from a fit
+//   driving force what does work on the path, d(work)/dt: where it falls, the same state under dead load would be past a limit
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mechanics/solve/statics.hpp"
+#include "results/store/provenance.hpp"
+#include "results/store/solution_file.hpp"
+#include "results/store/study_record.hpp"
+
+namespace langer {
+
+StudyRecord study_from(const std::string& material_file);  // nothing in a YAML file
+
+struct StabilityReport {
+  double t = 0;
+  std::optional<Signature> signature;  // none: not looked at, as the tangent is solved iteratively
+  double stiffness = 0;                // smallest, in the whole body [MPa]
+  int cell = -1;                       // where; reference position of the Gauss point [mm]
+  Vec3 place = Vec3::Zero();
+  double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
+  Vec3 volume_place = Vec3::Zero();
+  double lost = 0;                                                            // share of the volume with a negative one
+  double fibre_min = std::numeric_limits<double>::infinity(), fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
+  double outside = 0, farthest = 0;  // of the fitted range: share of the volume, largest excess (1: at its end)
+  Vec3 farthest_place = Vec3::Zero();
+  double driving_force = 0;  // [N mm] per unit of t
+  bool falling = false;      // ... less than one step before; looked at without contact only
+
+  bool equilibrium_unstable() const { return signature && signature->negative != 0; }
+  bool material_unstable() const { return !(stiffness >= 0); }
+};
+std::string in_words(const StabilityReport& report);  // what is unstable; empty where nothing is
+
+class StabilityWatch {
+ public:
+  explicit StabilityWatch(StudyRecord study) : study_(std::move(study)) {}
+  void resume(const StepRecord& last);
+  // the accepted state, right after accept()
+  StabilityReport look(const Equilibrium& body, Statics& statics);
+  void add_to(StepRecord& record, const StabilityReport& report) const;
+  void keep(const StabilityReport& report);  // for the warnings at the end
+
+  // of the whole path: from when to when something was unstable, and how much of the body where at the end
+  std::vector<std::string> warnings() const;
+  std::vector<Summary> summary() const;
+
+ private:
+  // values of t of accepted steps, in runs without a gap
+  struct Spans {
+    std::vector<std::array<double, 2>> of;
+    bool open = false;
+    void add(double t, bool here);
+    std::string text() const;
+  };
+  StudyRecord study_;
+  double force_before_ = 0, t_before_ = -1;
+  StabilityReport last_;
+  double volume_change_ = 0;
+  Vec3 volume_place_ = Vec3::Zero();
+  int most_negative_ = 0, steps_unstable_ = 0;
+  std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that all steps have the same columns
+  Spans equilibrium_, material_, outside_, falling_;
+};
+
+}  // namespace langer

@@ -1,0 +1,52 @@
+// Error bars beside a run, of any mesh and without a second solution: by what the stress of its steps lacks to be smooth (post/recovery.hpp).
+//   estimate: recovery   and where the config has no key `estimate`, for bodies to which it applies
+// A force under imposed movements is too large by about the share of the energy that the difference holds. What no stress tells is added:
+//   cells       at least what nodes add that stick where they touch, as in an estimate by refinement
+//   scatter     nodes that come into contact one by one
+//   increments  with friction 0.04 of the force times the square of the longest increment's share of the path: not an estimate, but what
+//               it was in the refinement study's scenes at most                                              docs/work_precision.md
+#pragma once
+
+#include <memory>
+
+#include "accuracy/estimate/error_estimate.hpp"
+#include "results/post/recovery.hpp"
+#include "accuracy/checks/recording.hpp"
+
+namespace langer {
+
+// Why these bars are not to be trusted for such a scene; empty where they are. Of layers of several materials they told a sixth of the error
+// (make accuracy-random BARS=default).
+std::string why_not_recovered(const Run& run);
+
+// Whether a config without `estimate` gets them: also of moderate size, and nowhere of one cell's thickness.
+bool recovered_by_default(const SolveConfig& config, const Run& run);
+
+// Forces and greatest von Mises stress of a state. energy_share: of recovered_energy_share()
+std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error, const StepForces& forces,
+                                            const std::vector<Valued>& found, double residual);
+
+class RecoveredPath {
+ public:
+  // Refers to run; nobody follows it unless `wanted`.
+  RecoveredPath(const Run& run, const SolveConfig& config, bool wanted);
+  bool wanted() const { return body_ != nullptr; }
+  Companion beside(Companion companion);
+  // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be trusted. resolved: contact is, by the
+  // cells (watch/contact_watch.hpp)
+  PathErrors errors(const StepRecord& last, const std::vector<Valued>& found, bool resolved = true) const;
+
+ private:
+  void look_at(const StepRecord& whole);
+  bool unloaded() const;
+  std::vector<double> parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors, const StepRecord& last) const;
+
+  const Run& run_;
+  SolveConfig config_;
+  std::unique_ptr<Body> body_;
+  std::vector<StepForces> path_;
+  std::vector<double> residuals_;
+  std::vector<std::pair<double, double>> shares_;  // t before the end, of the energy
+};
+
+}  // namespace langer

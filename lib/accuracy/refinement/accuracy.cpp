@@ -1,0 +1,344 @@
+#include "accuracy/refinement/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/refinement/adaptive_cells.hpp"
+#include "accuracy/refinement/level_cost.hpp"
+#include "scene/run/footprint.hpp"
+#include "accuracy/checks/progress.hpp"
+
+namespace langer {
+
+namespace {
+
+bool has_fibres(const SolveConfig& config, const std::optional<Material>& material) {
+  const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
+  return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
+                                          [&](const auto& body) { return fibrous(body.second.material); });
+}
+
+// where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
+constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};
+constexpr double enough_for_coarsest = 2;  // [%]
+constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
+constexpr double finest_of_block = 0.04, finest_of_disc = 0.01;  // finer ones were never tried
+constexpr double most_hex8 = 6e4;                                // of meshes whose cells are no lengths in contact radii
+constexpr double worth_a_forecast = 1e4;                         // cells: fewer take some seconds
+
+// cells to where the indenters are, unless the config says where
+void place_cells(IndentedBlock& block, const Footprint& print) {
+  const double a = block.contact_radius();
+  const auto middle = [&](int k) { return block.origin[2 * k] + 0.5 * block.size[2 * k]; };
+  const bool beside = std::abs(print.middle(0) - middle(0)) > 0.02 * a || std::abs(print.middle(1) - middle(1)) > 0.02 * a;
+  const double widest = std::max(print.half(0), print.half(1));
+  // a plane over all of the top has no place of its own
+  if (2 * print.half(0) > 0.99 * block.size[0] && 2 * print.half(1) > 0.99 * block.size[2]) return;
+  if (!block.under && beside) block.under = {print.middle(0), print.middle(1)};
+  if (!block.even && widest > 1.05 * a) {
+    block.even.emplace();
+    for (int k : {0, 1}) (*block.even)[static_cast<std::size_t>(k)] = print.half(k) + 0.1 * a;
+  }
+}
+
+// one sphere above the middle of one layer, at least as thick as the contact is wide
+bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
+  const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
+  if (!block || config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
+  const ContactConfig& contact = config.contacts.begin()->second;
+  if (!std::holds_alternative<Sphere>(contact.rigid) || contact.rotation) return false;
+  const double a = std::max(print->half(0), print->half(1));
+  return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
+}
+
+bool wants_other_than_hex27(const SolveConfig& config) {
+  return config.formulation && *config.formulation != Formulation::linear_dilatation;
+}
+
+// Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of
+// the time and less (docs/work_precision.md).
+CellType first_cells(const SolveConfig& config, bool cut) {
+  const auto is_plane = [](const auto& c) { return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion; };
+  const bool better = std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && !wants_other_than_hex27(config) &&
+                      !has_edge_in_contact_radii(config.mesh->geometry);
+  return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27 : config.mesh->cells;
+}
+
+// With the config's own cells, or as many nodes; shorter where there are too few of them to make coarser ones.
+AccuracyLevel the_configs_own(const SolveConfig& config, CellType cells) {
+  AccuracyLevel level{cells, cells == config.mesh->cells ? 1.0 : 2.0, config.path.largest_increment(), 0, false};
+  for (int n : numbers_of_cells(config.mesh->geometry))
+    if (n > 1) level.edge = std::min(level.edge, n / 4.0);
+  return level;
+}
+
+// in thin layers with cells that are short enough for some layers of them
+AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chosen, CellType cells) {
+  Geometry geometry = config.mesh->geometry;
+  double* const edge = edge_in_contact_radii(geometry);
+  if (!edge) return the_configs_own(config, cells);
+  const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
+  AccuracyLevel level = is_section(geometry)                                          ? of_disc
+                        : chosen.cut                                                  ? to_be_cut
+                        : has_friction(config) && chosen.wanted < enough_for_coarsest ? coarsest_with_friction
+                                                                                      : coarsest;
+  *edge = level.edge;
+  while (*edge > chosen.finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
+  level.edge = *edge;
+  return level;
+}
+
+double finest_edge(const MeshConfig& mesh, CellType first) {
+  if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
+  if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
+  const double cells = (reference(first).second_order() ? 8 : 1) * n_cells(mesh.geometry);
+  const std::vector<int> along = numbers_of_cells(mesh.geometry);
+  const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
+  return std::min(1.0, std::pow(cells / most_hex8, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
+}
+
+// What the config says stays where it is finer; what does not is told. `written`: before anything was chosen.
+std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) {
+  std::string replaced;
+  const auto replace = [&](const std::string& what) {
+    replaced += (replaced.empty() ? "; in place of the config's " : ", ") + what;
+  };
+  Geometry geometry = written.mesh->geometry;
+  const SolveConfig usual;
+  if (const double* edge = edge_in_contact_radii(geometry); edge && *edge != IndentedBlock{}.edge) {
+    if (*edge < level.edge && written.mesh->cells == level.cells)
+      level.edge = *edge;
+    else if (*edge != level.edge)
+      replace(fmt::format("edge of {:g}", *edge));
+  }
+  if (const CellType cells = written.mesh->cells; (cells != CellType::hex8 || !level.in_contact_radii) && cells != level.cells)
+    replace(names(cells)[static_cast<int>(cells)]);
+  const double step = written.path.largest_increment();
+  if (!written.path.steps && step == usual.path.largest) return replaced;
+  if (step < level.step)
+    level.step = step;
+  else if (step > level.step)
+    replace(fmt::format("increments of {:g}", step));
+  return replaced;
+}
+
+}  // namespace
+
+const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
+  // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
+  // neighbours add: with few nodes in contact one of them or another touches by chance
+  static const std::vector<AccuracyLevel> smooth{{CellType::hex8, 0.175, 0.25, 2},
+                                                 {CellType::hex8, 0.15, 0.25, 1},
+                                                 {CellType::hex27, 0.3536, 0.25, 0.5},
+                                                 {CellType::hex27, 0.25, 0.2, 0.2}};
+  // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and a quarter
+  // more for scenes unlike them (pipelines/accuracy.yaml). Shorter increments cost more and are no nearer: what cells add, longer
+  // increments take away. At 1 % five of them, since with four the estimate is just above it and cells would be made shorter
+  static const std::vector<AccuracyLevel> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
+                                                 {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.11, 0.2, 1},
+                                                 {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
+  return plain ? smooth : others;
+}
+
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts) {
+  if (!asks_for_accuracy(config)) return std::nullopt;
+  constexpr double by_name[]{5, 1, 0.2};
+  ChosenLevel chosen;
+  chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  const bool may_be_cut = !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
+  chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
+  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
+    chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
+    chosen.shown = false;
+    chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
+    return chosen;
+  }
+  const SolveConfig written = config;
+  Geometry& geometry = config.mesh->geometry;
+  const std::optional<Footprint> print =
+      std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
+  if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
+  const CellType first = first_cells(config, chosen.cut);
+  chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
+  const bool elastic = !config.path.seconds;  // as the study's bodies
+  chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
+  const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) && !has_fibres(config, material);
+  const auto& levels = accuracy_levels(plain);
+  auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
+  chosen.met = chosen.shown && level != levels.end();
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen, first) : chosen.met ? *level : levels.back();
+  if (!plain && !has_friction(config)) chosen.level.step = coarsest.step;  // the force does not depend on the path
+  // what relaxes wants the cells of what does not
+  if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))
+    chosen.level.edge = std::min(chosen.level.edge, level->edge);
+  const std::string replaced = kept_and_replaced(written, chosen.level);
+  put(chosen, config);
+  // what increments change of the force in the paper's scene, held, is a twentieth of this (docs/time.md); the estimate judges
+  if (config.path.seconds && config.path.time_error == LoadPathOptions{}.time_error)
+    config.path.time_error = std::min(2e-2 * chosen.wanted, 0.1);
+  if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
+  chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
+  if (chosen.shown)
+    chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
+                                plain ? "without fibres and friction" : "with friction", chosen.level.error,
+                                chosen.met ? "" : ", the finest level measured");
+  return chosen;
+}
+
+std::string in_words(const AccuracyLevel& level) {
+  const char* cells = names(CellType{})[static_cast<int>(level.cells)];
+  if (level.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, level.edge, level.step);
+  if (level.edge == 1) return fmt::format("{} of the config's length, increments of {:.3g}", cells, level.step);
+  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, level.edge, level.step);
+}
+
+ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates) {
+  ReachedAccuracy found{chosen.level.error, chosen.met, ""};
+  const std::vector<ErrorEstimate> forces = forces_judged(estimates);
+  const bool estimated = !forces.empty();
+  if (estimated) found.percent = 0;
+  for (const ErrorEstimate& e : forces) found.percent = std::max(found.percent, e.in_percent(e.total()));
+  if (estimated) found.met = found.percent <= chosen.wanted;
+  if (found.met) return found;
+  if (estimated)
+    found.words = fmt::format("asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
+                              forces.front().of.of_force() ? "force" : "displacement", found.percent);
+  else if (chosen.shown)
+    found.words = fmt::format("asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
+                              chosen.wanted, found.percent);
+  else
+    found.words = fmt::format("asked for {:g} %, and the error of the force is not known: nothing was estimated", chosen.wanted);
+  return found;
+}
+
+Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
+    : voice_(voice),
+      config_(config),
+      material_(material),
+      where_(std::move(where)),
+      chosen_(choose_accuracy(config_, material, true)) {
+  if (!chosen_) return;
+  voice_.say("accuracy: {}", chosen_->words);
+  if (chosen_->cut)
+    voice_.say("accuracy: cells are cut where the error comes from, until it is within that{}", dry ? " (not with --dry-run)" : "");
+  begins_ = !chosen_->shown && chosen_->level.in_contact_radii && config_.estimate == EstimateBy::refinement;
+  if (begins_)
+    voice_.say("accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
+               dry ? " (not with --dry-run)" : "");
+  if (begins_ && dry) {
+    const AccuracyLevel next = finest_at_once(*chosen_);
+    voice_.say("accuracy: a next level, where these cells are not enough, takes up to {}",
+               in_words(level_cost(with(next), material_, where_)));
+  }
+}
+
+// where they have not fallen, or by chance to nearly nothing, an order says little
+OrdersSeen Accuracy::orders_since_before(const std::vector<ErrorEstimate>& estimates) {
+  OrdersSeen orders;
+  std::map<std::string, double> now;
+  for (const ErrorEstimate& e : estimates) now[e.of.name] = e.in_percent(e.total() - std::abs(e.increments));
+  const double shorter = edge_before_ / chosen_->level.edge;
+  for (const auto& [name, percent] : cells_before_)
+    if (shorter > 1.1 && now.contains(name))
+      orders[name] = std::clamp(std::log(percent / std::max(now[name], 1e-300)) / std::log(shorter), 1.0, 2.5);
+  edge_before_ = chosen_->level.edge, cells_before_ = std::move(now);
+  return orders;
+}
+
+SolveConfig Accuracy::with(const AccuracyLevel& level) const {
+  ChosenLevel other = *chosen_;
+  other.level = level;
+  SolveConfig config = config_;
+  put(other, config);
+  return config;
+}
+
+std::string Accuracy::not_begun(const std::string& level, double cells, const std::function<LevelCost()>& cost) const {
+  const double left = seconds_left();
+  if (std::isinf(left) && cells < worth_a_forecast) return "";
+  const LevelCost forecast = cost();
+  voice_.say("accuracy: {}: {}, by the forecast", level, in_words(forecast));
+  const std::string why = too_dear(forecast, left);
+  return why.empty() ? "" : fmt::format("a next level, {}, {}", level, why);
+}
+
+std::string Accuracy::not_begun(const AccuracyLevel& level) const {
+  const SolveConfig config = with(level);
+  return not_begun(in_words(level), n_cells(config.mesh->geometry), [&] { return level_cost(config, material_, where_); });
+}
+
+std::string Accuracy::not_begun(const Mesh& mesh) const {
+  return not_begun(fmt::format("{} cells", mesh.n_cells()), mesh.n_cells(),
+                   [&] { return level_cost(config_, mesh, material_, where_); });
+}
+
+bool Accuracy::begin_anew(const Failure& failure) {
+  if (!begins_ || failure.code() != Exit::not_converged) return false;
+  voice_.say("accuracy: {}", failure.what());
+  return shorter_cells();
+}
+
+// once, where no error is known that would say which
+bool Accuracy::shorter_cells() {
+  const auto shorter = ++without_estimate_ > 1 ? std::nullopt : with_shorter_cells(*chosen_);
+  if (!shorter) return false;
+  take(*shorter);
+  voice_.say("accuracy: {}", in_words(*shorter));
+  return true;
+}
+
+void Accuracy::take(const AccuracyLevel& level) {
+  config_ = with(level);
+  chosen_->level = level, chosen_->level.error = 0;
+  chosen_->met = chosen_->shown = false;  // no study stands for it
+}
+
+bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
+  if (!chosen_ || config_.estimate != EstimateBy::refinement) return false;
+  if (estimates.empty()) return shorter_cells();
+  begins_ = false;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  const OrdersSeen orders = orders_since_before(estimates);
+  const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates, orders);
+  if (!finer) return false;
+  not_begun_ = not_begun(*finer);
+  if (!not_begun_.empty()) return false;
+  take(*finer);
+  voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
+  return true;
+}
+
+std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_) return std::nullopt;
+  if (forces_judged(estimates).empty()) return 0.0;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  return found.met ? std::nullopt : std::optional(chosen_->wanted / found.percent);
+}
+
+std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_) return {};
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  const auto judged = forces_judged(estimates);
+  const bool none = std::all_of(judged.begin(), judged.end(), [](const ErrorEstimate& e) { return e.none_yet(); });
+  if (none && (!judged.empty() || !chosen_->shown)) return {};  // not known
+  return {{"accuracy", found.percent, "percent"}};
+}
+
+void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output, const std::string& cheaper) const {
+  if (!chosen_) return;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  if (found.met) return;
+  if (estimates.empty() && config_.estimate == EstimateBy::none) return voice_.warn("accuracy: " + found.words);
+  const char* key = config_.accuracy ? "accuracy" : "fidelity";
+  throw Failure(Exit::not_accurate,
+                Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),
+                      fmt::format("at most {:g} %", chosen_->wanted),
+                      fmt::format("kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
+                                  "mesh.geometry with estimate, in place of {}",
+                                  output, in_words(chosen_->level), cheaper, key)});
+}
+
+}  // namespace langer

@@ -1,0 +1,108 @@
+#include "accuracy/refinement/model_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/run/body_mesh.hpp"
+#include "scene/run/run_words.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double margin = 0.8;     // of what is wanted: parts do not fall as told
+constexpr int most_cut = 150'000;  // cells: more were never tried
+
+SolveConfig of_scene(SolveConfig config, const std::string& file) {
+  if (!file.empty()) config.mesh.reset();
+  return config;
+}
+
+}  // namespace
+
+ModelChoice::ModelChoice(const Voice& voice, const SolveConfig& config, const std::string& file,
+                         const std::optional<Material>& material, Where where, bool dry)
+    : voice_(voice),
+      asked_(config),
+      file_(file),
+      material_(material),
+      where_(std::move(where)),
+      dry_(dry),
+      section_(voice, of_scene(config, file), material, where_, dry),
+      accuracy_(of_model()),
+      at_a_point_(config.homogeneous == Homogeneous::automatic) {}
+
+Accuracy ModelChoice::of_model() const {
+  return Accuracy(voice_, section_.taken() ? section_.config() : asked_, material_, where_, dry_);
+}
+
+Mesh ModelChoice::mesh() {
+  if (cells_) return cells_->mesh();
+  Mesh mesh = body_mesh(config(), file_, where_);
+  if (!accuracy_.cuts() || !why_not_cut(mesh).empty()) return mesh;
+  cells_.emplace(mesh);
+  if (const int times = shorten_under(config(), *cells_); times > 0)
+    voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times, times == 1 ? "" : "s",
+               cells_->mesh().n_cells(), mesh.n_cells());
+  return cells_->mesh();
+}
+
+bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
+  if (!section_.accurate(errors.at_end)) {
+    before_.reset();
+    accuracy_ = of_model();
+    return true;
+  }
+  if (is_last_) return false;
+  std::optional<Level> here;
+  if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_};
+  const bool again = errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
+  if (again) before_ = std::move(here);
+  return again;
+}
+
+bool ModelChoice::another(const Failure& failure) {
+  if (accuracy_.begin_anew(failure)) return true;
+  if (!before_ || failure.code() != Exit::not_converged) return false;
+  const std::string why = fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
+  voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
+  accuracy_ = before_->accuracy, cells_ = before_->cells;
+  accuracy_.ends_here(why);
+  before_.reset();
+  is_last_ = true;
+  return true;
+}
+
+bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
+  const std::optional<double> wanted = accuracy_.wanted_of(errors.at_end);
+  if (!wanted) return false;
+  if (!cells_) {
+    const std::string of_scene = why_not_cut(config());
+    accuracy_.ends_here("its cells are not cut: " + (of_scene.empty() ? why_not_cut(mesh) : of_scene));
+    return false;
+  }
+  const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
+  CutMesh next = *cells_;
+  next.cut(largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
+  const int n = next.mesh().n_cells(), before = mesh.n_cells();
+  const std::string why =
+      n > most_cut ? fmt::format("a next level would have {} cells, of at most {}", n, most_cut) : accuracy_.not_begun(next.mesh());
+  if (!why.empty()) {
+    accuracy_.ends_here(why);
+    return false;
+  }
+  cells_ = std::move(next);
+  voice_.say("accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}", (n - before) / 7,
+             before, n);
+  return true;
+}
+
+void ModelChoice::leave_point() {
+  voice_.say("homogeneous: the mesh no longer balances, and is solved from there on");
+  at_a_point_ = false;
+}
+
+std::vector<Summary> ModelChoice::summary(const std::vector<ErrorEstimate>& errors) const {
+  return joined({section_.summary(errors), accuracy_.summary(errors)});
+}
+
+}  // namespace langer

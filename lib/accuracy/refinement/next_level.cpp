@@ -1,0 +1,108 @@
+// From a level of an accuracy to the next.
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/refinement/accuracy.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double shortest_step = 0.01;  // shorter ones were never tried
+// An estimate of more than this [%] may be too large by the factor: then cells that it calls too long may do.
+constexpr double rough = 5, too_large = 4;
+constexpr double most_cells_more = 8, most_increments_more = 3;  // from one level to the next
+
+// Other numbers of cells may not fit the lengths of graded ones: then somewhat shorter ones do.
+Geometry with_cells(const Geometry& written, double factor) {
+  for (int i = 0;; ++i, factor *= 0.97) {
+    Geometry geometry = written;
+    scale_cells(geometry, factor);
+    if (i == 10 || std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry)) return geometry;
+  }
+}
+
+// as it would be on cells longer by the factor `edge`, in increments longer by `step` [%]
+double percent_with(ErrorEstimate e, double edge, double step, double order) {
+  e.cells *= std::pow(edge, order), e.increments *= step * step, e.scatter *= edge * edge;
+  return e.in_percent(e.total());
+}
+
+void put_length(const ChosenLevel& chosen, double length, Geometry& geometry) {
+  if (double* edge = edge_in_contact_radii(geometry))
+    *edge = length;
+  else
+    geometry = length == 1 ? chosen.written : with_cells(chosen.written, length);
+}
+
+// the shortest cells of a next level, in those of this one
+double shortest_at_once(const ChosenLevel& chosen) {
+  const auto cells_with = [&](double factor) {
+    Geometry geometry = chosen.written;
+    put_length(chosen, factor * chosen.level.edge, geometry);
+    return n_cells(geometry);
+  };
+  const double most = most_cells_more * cells_with(1), least = chosen.finest / chosen.level.edge;
+  double factor = 1;
+  while (factor > least && cells_with(0.97 * factor) <= most) factor *= 0.97;
+  return factor;
+}
+
+}  // namespace
+
+double n_cells(const Geometry& geometry) {
+  double cells = 1;
+  for (int n : numbers_of_cells(geometry)) cells *= n;
+  return cells;
+}
+
+void put(const ChosenLevel& chosen, SolveConfig& config) {
+  const AccuracyLevel& level = chosen.level;
+  put_length(chosen, level.edge, config.mesh->geometry);
+  const double first = config.path.first_increment();
+  if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
+  if (config.path.seconds) config.path.first = std::min(first, level.step);  // its error decides: longer ones are begun again
+  config.mesh->cells = level.cells;
+}
+
+AccuracyLevel finest_at_once(const ChosenLevel& chosen) {
+  AccuracyLevel level = chosen.level;
+  level.edge *= shortest_at_once(chosen);
+  return level;
+}
+
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+                                         const OrdersSeen& seen) {
+  AccuracyLevel finer = chosen.level;
+  const double enough = 0.8 * chosen.wanted;
+  double step = 1, edge = 1;  // factors
+  const std::vector<ErrorEstimate> forces = forces_judged(estimates);
+  for (const ErrorEstimate& e : forces) {
+    const double increments = e.in_percent(std::abs(e.increments));
+    if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
+    // an estimate of few increments scatters by more than itself, and a fifth more of them cost less than shorter cells
+    else if (increments > 0.05 * chosen.wanted)
+      step = std::min(step, 0.8);
+  }
+  step = std::max(step, 1 / most_increments_more);
+  const double least = chosen.finest / chosen.level.edge, at_once = shortest_at_once(chosen);
+  for (const ErrorEstimate& e : forces) {
+    const bool is_rough = e.in_percent(e.total()) > rough;
+    if (percent_with(e, least, step, e.order) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
+    const auto found = seen.find(e.of.name);
+    const double order = found == seen.end() ? e.order : found->second;
+    while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
+  }
+  finer.edge *= edge, finer.step *= step;
+  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)), finer.edge = std::max(finer.edge, chosen.finest);
+  if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step) return std::nullopt;
+  return finer;
+}
+
+std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen) {
+  AccuracyLevel shorter = chosen.level;
+  shorter.edge *= 0.7;
+  return shorter.edge < chosen.finest ? std::nullopt : std::optional(shorter);
+}
+
+}  // namespace langer

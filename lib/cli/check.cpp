@@ -1,0 +1,97 @@
+#include "cli/check.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/plan.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "cli/schemas.hpp"
+
+namespace langer {
+
+namespace {
+
+// "# yaml-language-server: $schema=../schema/solve.schema.json" in the first lines
+std::optional<std::string> kind_by_schema_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  for (int i = 0; i < 5 && std::getline(file, line); ++i) {
+    const std::size_t at = line.find("$schema=");
+    if (line.rfind("#", 0) != 0 || at == std::string::npos) continue;
+    const std::string name = std::filesystem::path(line.substr(at + 8)).filename();
+    for (const std::string& kind : schema_kinds())
+      if (name == schema_file(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+// the kind whose keys fit best: fewest unknown, then fewest missing, then most known
+std::optional<std::string> kind_by_keys(const Tree& tree) {
+  if (tree.kind != Tree::Kind::map) return std::nullopt;
+  if (tree.find("nodes")) return "pipeline";
+  using Score = std::tuple<std::size_t, std::size_t, std::size_t>;
+  std::optional<std::string> best;
+  Score least{};
+  bool tie = false;
+  for (const std::string& kind : config_kind_names()) {
+    const std::vector<DescribedKey> keys = find_config_kind(kind)->top_keys();
+    std::size_t known = 0, missing = 0;
+    for (const DescribedKey& k : keys) {
+      known += tree.find(k.key) != nullptr;
+      missing += k.otherwise == "required" && !tree.find(k.key);
+    }
+    if (known == 0) continue;
+    const Score score{tree.map.size() - known, missing, keys.size() - known};
+    if (!best || score < least)
+      best = kind, least = score, tie = false;
+    else if (score == least)
+      tie = true;
+  }
+  return tie ? std::nullopt : best;
+}
+
+std::string warnings(const std::vector<std::string>& doubts) {
+  std::string lines;
+  for (const std::string& doubt : doubts) lines += "\n  warning: " + doubt;
+  return lines;
+}
+
+}  // namespace
+
+std::string kind_of(const std::string& path) {
+  if (const auto kind = kind_by_schema_line(path)) return *kind;
+  const Tree tree = load_yaml(path);
+  if (const auto kind = kind_by_keys(tree)) return *kind;
+  throw Failure(Exit::config, Error{{path, 0, 0},
+                                    "",
+                                    "its keys do not tell what kind of file this is",
+                                    "",
+                                    "say so: --as with one of " + list_words(schema_kinds())});
+}
+
+std::string check_file(const std::string& path, std::string kind) {
+  need_file(path);
+  if (kind.empty()) kind = kind_of(path);
+  if (!has_schema(kind)) schema_text(kind);  // says which there are
+  if (kind == "pipeline") {
+    const PlanReport report = check_pipeline(path);
+    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes, report.steps,
+                       warnings(report.doubts));
+  }
+  const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
+  for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
+  if (const std::vector<Error> lost = lost_names(effective.names); !lost.empty()) throw Failure(Exit::config, lost);
+  std::vector<std::string> doubts = effective.notices;
+  if (effective.look_at_data)
+    for (const std::string& doubt : effective.look_at_data()) doubts.push_back(doubt);
+  return fmt::format("{}: {}, right{}", path, kind, warnings(doubts));
+}
+
+}  // namespace langer

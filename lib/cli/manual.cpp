@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/split.hpp"
+#include "core/base/version.hpp"
+#include "core/config/member.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "cli/starter.hpp"
+#include "cli/usage.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string longest_flag(const UsageOption& o) { return o.flags.substr(o.flags.rfind(',') + 1); }
+
+std::string roff(const std::string& s) {
+  std::string out;
+  for (const char c : s) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else if (c == '\'')
+      out += "\\(aq";
+    else
+      out += c;
+  }
+  return !out.empty() && out[0] == '.' ? "\\&" + out : out;
+}
+
+}  // namespace
+
+Usage usage_of(const StageSpec& stage) {
+  const ConfigKind* kind = find_config_kind(stage.name);
+  return usage_of(stage, kind->top_keys(), kind->reference());
+}
+
+namespace {
+
+Usage command(const char* program, const char* sentence, std::vector<UsageOption> options, const char* example) {
+  for (UsageOption& o : common_options())
+    if (o.flags == "-h,--help") options.push_back(std::move(o));
+  return {program, sentence, std::move(options), {}, "", example, ""};
+}
+
+std::vector<Usage> table_of_commands() {
+  std::vector<std::string> kinds = config_kind_names(), described = kinds;
+  kinds.push_back("pipeline"), described.push_back("columns");
+  return {
+      command(
+          "langer show", "Prints what is in a file that Langer made.",
+          {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
+           {"--config", "", "print the config that it was made with instead", "", {}},
+           {"--json", "", "print the summary as one JSON object a file", "", {}}},
+          "langer show runs/indentation/solve/solution.h5"),
+      command("langer new", "Writes a starter project that runs, with comments.",
+              {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "", starter_names(), true},
+               {"FOLDER", "", "a new folder; the scene's name by default", "/", {}}},
+              "langer new indentation skin && make -C skin"),
+      command("langer check", "Checks configs and pipelines without running anything.",
+              {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
+               {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
+              "langer check pipelines/indentation.yaml configs/*/*.yaml"),
+      command("langer describe",
+              "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
+              {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
+              "langer describe solve"),
+      command("langer schema", "Prints the JSON Schema of a config, for editors.",
+              {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
+               {"--list", "", "print the kinds instead", "", {}}},
+              "langer schema solve > solve.schema.json"),
+      command("langer explain", "Says why make would run a step of a run again.", {{"RUN", "", "folder of a run", "/", {}, true}},
+              "langer explain runs/indentation"),
+      command("langer times", "Says what each step of a run took, and which failed.",
+              {{"RUN", "", "folder of a run", "/", {}, true}, {"--failed", "", "only those that failed, with their logs", "", {}}},
+              "langer times runs/indentation"),
+      command(
+          "langer crate",
+          "Describes a finished run for others as an RO-Crate: what made which file from what, checksums, a script that makes it again.",
+          {{"RUN", "", "folder of a run", "/", {}, true},
+           {"--title", "TEXT", "what it is called; the pipeline's name by default", "", {}},
+           {"--author", "NAME", "who made it", "", {}},
+           {"--license", "TEXT", "under which others may use it, best as a URL", "", {}},
+           {"--same-as", "RUN", "instead: say whether another folder of the same run has the same results", "/", {}}},
+          "langer crate runs/indentation --license https://creativecommons.org/licenses/by/4.0/"),
+      command("langer doctor", "Says what is installed here of what Langer can use, and what is missing without it.", {},
+              "langer doctor"),
+      command("langer man", "Prints the man page of a program.", {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
+              "langer man langer-solve | man -l -"),
+      command("langer completion", "Prints the completion of all programs for bash.", {}, "source <(langer completion)"),
+  };
+}
+
+}  // namespace
+
+const std::vector<Usage>& langer_commands() {
+  static const std::vector<Usage> commands = table_of_commands();
+  return commands;
+}
+
+Usage langer_usage() {
+  Usage u{"langer", "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...",
+          {},       {},
+          "",       "",
+          ""};
+  for (const Usage& c : langer_commands()) {
+    const std::string name = c.program.substr(7);
+    u.options.push_back({name, "", c.sentence, "", {}});
+  }
+  u.options.push_back({"-h,--help", "", "this page; langer COMMAND --help says more", "", {}});
+  u.options.push_back({"--version", "", "version of this build", "", {}});
+  for (const Usage& c : langer_commands())
+    if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" || c.program == "langer explain")
+      u.examples += (u.examples.empty() ? "" : "\n") + c.examples;
+  u.more = "The stages: ";
+  for (const StageSpec& s : stages()) u.more += std::string("langer-") + s.name + ", ";
+  u.more += "and langer-plan, which chains them.";
+  return u;
+}
+
+std::vector<Usage> all_usages() {
+  std::vector<Usage> all;
+  for (const StageSpec& s : stages()) all.push_back(usage_of(s));
+  all.push_back(plan_usage());
+  all.push_back(langer_usage());
+  return all;
+}
+
+std::string man_text(const Usage& u) {
+  std::string name = u.program;
+  std::replace(name.begin(), name.end(), ' ', '-');
+  std::string upper = name;
+  for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
+  std::string s =
+      fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n", upper, version, roff(name), roff(u.sentence));
+  s += ".SH SYNOPSIS\n.B " + roff(u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n";
+  const auto options = [&s](const Usage& of) {
+    for (const UsageOption& o : of.options) s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
+  };
+  s += u.program == "langer" ? ".SH COMMANDS\n" : ".SH OPTIONS\n";
+  options(u);
+  if (u.program == "langer")
+    for (const Usage& c : langer_commands()) {
+      s += ".SS " + roff(synopsis(c)) + "\n" + roff(c.sentence) + "\n";
+      options(c);
+    }
+  const auto as_it_is = [&s](const std::string& lines) {
+    s += ".nf\n";
+    for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
+    s += ".fi\n";
+  };
+  if (!u.reference.empty()) s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n", as_it_is(u.reference);
+  s += ".SH EXAMPLES\n", as_it_is(u.examples);
+  s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
+  s += ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
+  if (!u.more.empty()) s += ".SH NOTES\n" + roff(u.more) + "\n";
+  s += ".SH SEE ALSO\n";
+  std::string others;
+  for (const Usage& other : all_usages())
+    if (other.program != u.program) others += (others.empty() ? ".BR " : ",\n.BR ") + roff(other.program) + " (1)";
+  return s + others + "\n";
+}
+
+std::string completion_text() {
+  std::string s =
+      "# bash completion of Langer: generated by `langer completion`\n"
+      "_langer_files() {  # endings...\n"
+      "  local end IFS=$'\\n'\n"
+      "  COMPREPLY+=($(compgen -d -- \"$cur\"))\n"
+      "  for end in \"$@\"; do [ \"$end\" = / ] || COMPREPLY+=($(compgen -f -X \"!*.$end\" -- \"$cur\")); done\n"
+      "  compopt -o filenames\n"
+      "}\n";
+  const auto cases = [&s](const Usage& u, const std::string& function) {
+    std::string flags, places;
+    s += function + "() {\n  case $prev in\n";
+    for (const UsageOption& o : u.options) {
+      if (is_place(o)) {
+        if (!o.words.empty()) places += fmt::format("  COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n", fmt::join(o.words, " "));
+        if (!o.files.empty()) places += fmt::format("  _langer_files {}\n", o.files);
+        continue;
+      }
+      flags += " " + longest_flag(o);
+      if (o.value.empty()) continue;
+      std::string patterns = o.flags;
+      std::replace(patterns.begin(), patterns.end(), ',', '|');
+      s += fmt::format("    {}) ", patterns);
+      if (!o.words.empty())
+        s += fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"));", fmt::join(o.words, " "));
+      else if (!o.files.empty())
+        s += fmt::format("_langer_files {};", o.files);
+      s += " return ;;\n";
+    }
+    s += "  esac\n";
+    s += fmt::format("  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}",
+                     flags.empty() ? "" : flags.substr(1), places);
+    s += "}\n";
+  };
+  const auto words = "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
+  std::vector<std::string> programs;
+  for (const Usage& u : all_usages()) {
+    if (u.program == "langer") continue;
+    std::string function = "_" + u.program;
+    std::replace(function.begin(), function.end(), '-', '_');
+    cases(u, function + "_options");
+    s += fmt::format("{}() {{\n{}  {}_options\n}}\ncomplete -F {} {}\n", function, words, function, function, u.program);
+  }
+  std::string names, branches;
+  for (const Usage& c : langer_commands()) {
+    const std::string name = c.program.substr(7);
+    cases(c, "_langer_command_" + name);
+    names += " " + name;
+    branches += fmt::format("    {}) _langer_command_{} ;;\n", name, name);
+  }
+  s += fmt::format(
+      "_langer() {{\n{}  if [ $COMP_CWORD = 1 ]; then COMPREPLY=($(compgen -W '{} --help --version' -- \"$cur\")); return; fi\n"
+      "  case ${{COMP_WORDS[1]}} in\n{}  esac\n}}\ncomplete -F _langer langer\n",
+      words, names.substr(1), branches);
+  return s;
+}
+
+}  // namespace langer

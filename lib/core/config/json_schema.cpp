@@ -1,0 +1,91 @@
+#include "core/config/json_schema.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/quoted.hpp"
+
+namespace langer {
+
+namespace {
+
+// in one line where that is short
+std::string flat(const Tree& t) {
+  std::string s;
+  switch (t.kind) {
+    case Tree::Kind::null:
+      return "null";
+    case Tree::Kind::scalar:
+      return t.quoted ? quoted(t.scalar) : t.scalar;
+    case Tree::Kind::list:
+      for (const Tree& item : t.list) s += (s.empty() ? "" : ", ") + flat(item);
+      return "[" + s + "]";
+    case Tree::Kind::map:
+      for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ", ") + quoted(key) + ": " + flat(value);
+      return "{" + s + "}";
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string json_of(const Tree& t, int indent) {
+  constexpr std::size_t widest = 100;
+  const std::string one = flat(t);
+  if (one.size() + static_cast<std::size_t>(indent) <= widest || (t.kind != Tree::Kind::map && t.kind != Tree::Kind::list))
+    return one;
+  const std::string margin(static_cast<std::size_t>(indent) + 2, ' ');
+  std::string s;
+  for (const Tree& item : t.list) s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
+  for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
+  const std::string end(static_cast<std::size_t>(indent), ' ');
+  return t.kind == Tree::Kind::map ? "{\n" + s + "\n" + end + "}" : "[\n" + s + "\n" + end + "]";
+}
+
+namespace schema {
+
+Tree included() {
+  return object({{"description", word("a file, or a list of files, whose keys stand here; keys beside it win")},
+                 {"anyOf", list({type("string"), object({{"type", word("array")}, {"items", type("string")}})})}});
+}
+
+Tree number(const Member& m, bool whole) {
+  Tree t = type(whole ? "integer" : "number");
+  const Range& r = m.range;
+  if (std::isfinite(r.low)) t.map.push_back({r.low_included ? "minimum" : "exclusiveMinimum", plain_tree(number_text(r.low))});
+  if (std::isfinite(r.high)) t.map.push_back({r.high_included ? "maximum" : "exclusiveMaximum", plain_tree(number_text(r.high))});
+  return t;
+}
+
+Tree described(Tree schema, const Member& m) {
+  std::string says = m.doc;
+  if (std::string(m.unit) != unit::none) says += fmt::format(" [{}]", m.unit);
+  schema.map.insert(schema.map.begin(), {"description", word(says)});
+  return schema;
+}
+
+void refuse_others(Tree& object) { object.map.push_back({"additionalProperties", plain_tree("false")}); }
+
+Tree or_included(Tree whole, const std::string& part) {
+  return object({{"if", object({{"type", word("object")}, {"required", words({"include"})}})},
+                 {"then", reference(part)},
+                 {"else", std::move(whole)}});
+}
+
+std::string document(const std::string& title, Tree root, const Definitions& definitions) {
+  Tree all = object();
+  for (const auto& [name, tree] : definitions) all.map.push_back({name, tree});
+  Tree t = object({{"$schema", word("http://json-schema.org/draft-07/schema#")}, {"title", word(title)}});
+  for (Tree::Entry& entry : root.map) t.map.push_back(std::move(entry));
+  // beside $ref draft 7 reads nothing else
+  if (const Tree* ref = t.find("$ref")) {
+    Tree first = object({{"$ref", *ref}});
+    std::erase_if(t.map, [](const Tree::Entry& e) { return e.key == "$ref"; });
+    t.map.push_back({"allOf", list({first})});
+  }
+  t.map.push_back({"definitions", std::move(all)});
+  return json_of(t) + "\n";
+}
+
+}  // namespace schema
+
+}  // namespace langer

@@ -1,0 +1,128 @@
+#include "core/hdf5/seal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/hdf5/checksum.hpp"
+#include "core/hdf5/replace.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr std::string_view seal_begin = "\nlanger seal:", older_begin = "\nlanger seal ";
+constexpr std::size_t seal_length = seal_begin.size() + 16 + 1;  // begin, 16 hex digits, newline
+
+[[noreturn]] void cannot_write(const std::string& path) {
+  throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+}
+
+// the blocks of a file one after another; `take` goes on from the checksum of those before
+template <class Take>
+std::uint64_t over_blocks(std::ifstream& in, std::uintmax_t bytes, const Take& take) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  std::vector<char> block(static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, 1 << 20)));
+  while (bytes > 0) {
+    const std::size_t n = static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, block.size()));
+    if (!in.read(block.data(), static_cast<std::streamsize>(n))) return 0;
+    h = take(std::string_view(block.data(), n), h);
+    bytes -= n;
+  }
+  return h;
+}
+
+// FNV-1a over words of eight bytes, in files of versions up to 0.2.0: two sign bits that are turned over cancel
+std::uint64_t older_checksum(std::string_view bytes, std::uint64_t h) {
+  for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), std::min<std::size_t>(8, bytes.size()));
+    h = (h ^ word) * 0x100000001b3u;
+  }
+  return h;
+}
+
+void sync_path(const std::string& path, int flags) {
+  const int fd = ::open(path.c_str(), flags);
+  if (fd < 0) return;  // a folder that cannot be opened is no reason to fail
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
+
+void append_seal(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string seal = fmt::format("{}{:016x}\n", seal_begin, over_blocks(in, std::filesystem::file_size(path), checksum));
+  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND);
+  if (fd < 0) cannot_write(path);
+  const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) && ::fsync(fd) == 0;
+  ::close(fd);
+  if (!written) cannot_write(path);
+}
+
+Seal seal_of(const std::string& path) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (none || size < seal_length) return Seal::none;
+  std::ifstream in(path, std::ios::binary);
+  std::string seal(seal_length, '\0');
+  in.seekg(static_cast<std::streamoff>(size - seal_length));
+  if (!in.read(seal.data(), seal_length)) return Seal::none;
+  const bool older = seal.starts_with(older_begin);
+  if (!older && !seal.starts_with(seal_begin)) return Seal::none;
+  in.seekg(0);
+  const std::uint64_t sum = over_blocks(in, size - seal_length, older ? older_checksum : checksum);
+  return seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum) ? Seal::broken : Seal::whole;
+}
+
+void rename_durably(const std::string& from, const std::string& to) {
+  sync_path(from, O_RDONLY);
+  if (std::rename(from.c_str(), to.c_str()) != 0) cannot_write(to);
+  sync_folder_of(to);
+}
+
+void sync_folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  sync_path(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+}
+
+namespace {
+
+// beside it, to be renamed; returns its path
+std::string write_part(const std::string& path, const std::string& text) {
+  need_replaceable_by(path, text);
+  std::string part = path + ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) {
+    const int reason = errno;
+    std::remove(part.c_str());
+    errno = reason;
+    cannot_write(path);
+  }
+  return part;
+}
+
+}  // namespace
+
+void write_text_file(const std::string& path, const std::string& text) { rename_durably(write_part(path, text), path); }
+
+void write_text_file_soon(const std::string& path, const std::string& text) {
+  if (std::rename(write_part(path, text).c_str(), path.c_str()) != 0) cannot_write(path);
+}
+
+}  // namespace langer

@@ -1,0 +1,244 @@
+#include "identification/fit/residual_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/no_number.hpp"
+#include "core/base/student.hpp"
+#include "core/tensor/dense.hpp"
+
+namespace langer {
+
+namespace {
+
+using Curves = std::vector<Eigen::Index>;
+
+// innovations of columns: A_i - rho A_(i-1) within a curve, sqrt(1 - rho^2) A_0 at its beginning
+MatX innovations(const MatX& A, const Curves& curves, double rho) {
+  MatX B = A;
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    if (n > 0) B.row(at) *= std::sqrt(1 - rho * rho);
+    for (Eigen::Index i = 1; i < n; ++i) B.row(at + i) -= rho * A.row(at + i - 1);
+    at += n;
+  }
+  return B;
+}
+
+// direction^T R direction
+double correlated_square(const VecX& v, const Curves& curves, double rho) {
+  double sum = 0;
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    double before = 0;  // sum of rho^(i-j) v_j over j < i
+    for (Eigen::Index i = 0; i < n; ++i) {
+      sum += v[at + i] * (v[at + i] + 2 * before);
+      before = rho * (before + v[at + i]);
+    }
+    at += n;
+  }
+  return sum;
+}
+
+// R A
+MatX correlated(const MatX& A, const Curves& curves, double rho) {
+  MatX forward = A, backward = A;
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    for (Eigen::Index i = 1; i < n; ++i) forward.row(at + i) += rho * forward.row(at + i - 1);
+    for (Eigen::Index i = n - 2; i >= 0; --i) backward.row(at + i) += rho * backward.row(at + i + 1);
+    at += n;
+  }
+  return forward + backward - A;
+}
+
+// an orthonormal basis of the columns' space
+MatX column_space(const MatX& J) {
+  if (J.cols() == 0) return J;
+  MatX scaled = J;
+  for (Eigen::Index j = 0; j < J.cols(); ++j)
+    if (const double n = J.col(j).norm(); n > 0) scaled.col(j) /= n;
+  const Svd of = svd(scaled);
+  Eigen::Index rank = 0;
+  while (rank < of.values.size() && of.values[rank] > 1e-10 * of.values[0]) ++rank;
+  return of.U.leftCols(rank);
+}
+
+struct Restricted {
+  double rho, log_likelihood, deviation;
+};
+
+// U (m, k) orthonormal columns of the space that the parameters span
+Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double rho) {
+  const auto free = static_cast<double>(r.size() - U.cols());
+  const MatX W = innovations(U, curves, rho);
+  const VecX y = innovations(r, curves, rho);
+  double rest = y.squaredNorm(), log_volume = 0;
+  if (U.cols() > 0) {
+    const Qr qr(W);
+    const VecX z = qr.Q_transposed_times(y);
+    rest = z.tail(r.size() - U.cols()).squaredNorm();
+    log_volume = 2 * qr.R().diagonal().cwiseAbs().array().log().sum();
+  }
+  const double variance = rest / free;  // of the innovations
+  const double curves_log = static_cast<double>(curves.size()) * std::log1p(-rho * rho);
+  return {rho, -0.5 * (free * std::log(variance) + log_volume - curves_log), std::sqrt(variance / (1 - rho * rho))};
+}
+
+// the largest value of f on [0, high]: a grid that gets finer towards high, then golden sections
+template <class F>
+double highest(F f, double high) {
+  constexpr int steps = 40;
+  const auto at = [&](int k) { return 1 - std::pow(1 - high, static_cast<double>(k) / steps); };
+  int best = 0;
+  double value = f(0.);
+  for (int k = 1; k <= steps; ++k)
+    if (const double x = f(at(k)); x > value) value = x, best = k;
+  double a = at(std::max(0, best - 1)), b = at(std::min(steps, best + 1));
+  constexpr double golden = 0.6180339887498949;
+  for (int k = 0; k < 40 && b - a > 1e-9; ++k) {
+    const double c = b - golden * (b - a), d = a + golden * (b - a);
+    (f(c) >= f(d) ? b : a) = f(c) >= f(d) ? d : c;
+  }
+  const double inside = 0.5 * (a + b);
+  return f(inside) > value ? inside : at(best);
+}
+
+// a correlation over more than the longest curve is not told from a shift of it
+double largest_rho(const Curves& curves) {
+  const Eigen::Index longest = curves.empty() ? 1 : *std::max_element(curves.begin(), curves.end());
+  return 1 - 1 / static_cast<double>(std::max<Eigen::Index>(longest, 2));
+}
+
+double effective_values(const Curves& curves, double rho) {
+  double sum = 0;
+  for (Eigen::Index n : curves) {
+    double factor = 1, power = 1;
+    for (Eigen::Index k = 1; k < n && power > 1e-17; ++k)
+      power *= rho, factor += 2 * (1 - static_cast<double>(k) / static_cast<double>(n)) * power;
+    sum += static_cast<double>(n) / factor;
+  }
+  return sum;
+}
+
+// the part of a column that the columns of U cannot replace
+VecX beyond(const MatX& U, const VecX& column) {
+  VecX v = column;
+  for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) v -= U * (U.transpose() * v);
+  return v;
+}
+
+MatX chosen_columns(const MatX& J, const std::vector<bool>& left_out, Eigen::Index but = -1) {
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < J.cols(); ++i)
+    if (!left_out[static_cast<std::size_t>(i)] && i != but) in.push_back(i);
+  return J(Eigen::all, in);
+}
+
+}  // namespace
+
+ResidualNoise white_noise(double deviation, Eigen::Index values) {
+  ResidualNoise noise;
+  noise.curves = {values}, noise.white = deviation, noise.effective = static_cast<double>(values);
+  return noise;
+}
+
+ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eigen::Index>& curves, double size) {
+  ResidualNoise noise;
+  noise.curves = curves, noise.effective = static_cast<double>(r.size());
+  const MatX U = column_space(J);
+  const Eigen::Index free = r.size() - U.cols();
+  if (free <= 0) return noise;
+  noise.freedom = static_cast<double>(free);
+  noise.deviation = r.norm() / std::sqrt(noise.freedom);
+  const double high = largest_rho(curves);
+  if (free < 3 || noise.deviation <= 1e-4 * size) return noise;
+  const auto at = [&](double rho) { return restricted(r, U, curves, rho); };
+  const double rho = highest([&](double x) { return at(x).log_likelihood; }, high);
+  const Restricted best = at(rho);
+  if (2 * (best.log_likelihood - at(0).log_likelihood) < 2.706) return noise;
+  noise.rho = rho, noise.deviation = best.deviation, noise.effective = effective_values(curves, rho);
+  const double h = std::min(0.02, 0.3 * (1 - rho));
+  const Restricted below = at(std::max(0., rho - h)), above = at(rho + h);
+  const double curvature = -(above.log_likelihood - 2 * best.log_likelihood + below.log_likelihood) / (h * h), most = 1 - rho * rho;
+  noise.rho_variance = curvature > 0 ? std::min(1 / curvature, most) : most;
+  noise.below = {below.rho, below.deviation}, noise.above = {above.rho, above.deviation};
+  return noise;
+}
+
+ResidualNoise with_least(ResidualNoise noise, double least) {
+  if (least > noise.deviation) noise.white = std::sqrt((least - noise.deviation) * (least + noise.deviation));
+  return noise;
+}
+
+NoiseAlong along(const ResidualNoise& noise, const VecX& direction) {
+  const auto shown = [&](double rho, double deviation) {
+    return deviation * deviation * correlated_square(direction, noise.curves, rho);
+  };
+  const double square = shown(noise.rho, noise.deviation);
+  const double variance = square + noise.white * noise.white * direction.squaredNorm();
+  if (!(square > 0) || std::isinf(noise.freedom)) return {variance, inf};
+  double relative = 2 / noise.freedom;
+  if (noise.rho > 0 && noise.above.rho > noise.below.rho) {
+    const double slope = std::log(shown(noise.above.rho, noise.above.deviation) / shown(noise.below.rho, noise.below.deviation)) /
+                         (noise.above.rho - noise.below.rho);
+    relative += slope * slope * noise.rho_variance;
+  }
+  const double part = square / variance;
+  return {variance, 2 / (relative * part * part)};
+}
+
+MatX covariance(const MatX& J, const std::vector<bool>& left_out, const ResidualNoise& noise) {
+  const Eigen::Index n = J.cols();
+  MatX cov = MatX::Constant(n, n, nan);
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!left_out[static_cast<std::size_t>(i)] && J.col(i).norm() > 0) in.push_back(i);
+  const auto k = static_cast<Eigen::Index>(in.size());
+  if (k == 0 || J.rows() == 0) return cov;
+  MatX A = J(Eigen::all, in);
+  const VecX norms = A.colwise().norm().transpose();
+  A = A * norms.cwiseInverse().asDiagonal();
+  const Svd of = svd(A);
+  const VecX& sv = of.values;
+  // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not distinguishable from 0
+  const double smallest = 1e-10 * sv[0];
+  VecX inverse = VecX::Zero(sv.size()), undetermined = VecX::Ones(k);
+  for (Eigen::Index c = 0; c < sv.size(); ++c)
+    if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= of.V.col(c).cwiseAbs2();
+  const MatX P = of.U * inverse.asDiagonal() * of.V.transpose();  // (m, k): parameters are P^T e
+  const MatX VP = noise.deviation * noise.deviation * correlated(P, noise.curves, noise.rho) + noise.white * noise.white * P;
+  const MatX all = P.transpose() * VP;
+  for (Eigen::Index a = 0; a < k; ++a)
+    for (Eigen::Index b = 0; b < k; ++b)
+      if (undetermined[a] < 1e-6 && undetermined[b] < 1e-6)
+        cov(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) =
+            0.5 * (all(a, b) + all(b, a)) / (norms[a] * norms[b]);
+  return cov;
+}
+
+VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out, const ResidualNoise& noise) {
+  VecX factors = VecX::Ones(columns.cols());
+  const double total = noise.total();
+  if (!(total > 0)) return factors;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    const VecX own = beyond(column_space(chosen_columns(columns, left_out, i)), columns.col(i));
+    const double size = own.norm();
+    if (!(size > 1e-12 * columns.col(i).norm())) continue;
+    const NoiseAlong felt = along(noise, own / size);
+    factors[i] = student_95(felt.freedom) / student_95(inf) * std::sqrt(felt.variance) / total;
+  }
+  return factors;
+}
+
+double minus_two_log_likelihood(const VecX& r, const ResidualNoise& noise) {
+  const auto n = static_cast<double>(r.size());
+  const auto value = [&](double rho) {
+    const double rest = std::max(innovations(r, noise.curves, rho).squaredNorm(), std::numeric_limits<double>::min());
+    return n * std::log(rest / n) - static_cast<double>(noise.curves.size()) * std::log1p(-rho * rho);
+  };
+  if (noise.rho == 0) return value(0);
+  return value(highest([&](double rho) { return -value(rho); }, largest_rho(noise.curves)));
+}
+
+}  // namespace langer

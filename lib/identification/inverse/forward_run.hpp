@@ -1,0 +1,59 @@
+// A solve config as a function of its material and friction: what is observed of it along its path, in process and without files.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/inverse/observation.hpp"
+#include "scene/run/run.hpp"
+
+namespace langer {
+
+struct ForwardPath {
+  bool complete = false;
+  std::string why;           // where it is not
+  std::vector<double> t;     // of accepted increments, ascending; 0 is not among them
+  MatX values;               // (t, observations)
+  std::vector<MatX> slopes;  // by parameter, where they were asked for: (t, observations)
+};
+
+// What a run is made with: the law of all bodies that the config gives none, friction by contact (others as in the config).
+struct ForwardInput {
+  Material law;
+  std::map<std::string, double> friction = {};
+  std::vector<std::string> slopes = {};  // keys of the config by which it is to be differentiated
+};
+
+class ForwardRun {
+ public:
+  using Where = std::function<Place(const std::string&)>;
+  // config with its mesh; where: places of its keys. fibre_angle: added to those of the law [deg]. stops: increments end there.
+  // Throws Failure(config) for a mesh that cannot be made.
+  ForwardRun(SolveConfig config, Where where, double fibre_angle);
+
+  const Mesh& mesh() const { return *mesh_; }
+  const SolveConfig& config() const { return config_; }
+  SolveConfig config_at(const ForwardInput& input) const;
+  void observe(std::vector<Observation> observations, std::vector<double> stops);
+  const std::vector<Observation>& observations() const { return observations_; }
+
+  // From several threads at once. Throws Failure(config) where the scene cannot be made,
+  // one with the signal's code where one has come.
+  ForwardPath solve(const ForwardInput& input) const;
+
+  // the same scene on cells longer by this factor; nothing where they follow from no numbers of the config
+  std::optional<SolveConfig> on_longer_cells(double factor) const;
+
+ private:
+  SolveConfig config_;
+  Where where_;
+  double fibre_angle_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::vector<Observation> observations_;
+  std::vector<double> stops_;
+};
+
+}  // namespace langer

@@ -1,0 +1,47 @@
+// A fit whose tests are scenes: searched on coarse cells first, then on those of the configs, and what their cells leave open.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/voice.hpp"
+#include "identification/inverse/scene_fit.hpp"
+
+namespace langer {
+
+class InverseFit {
+ public:
+  // quotients: derivatives by differences of whole runs, as viscous laws have them anyway.
+  // problem: gets the scenes as further tests. journal: keeps the runs (inverse/run_cache.hpp). files: of items without one.
+  InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where, FitProblem& problem,
+             const std::vector<std::string>& files, const std::string& journal, bool quotients = false);
+
+  // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code where one has come.
+  FitResult search();
+  // the measured and found curves with the errors that their cells make, and what these do to the parameters, in words
+  std::vector<std::string> add_curves(const FitResult& fit, FitRecord& record);
+  std::vector<std::string> cost() const;  // of what was solved, in words
+  int runs() const { return scenes_->runs() + (draft_ ? draft_->runs() : 0); }
+  void done() { cache_->remove(); }
+
+ private:
+  FitResult level(const std::shared_ptr<SceneTests>& scenes, const FitOptions& options);
+
+  Voice voice_;
+  const FitConfig& config_;
+  SceneTests::Where where_;
+  FitProblem& problem_;
+  std::shared_ptr<RunCache> cache_;
+  std::shared_ptr<SceneTests> scenes_, draft_;
+};
+
+// parameter,true,found,standard_error,lower_95,upper_95; empty cells where there is nothing
+std::string parameters_csv(const FitRecord& record);
+// one table of each curve: what it was measured over, places, measured, model, error
+struct NamedTable {
+  std::string name, text;
+};
+std::vector<NamedTable> curve_tables(const FitRecord& record);
+
+}  // namespace langer

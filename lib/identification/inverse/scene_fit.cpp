@@ -1,0 +1,247 @@
+#include "identification/inverse/scene_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/in_order.hpp"
+#include "core/base/stopwatch.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "results/store/identity.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string key_of(const ForwardRun& run, const ForwardInput& input, const std::string& looks) {
+  std::string text = to_yaml(run.config_at(input)) + looks;
+  for (const std::string& key : input.slopes) text += key + "\n";
+  return fnv1a(text);
+}
+
+}  // namespace
+
+ForwardInput SceneTests::input_at(const VecX& p) const {
+  ForwardInput input{with_parameters(law_, p), {}, {}};
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    if (!numbers_[i].contact.empty()) input.friction[numbers_[i].contact] = p[static_cast<Eigen::Index>(i)];
+  if (!options_.quotients) input.slopes = slopes_;
+  return input;
+}
+
+// Each once; those that are missing side by side.
+std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& wanted) {
+  std::vector<Path> paths(wanted.size());
+  std::vector<std::string> keys;
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Wanted& one = wanted[i];
+    keys.push_back(key_of(*forward_[one.scene], one.input, looks_[one.scene]));
+    paths[i] = cache_->find(keys[i]);
+    if (!paths[i]) missing.push_back(i);
+  }
+  const double begun = cpu_seconds();
+  in_order(
+      std::min(options_.jobs, static_cast<int>(missing.size())), static_cast<int>(missing.size()),
+      [&](int, int k) {
+        const std::size_t i = missing[static_cast<std::size_t>(k)];
+        const Wanted& one = wanted[i];
+        ForwardPath path;
+        try {
+          path = forward_[one.scene]->solve(one.input);
+        } catch (const Failure& failure) {
+          const bool of_trial = failure.code() == Exit::config || failure.code() == Exit::not_converged;
+          if (!of_trial || !solvable_[one.scene]) throw;  // a scene that never was, or a signal
+          path.why = failure.what();
+        }
+        paths[i] = cache_->keep(keys[i], std::move(path));
+      },
+      [](int, int) {});
+  runs_ += static_cast<int>(missing.size()), seconds_ += cpu_seconds() - begun;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (paths[i]->complete) solvable_[wanted[i].scene] = true;
+  return paths;
+}
+
+bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
+  const ForwardInput input = input_at(p);
+  std::vector<Wanted> wanted;
+  for (std::size_t scene = 0; scene < forward_.size(); ++scene) wanted.push_back({scene, input});
+  paths = solved(wanted);
+  for (const Path& path : paths)
+    if (!path->complete) {
+      failure_ = path->why;
+      return false;
+    }
+  return true;
+}
+
+double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    if (const auto& number = numbers_[i].measured; number && number->data == test.data && number->of == of)
+      return p[static_cast<Eigen::Index>(i)];
+  const FitData& data = config_.data[test.data];
+  return of == SceneNumber::Of::touch_offset   ? data.touch_offset
+         : of == SceneNumber::Of::force_offset ? data.force_offset
+                                               : data.compliance;
+}
+
+bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p, Read what, VecX& out) const {
+  const double touch = measured_by(test, SceneNumber::Of::touch_offset, p),
+               force = measured_by(test, SceneNumber::Of::force_offset, p),
+               compliance = measured_by(test, SceneNumber::Of::compliance, p);
+  const auto rows = static_cast<Eigen::Index>(test.s.size());
+  out = VecX::Zero(test.measured.size());
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    std::size_t piece = test.stretch[static_cast<std::size_t>(row)];
+    const double read = compliance != 0 ? test.measured[test.force + row] - force : 0;
+    const double s = test.s[static_cast<std::size_t>(row)] - touch - compliance * read;
+    const auto t = test.over.find(s, piece, beyond_path);
+    const bool before = piece == 0 && (s - test.over.s[0]) * (test.over.s[1] - test.over.s[0]) <= 0;
+    if (!t && !before) return false;
+    if (before) continue;  // at rest
+    const PathPlace place = place_on(path.t, test.kinks, *t);
+    if (!place.exists) return false;
+    for (const SceneCurve& curve : test.curves) {
+      const auto column =
+          static_cast<Eigen::Index>(curve.observation[curve.observation.size() > 1 ? static_cast<std::size_t>(row) : 0]);
+      double sum = 0;
+      for (const auto& [state, weight] : what == Read::rate ? place.rate : place.value) sum += weight * of(state, column);
+      out[curve.first + row] = what == Read::rate ? sum * test.over.rate(piece) : sum;
+    }
+  }
+  return true;
+}
+
+bool SceneTests::model(const VecX& p, VecX& values) {
+  std::vector<Path> paths;
+  if (!paths_at(p, paths)) return false;
+  values.resize(measured_.size());
+  for (std::size_t i = 0; i < tests_.size(); ++i) {
+    const SceneTest& test = tests_[i];
+    VecX of_test;
+    const ForwardPath& path = *paths[test.run];
+    if (!read(test, path, path.values, p, Read::values, of_test)) {
+      failure_ = fmt::format("the path of {} ends before what {} measured, at these offsets", config_.data[test.data].solve.path,
+                             test.name);
+      return false;
+    }
+    const double offset = measured_by(test, SceneNumber::Of::force_offset, p);
+    for (const SceneCurve& curve : test.curves)
+      if (curve.unit == "N") of_test.segment(curve.first, static_cast<Eigen::Index>(test.s.size())).array() += offset;
+    values.segment(first_[i], of_test.size()) = of_test;
+  }
+  if (options_.say)
+    options_.say(fmt::format("run {}: chi-square {:.6g}", runs_, weight_.cwiseProduct(values - measured_).squaredNorm()));
+  return true;
+}
+
+bool SceneTests::slope(const VecX& p, MatX& J) {
+  std::vector<Path> paths;
+  if (!paths_at(p, paths)) return false;
+  J = MatX::Zero(measured_.size(), p.size());
+  if (!(options_.quotients ? by_quotients(p, paths, J) : by_runs(p, paths, J))) return false;
+  by_measuring(p, paths, J);
+  return true;
+}
+
+// of what the runs differentiated themselves; numbers that follow others count with them
+bool SceneTests::by_runs(const VecX& p, const std::vector<Path>& paths, MatX& J) const {
+  for (std::size_t i = 0; i < tests_.size(); ++i) {
+    const ForwardPath& path = *paths[tests_[i].run];
+    for (std::size_t k = 0; k < slopes_.size(); ++k) {
+      VecX column;
+      if (!read(tests_[i], path, path.slopes[k], p, Read::values, column)) return false;
+      for (const auto& [number, factor] : slope_of_[k])
+        J.block(first_[i], static_cast<Eigen::Index>(number), column.size(), 1) += factor * column;
+    }
+  }
+  return true;
+}
+
+// one more run of each scene for each number, a step to the side that the box leaves
+bool SceneTests::by_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J) {
+  std::vector<Wanted> wanted;
+  std::vector<std::pair<std::size_t, double>> steps;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (numbers_[i].measured) continue;
+    const FreeParameter& free = law_.free[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const double size =
+        std::max(std::abs(p[k]), 1e-3 * (free.unit == unit::deg || free.lower == free.upper ? 1 : free.upper - free.lower));
+    const double h = (with_friction_ ? 1e-3 : 1e-4) * size * (p[k] + 1e-3 * size <= free.upper ? 1 : -1);
+    VecX moved = p;
+    moved[k] += h;
+    steps.push_back({i, moved[k] - p[k]});
+    for (std::size_t scene = 0; scene < forward_.size(); ++scene) wanted.push_back({scene, input_at(moved)});
+  }
+  const std::vector<Path> moved = solved(wanted);
+  for (std::size_t step = 0; step < steps.size(); ++step)
+    for (std::size_t i = 0; i < tests_.size(); ++i) {
+      const SceneTest& test = tests_[i];
+      const ForwardPath &path = *paths[test.run], &other = *moved[step * forward_.size() + test.run];
+      VecX here, there;
+      if (!other.complete || !read(test, path, path.values, p, Read::values, here) ||
+          !read(test, other, other.values, p, Read::values, there))
+        return false;
+      J.block(first_[i], static_cast<Eigen::Index>(steps[step].first), here.size(), 1) = (there - here) / steps[step].second;
+    }
+  return true;
+}
+
+void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, MatX& J) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    for (std::size_t k = 0; k < tests_.size(); ++k) {
+      const SceneTest& test = tests_[k];
+      if (!numbers_[i].measured || numbers_[i].measured->data != test.data) continue;
+      VecX rate;
+      if (!read(test, *paths[test.run], paths[test.run]->values, p, Read::rate, rate)) continue;  // the model is not there either
+      auto column = J.block(first_[k], static_cast<Eigen::Index>(i), rate.size(), 1);
+      const auto rows = static_cast<Eigen::Index>(test.s.size());
+      const double compliance = measured_by(test, SceneNumber::Of::compliance, p),
+                   force = measured_by(test, SceneNumber::Of::force_offset, p);
+      switch (numbers_[i].measured->of) {
+        case SceneNumber::Of::touch_offset:
+          column = -rate;
+          break;
+        case SceneNumber::Of::force_offset:
+          column = compliance * rate;
+          for (const SceneCurve& curve : test.curves)
+            if (curve.unit == "N") column.middleRows(curve.first, rows).array() += 1;
+          break;
+        default:
+          for (const SceneCurve& curve : test.curves)
+            column.middleRows(curve.first, rows) =
+                -rate.segment(curve.first, rows).cwiseProduct((test.measured.segment(test.force, rows).array() - force).matrix());
+      }
+    }
+}
+
+std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
+  std::vector<FittedCurve> all;
+  for (std::size_t i = 0; i < tests_.size(); ++i) {
+    const SceneTest& test = tests_[i];
+    for (const SceneCurve& curve : test.curves) {
+      FittedCurve one{test.curves.size() > 1 ? test.name + "_" + curve.key : test.name,
+                      curve.key,
+                      curve.unit,
+                      test.over.key,
+                      test.over.unit,
+                      test.deviation,
+                      test.s,
+                      {},
+                      {},
+                      test.places};
+      const auto rows = static_cast<Eigen::Index>(test.s.size());
+      const VecX measured = test.measured.segment(curve.first, rows), model = values.segment(first_[i] + curve.first, rows);
+      one.measured.assign(measured.data(), measured.data() + rows), one.model.assign(model.data(), model.data() + rows);
+      for (Vec3& place : one.places)
+        if (std::isnan(place[1])) place[1] = top_[test.run];
+      all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+}  // namespace langer

@@ -1,0 +1,240 @@
+#include "identification/inverse/sensitivity.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "scene/run/step_forces.hpp"
+#include "scene/run/step_record.hpp"
+#include "scene/model/torque.hpp"
+
+namespace langer {
+
+namespace {
+
+std::vector<Vec3> by_node(const VecX& all) {
+  std::vector<Vec3> out;
+  for (Eigen::Index i = 0; i < all.size(); i += 3) out.push_back(all.segment<3>(i));
+  return out;
+}
+
+std::string travel_of(const RigidContact& contact) { return "travel_" + contact.name; }
+
+}  // namespace
+
+double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force) {
+  if (const double length = way.norm(); length > 0) return -d_force.dot(way) / length;
+  const double size = force.norm();
+  return size > 0 ? d_force.dot(force) / size : 0;
+}
+
+Vec3 force_on(const StepRecord& record, const std::string& contact) {
+  Vec3 force;
+  for (int k = 0; k < 3; ++k) force[k] = record.scalars.at("force_" + contact + "_" + "xyz"[k]);
+  return force;
+}
+
+double length_derivative(const StepRecord& whole, const SceneParameter& parameter) {
+  Vec3 d;
+  for (int k = 0; k < 3; ++k) d[k] = whole.scalars.at(derivative_name(std::string("force_") + "xyz"[k] + "_N", parameter));
+  const double size = whole.force_ind.norm();
+  return size > 0 ? d.dot(whole.force_ind) / size : 0;
+}
+
+double force_derivative(const StepRecord& whole, const StepRecord& derivative) {
+  return derivative_against(whole.u_ind, whole.force_ind, derivative.force_ind);
+}
+
+Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& where)
+    : run_(run),
+      moved_(moved_sets(config)),
+      parameters_(config, run.mesh, run.scene, where),
+      last_(run.statics.accepted()),
+      earlier_(last_) {
+  StateDerivative rest;
+  rest.u = VecX::Zero(last_.u.size());
+  d_last_.assign(parameters().size(), rest), d_earlier_ = d_last_;
+}
+
+RunListener Sensitivity::along(RunListener listener) {
+  if (parameters().empty()) return listener;
+  if (last_.t > 0) run_.statics.factorize_accepted();  // the increment after a kept step begins with it, as it would have
+  listener.of_part = [this, also = std::move(listener.of_part)](StepRecord& record) {
+    if (also && !also(record)) return false;
+    advance(record);
+    return true;
+  };
+  listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole, const SolveReport& report) {
+    now_.clear();
+    for (const StepRecord& derivative : of_part_) now_.push_back(of_whole(derivative, whole));
+    write(whole);
+    if (also) also(whole, report);
+  };
+  return listener;
+}
+
+Companion Sensitivity::companion() {
+  if (parameters().empty()) return {};
+  return {[this](const StepRecord& whole) { kept(whole); }, [this](RunListener listener) { return along(std::move(listener)); }};
+}
+
+std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
+  std::vector<Summary> out;
+  for (const auto& [name, value] : last.scalars)
+    for (const SceneParameter& p : parameters())
+      if (name.starts_with("d_") && name.ends_with("_d_" + p.name))
+        out.push_back({name, name == derivative_name("force_N", p) ? length_derivative(last, p) : value, "-"});
+  return out;
+}
+
+// At fixed u, differences of what the laws say, after the tangent has been made there.
+std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies) {
+  Equilibrium& body = run_.body;
+  const VecX& u = run_.statics.accepted().u;
+  const Scene& scene = run_.reduction.scene();
+  std::vector<ParameterChange> out(parameters().size());
+  energies.assign(out.size(), 0);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!parameters_.of_laws(i)) {
+      for (const RigidContact& contact : scene.contacts) out[i].mu.push_back(contact.name == parameters_.contact(i) ? 1 : 0);
+      continue;
+    }
+    const double h = parameters_.step(i);
+    const auto with = [&](double by) {
+      SceneParameters::Laws laws = parameters_.varied(scene, run_.reduction.mesh(), i, by);
+      return body.with_laws(std::move(laws.materials), std::move(laws.directions), u);
+    };
+    const Equilibrium::Forces more = with(h);
+    const bool linear = parameters_.linear(i);
+    const Equilibrium::Forces less = linear ? Equilibrium::Forces{body.f_int(), body.W()} : with(-h);
+    const double width = linear ? h : 2 * h;
+    out[i].f = (more.f - less.f) / width, energies[i] = (more.W - less.W) / width;
+  }
+  return out;
+}
+
+void Sensitivity::advance(const StepRecord& record) {
+  const StateTangent tangent(run_.statics, earlier_);
+  std::vector<double> energies, of_movement;
+  const std::vector<ParameterChange> all = changes(energies);
+  std::vector<StateDerivative> d;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto found = tangent.derivative(all[i], d_last_[i], d_earlier_[i]);
+    if (!found)
+      throw Failure(Exit::not_converged,
+                    Error{{},
+                          "sensitivity",
+                          fmt::format("the tangent at t = {:.6g} is singular: the state has no derivative with respect to {}",
+                                      record.t, parameters()[i].key),
+                          "",
+                          "without the key the path goes on"});
+    d.push_back(*found);
+  }
+  const std::vector<VecX> reactions = tangent.reactions(all, d, &of_movement);
+  of_part_.clear();
+  for (std::size_t i = 0; i < d.size(); ++i) of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
+  earlier_ = std::move(last_), last_ = run_.statics.accepted();
+  d_earlier_ = std::move(d_last_), d_last_ = std::move(d);
+}
+
+StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const {
+  StepRecord out;
+  out.t = record.t, out.u = by_node(d.u), out.reaction = by_node(reactions);
+  out.scalars["energy"] = energy;
+  const auto& contacts = run_.statics.contacts();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    ContactRecord& contact = out.contacts[contacts[k].name] = record.contacts.at(contacts[k].name);
+    contact.r = d.r[k];
+    Vec3 force = Vec3::Zero();
+    for (const Vec3& r : d.r[k]) force -= r;
+    for (int j = 0; j < 3 && contacts.size() > 1; ++j) out.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = force[j];
+    if (contacts[k].control) out.scalars[travel_of(contacts[k])] = d.travel;
+    out.force_ind += force;
+  }
+  return out;
+}
+
+StepRecord Sensitivity::of_whole(const StepRecord& derivative, const StepRecord& whole) const {
+  if (run_.reduction.point()) return of_mesh(derivative, whole);
+  StepRecord out = *run_.reduction.whole(derivative);
+  out.u_ind.setZero();
+  if (!run_.scene.contacts.empty() && run_.scene.contacts[0].control)
+    out.u_ind = out.scalars.at(travel_of(run_.scene.contacts[0])) * run_.scene.contacts[0].control->along;
+  return out;
+}
+
+// u' is linear in X, and the forces at the nodes of a mesh that is deformed alike everywhere are P' times the integrals of their
+// gradients:  P' = 1/V sum f'_c X_c^T over the corners of the hexahedron.
+StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& whole) const {
+  const Mesh& point = run_.reduction.mesh();
+  const Equilibrium& mesh = *run_.reduction.mesh_of_point();
+  StepRecord out = derivative;
+  out.u.clear(), out.reaction.assign(whole.u.size(), Vec3::Zero());
+  for (const std::array<double, 8>& N : run_.reduction.point()->weights()) {
+    Vec3& u = out.u.emplace_back(Vec3::Zero());
+    for (std::size_t c = 0; c < 8; ++c) u += N[c] * derivative.u[c];
+  }
+  Mat3 P = Mat3::Zero();
+  for (std::size_t c = 0; c < 8; ++c) P += derivative.reaction[c] * point.X[c].transpose();
+  double volume = 0;
+  for (int e = 0; e < mesh.mesh().n_cells(); ++e) volume += mesh.geometry(e).V;
+  P /= volume;
+  VecX f = VecX::Zero(3 * static_cast<Eigen::Index>(whole.u.size()));
+  for (int e = 0; e < mesh.mesh().n_cells(); ++e) {
+    const ElementGeometry& geometry = mesh.geometry(e);
+    const auto nodes = mesh.mesh().cell(e);
+    for (int g = 0; g < geometry.n_gauss(); ++g)
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        f.segment<3>(3 * nodes[a]) += geometry.w[g] * P * geometry.dN_dX[g].row(static_cast<Eigen::Index>(a)).transpose();
+  }
+  for (const Prescribed& p : mesh.dofs().prescribed) out.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
+  return out;
+}
+
+void Sensitivity::write(StepRecord& whole) const {
+  const std::vector<RigidContact>& contacts = run_.scene.contacts;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const SceneParameter& p = parameters()[i];
+    const StepRecord& d = now_[i];
+    whole.point_fields[derivative_name("u", p)] = d.u, whole.point_fields[derivative_name("reaction", p)] = d.reaction;
+    auto& scalars = whole.scalars;
+    scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
+    if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
+    for (int k = 0; k < 3 && !contacts.empty(); ++k)
+      scalars[derivative_name(std::string("force_") + "xyz"[k] + "_N", p)] = d.force_ind[k];
+    for (const RigidContact& contact : contacts) {
+      if (contacts.size() > 1)
+        scalars[derivative_name("force_" + contact.name + "_N", p)] =
+            derivative_against(indenter_at(contact, whole), force_on(whole, contact.name), force_on(d, contact.name));
+      if (contact.control) scalars[derivative_name(travel_of(contact) + "_mm", p)] = d.scalars.at(travel_of(contact));
+    }
+    for (const std::string& set : moved_) {
+      Vec3 sum = Vec3::Zero();
+      for (int node : run_.mesh.node_sets.at(set)) sum += d.reaction[static_cast<std::size_t>(node)];
+      for (int k = 0; k < 3; ++k) scalars[derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p)] = sum[k];
+    }
+    for (const auto& [torque, value] : torque_derivatives(whole, d, run_.mesh, run_.scene))
+      scalars[derivative_name(torque + "_N_mm", p)] = value;
+    for (const auto& [name, nodes] : run_.mesh.node_sets)  // what forces and pressures move
+      for (int k = 0; k < 3 && nodes.size() == 1 && !run_.scene.loads.empty(); ++k)
+        scalars[derivative_name("u_" + std::string(1, "xyz"[k]) + "_" + name + "_mm", p)] =
+            d.u[static_cast<std::size_t>(nodes[0])][k];
+  }
+}
+
+void Sensitivity::kept(const StepRecord& whole) {
+  earlier_ = std::move(last_), last_ = run_.reduction.reduced(whole);
+  d_earlier_ = std::move(d_last_), d_last_.clear();
+  for (const SceneParameter& p : parameters()) {
+    StepRecord like = whole;
+    like.u = whole.point_fields.at(derivative_name("u", p));
+    StateDerivative& d = d_last_.emplace_back();
+    d.u = run_.reduction.reduced(like).u;
+    for (const RigidContact& contact : run_.scene.contacts)
+      if (contact.control) d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));
+  }
+}
+
+}  // namespace langer

@@ -1,0 +1,63 @@
+// Derivatives of a run with respect to numbers of its scene, increment by increment beside it: `sensitivity` in a config.
+// Direct differentiation of every accepted state (solve/state_tangent.hpp); what a number changes of the internal force where the state
+// stands still is a difference of that force, in which moduli are linear. Derivatives of an increment with friction need those of the
+// two before.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "scene/model/scene_parameters.hpp"
+#include "mechanics/solve/state_tangent.hpp"
+#include "accuracy/checks/recording.hpp"
+
+namespace langer {
+
+class Sensitivity {
+ public:
+  // Of the numbers that config.sensitivity names, which was there when the run was made. Refers to the run.
+  Sensitivity(Run& run, const SolveConfig& config, const Run::Where& where);
+
+  const std::vector<SceneParameter>& parameters() const { return parameters_.list(); }
+  const std::set<std::string>& moved() const { return moved_; }  // sets whose reactions are differentiated
+
+  // `listener`, and the derivatives: made after its of_part, and put into the record of the whole body before its of_whole.
+  // Throws Failure(not_converged) where the tangent of a state is singular.
+  RunListener along(RunListener listener);
+  // Before a run is resumed: every step that is kept, in order.
+  void kept(const StepRecord& whole);
+
+  Companion companion();                                       // of a Recording; empty without the key
+  std::vector<Summary> summary(const StepRecord& last) const;  // at the end of the path; d_force_N_d_... of the force's length
+
+  // At the increment accepted last, of the whole body, one for each number, per its unit:
+  //   u (n) [mm], reaction (n) [N], force_ind, u_ind (under force control), contacts' r, scalars energy, force_<contact>_x|y|z of
+  //   several indenters, travel_<contact> under force control
+  const std::vector<StepRecord>& now() const { return now_; }
+
+ private:
+  void advance(const StepRecord& record);  // of the part
+  std::vector<ParameterChange> changes(std::vector<double>& energies);
+  StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const;
+  StepRecord of_whole(const StepRecord& derivative, const StepRecord& whole) const;
+  StepRecord of_mesh(const StepRecord& derivative, const StepRecord& whole) const;  // that a hexahedron stands for
+  void write(StepRecord& whole) const;
+
+  Run& run_;
+  const std::set<std::string> moved_;  // sets
+  SceneParameters parameters_;
+  BodyState last_, earlier_;  // accepted states of the part
+  std::vector<StateDerivative> d_last_, d_earlier_;
+  std::vector<StepRecord> of_part_, now_;
+};
+
+// of -force . way/|way|, way unchanged but for its length; where there is no way of |force|
+double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force);
+// of a record with several indenters: of the body on one of them [N]
+Vec3 force_on(const StepRecord& record, const std::string& contact);
+// of the length of force_ind, by the derivatives that a record of the whole body holds
+double length_derivative(const StepRecord& whole, const SceneParameter& parameter);
+// of the column `force` (post/curves.hpp), whole: the state
+double force_derivative(const StepRecord& whole, const StepRecord& derivative);
+
+}  // namespace langer

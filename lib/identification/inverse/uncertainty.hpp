@@ -1,0 +1,67 @@
+// What a fit does not know of its parameters, carried into the forces of a run by their derivatives: `uncertainty: linear`.
+//   variance of a force   g^T C g,   g its derivatives with respect to the parameters, C their covariance in material.h5
+//   without p_j           what is left of it where p_j were known exactly: C conditioned on p_j
+// Numbers that follow others (ties of the fit) count with them. Angles of symmetry, parameters on a bound and those that the tests do
+// not determine have no variance in C: they are left out, and said.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/estimate/error_estimate.hpp"
+#include "core/base/voice.hpp"
+#include "identification/inverse/sensitivity.hpp"
+#include "results/store/material_file.hpp"
+
+namespace langer {
+
+struct ParameterKnowledge {
+  std::vector<std::string> keys;      // of `sensitivity`: the parameters with a variance, and the numbers that follow them
+  std::vector<std::string> names;     // of those parameters
+  MatX follow;                        // (keys, names): d number / d parameter
+  MatX covariance;                    // (names, names)
+  std::vector<std::string> left_out;  // names
+};
+ParameterKnowledge knowledge_of(const MaterialFile& file);
+// Where config asks for `uncertainty`: of the material's file (empty: there is none). The parameters are those of config.sensitivity then,
+// beside those named there. Throws Failure(config) where the file tells nothing of them.
+ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file, const Run::Where& where);
+
+// One force at the end of the path.
+struct ForceUncertainty {
+  std::string name;                 // force, force_<contact>, reaction_<set>
+  double value = 0, deviation = 0;  // [N]; deviation: one standard deviation
+  struct Part {
+    std::string name;    // of a parameter
+    double without = 0;  // the deviation that would be left if it were known [N]
+  };
+  std::vector<Part> parts;  // the one that would help most first
+};
+
+// g: by key. of names, as ForceUncertainty::parts
+ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& g);
+
+class Uncertainty {
+ public:
+  // Refers to what it is given; sensitivity: of known.keys, others beside them may be there.
+  Uncertainty(ParameterKnowledge known, const Run& run, const Sensitivity& sensitivity)
+      : known_(std::move(known)), run_(run), sensitivity_(sensitivity) {}
+  // whole: with the derivatives that Sensitivity writes
+  std::vector<ForceUncertainty> of(const StepRecord& whole) const;
+  Companion beside(Companion sensitivity) const;  // who writes them, behind it; nobody without parameters
+  void write(StepRecord& whole) const;            // scalars force_deviation, force_<contact>_deviation, reaction_<set>_deviation
+
+ private:
+  ParameterKnowledge known_;
+  const Run& run_;
+  const Sensitivity& sensitivity_;
+};
+
+std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces);
+void say_forces(const Voice& voice, const ParameterKnowledge& known, const std::vector<ForceUncertainty>& forces,
+                const std::vector<ErrorEstimate>& errors);
+// "force 9.44 N +- 0.9 % (cells) +- 24 % (parameters; 5.1 % if c1 were known, 8 % if a1 were known)"; cells: [N]
+std::string in_words(const ForceUncertainty& force, std::optional<double> cells);
+
+}  // namespace langer

@@ -1,0 +1,92 @@
+#include "mechanics/contact/touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace langer {
+
+// The gap is a distance: a movement by it meets nothing, so that steps of it come to the touch, or go by for ever.
+std::optional<double> travel_to_touch(const RigidContact& contact, double t, double from,
+                                      const std::function<Vec3(int node)>& position) {
+  const auto gap = [&](double travel) {
+    const Vec3 c = indenter_displacement(contact, t, travel);
+    double least = std::numeric_limits<double>::infinity();
+    for (int node : contact.nodes) least = std::min(least, shape_at(contact.shape, position(node) - c).gap);
+    return least;
+  };
+  if (contact.nodes.empty()) return std::nullopt;
+  const double size = 1 + std::abs(gap(from));
+  double travel = from;
+  for (int i = 0; i < 10000 && std::abs(travel - from) < 1e6 * size; ++i) {
+    const double g = gap(travel);
+    if (std::abs(g) <= 1e-12 * size) return travel;
+    travel += g;
+  }
+  return std::nullopt;
+}
+
+double change_of_touch(const RigidContact& contact, double t, double travel, const std::function<Vec3(int node)>& position,
+                       const std::function<Vec3(int node)>& moved) {
+  const Vec3 c = indenter_displacement(contact, t, travel);
+  double least = std::numeric_limits<double>::infinity(), change = 0;
+  for (int node : contact.nodes) {
+    const ShapePoint shape = shape_at(contact.shape, position(node) - c);
+    if (shape.gap < least) least = shape.gap, change = moved(node).dot(shape.normal) / contact.control->along.dot(shape.normal);
+  }
+  return change;
+}
+
+Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance) {
+  const double gap = shape_at(contact.shape, a.X + a.u0 - a.c0).gap;
+  double touches = 0;  // at this share of the increment
+  Vec3 start = a.u0;
+  if (gap > tolerance) {
+    const double closed = gap - shape_at(contact.shape, a.X + a.u - a.c).gap;
+    touches = closed > gap ? gap / closed : 1;
+    start = a.u0 + touches * (a.u - a.u0 - (a.c - a.c0));
+  }
+  if (contact.rotation) start += carried(contact, (1 - touches) * a.angle, a.X + start, a.c0);
+  return start;
+}
+
+Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d, double tolerance) {
+  const ShapePoint from = shape_at(contact.shape, a.X + a.u0 - a.c0);
+  double touches = 0, d_touches = 0;
+  Vec3 start = a.u0, d_start = d.u0;
+  if (from.gap > tolerance) {
+    const ShapePoint to = shape_at(contact.shape, a.X + a.u - a.c);
+    const Vec3 way = a.u - a.u0 - (a.c - a.c0), d_way = d.u - d.u0 - (d.c - d.c0);
+    const double closed = from.gap - to.gap;
+    const double d_gap = from.normal.dot(d.u0 - d.c0), d_closed = d_gap - to.normal.dot(d.u - d.c);
+    touches = 1;
+    if (closed > from.gap) touches = from.gap / closed, d_touches = (d_gap - touches * d_closed) / closed;
+    start += touches * way, d_start += d_touches * way + touches * d_way;
+  }
+  if (!contact.rotation) return d_start;
+  // (R - 1) q and the derivative of R q with respect to the angle, along x R q
+  const Vec3 &along = contact.rotation->axis.along, q = a.X + start - a.c0 - contact.rotation->axis.point;
+  const double angle = (1 - touches) * a.angle;
+  const Vec3 turned = q + turned_by(along, angle, q);
+  return d_start + turned_by(along, angle, d_start - d.c0) - d_touches * a.angle * cross(along, turned);
+}
+
+Approach IncrementMove::of(const RigidContact& contact, int node) const {
+  return {X[static_cast<std::size_t>(node)],
+          u0.segment<3>(3 * node),
+          expected.segment<3>(3 * node),
+          indenter_displacement(contact, t0, travel0),
+          indenter_displacement(contact, t, travel),
+          contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(t0) : 0};
+}
+
+std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact, const IncrementMove& move, double tolerance) {
+  const Vec3 none = Vec3::Zero();
+  std::vector<Vec3> out;
+  for (int node : contact.nodes)
+    out.push_back(
+        change_of_slips_from(contact, move.of(contact, node), {none, none, none, none, contact.control->along}, tolerance));
+  return out;
+}
+
+}  // namespace langer

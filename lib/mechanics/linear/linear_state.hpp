@@ -1,0 +1,76 @@
+// What the files of LinearSolver share: CHOLMOD's and UMFPACK's objects.
+#pragma once
+
+#include <cholmod.h>
+#include <omp.h>
+#include <umfpack.h>
+
+#include <Eigen/Dense>
+#include <mutex>
+#include <vector>
+
+#include "mechanics/linear/blas/blas.hpp"
+#include "mechanics/linear/linear.hpp"
+#include "core/tensor/dense.hpp"
+
+namespace langer {
+
+// CHOLMOD opens its own parallel regions whatever OMP_NUM_THREADS says, and they starve the BLAS beneath them:
+// 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two cores. Held back for the length of a call, but for several
+// threads of an OpenBLAS that is itself made with OpenMP: it would wait for ever for those that it does not get.
+class NoNestedThreads {
+ public:
+  NoNestedThreads() : levels_(omp_get_max_active_levels()) {
+    if (!blas::waits_for_openmp()) omp_set_max_active_levels(0);
+  }
+  ~NoNestedThreads() { omp_set_max_active_levels(levels_); }
+
+ private:
+  int levels_;
+};
+
+// METIS draws from the C library's one rand(), which it seeds anew for each ordering. Two threads that order at once draw from
+// one another's numbers, and find another ordering in every run.
+inline std::lock_guard<std::mutex> one_ordering_at_a_time() {
+  static std::mutex mutex;
+  return std::lock_guard(mutex);
+}
+
+struct LinearSolver::State {
+  cholmod_common common;
+  cholmod_sparse* A = nullptr;
+  cholmod_factor* L = nullptr;
+  std::vector<int> last;            // rows to eliminate last
+  std::vector<int> place_of;        // row -> index in `last`, or -1
+  bool trailing = false;            // the last rows of L are those of `last`
+  std::vector<int> trailing_order;  // i-th trailing row of L -> index in `last`
+  mutable MatX trailing_block;      // of the present factor, once asked for
+  // fallback: the full matrix by columns
+  std::vector<int> full_start, full_row, full_from;
+  std::vector<double> full_value;
+  void* symbolic = nullptr;
+  void* numeric = nullptr;
+  bool indefinite = false;
+  std::vector<int> springs;  // rows with springs in the factor; empty in most
+  MatX spring_moves;         // (n, springs): K^-1 of a unit force on each spring, springs included
+  Lu spring_share;
+
+  ~State() {
+    if (numeric) umfpack_di_free_numeric(&numeric);
+    if (symbolic) umfpack_di_free_symbolic(&symbolic);
+    cholmod_free_factor(&L, &common);
+    cholmod_free_sparse(&A, &common);
+    cholmod_finish(&common);
+  }
+
+  void analyse();
+  void order_last();
+  bool cholesky();                  // of A as it is
+  VecX whole(const VecX& b) const;  // by the CHOLMOD factor, springs included
+  bool factorize_indefinite();
+  const MatX& trailing_factor() const;
+  bool halves() const { return trailing && !indefinite && springs.empty(); }
+  VecX through(int system, const VecX& b) const;
+};
+
+}  // namespace langer

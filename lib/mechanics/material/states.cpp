@@ -1,0 +1,168 @@
+#include "mechanics/material/states.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mechanics/material/existence.hpp"
+#include "mechanics/mesh/directions.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/stress.hpp"
+
+namespace langer {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Mat2 = Eigen::Matrix2d;
+
+Mat3 gradient(double lambda_x, double lambda_z, double g) {
+  Mat3 F = Mat3::Zero();
+  F(0, 0) = lambda_x, F(1, 1) = 1 / (lambda_x * lambda_z), F(2, 2) = lambda_z, F(0, 2) = g;
+  return F;
+}
+
+struct Sample {
+  Response r;
+  Vec2 slope;
+  Mat2 curvature;
+  double scale;  // size of what cancels in the slope
+};
+
+// Energy over q = (ln lambda_z, g), with derivatives; a q that is imposed has slope 0 and curvature 1.
+//   W' = P:F',  P = F S;   W'' = F'S:F' + E':D:E' + P:F'',  E' = sym F^T F'
+struct Sheet {
+  const Material& material;
+  std::span<const Vec3> a;
+  double lambda_x;
+  bool free_width, free_shear;
+  const PointMemory* memory;
+
+  std::optional<Sample> at(const Vec2& q) const {
+    const Mat3 F = gradient(lambda_x, std::exp(q[0]), q[1]);
+    Sample s;
+    const Mat3 C = right_cauchy_green(F);
+    s.r = memory ? incremental(material, C, a, *memory) : isochoric(material, C, a);
+    const Mat3 S = tensor(s.r.S), P = F * S;
+    Mat3 dF[2] = {Mat3::Zero(), Mat3::Zero()};
+    dF[0](2, 2) = F(2, 2), dF[0](1, 1) = -F(1, 1), dF[1](0, 2) = 1;
+    Vec6 dE[2];
+    for (int i = 0; i < 2; ++i) {
+      const Mat3 FdF = F.transpose() * dF[i];
+      dE[i] = voigt_strain(0.5 * (FdF + FdF.transpose()));
+      s.slope[i] = P.cwiseProduct(dF[i]).sum();
+    }
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) s.curvature(i, j) = (dF[i] * S).cwiseProduct(dF[j]).sum() + dE[i].dot(s.r.D * dE[j]);
+    s.curvature(0, 0) += P(2, 2) * F(2, 2) + P(1, 1) * F(1, 1);
+    s.scale = (P * F.transpose()).cwiseAbs().maxCoeff() + s.curvature.diagonal().cwiseAbs().maxCoeff();
+    for (int i = 0; i < 2; ++i)
+      if (!(i == 0 ? free_width : free_shear)) {
+        s.slope[i] = 0;
+        s.curvature.row(i).setZero(), s.curvature.col(i).setZero(), s.curvature(i, i) = 1;
+      }
+    if (!std::isfinite(s.r.W) || !s.slope.allFinite() || !s.curvature.allFinite()) return std::nullopt;
+    return s;
+  }
+};
+
+// Newton's step on |W''|, which is downhill also where W is not convex, by a fifth at most
+Vec2 step(const Sample& s) {
+  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.curvature);
+  const Vec2 along = eigen.eigenvectors().transpose() * s.slope;
+  const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
+  Vec2 d;
+  for (int i = 0; i < 2; ++i) d[i] = along[i] == 0 ? 0 : -along[i] / curvature[i];
+  return eigen.eigenvectors() * d;
+}
+
+bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
+  // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
+  constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps, acceptable = 1e6 * eps;
+  std::optional<Sample> s = sheet.at(q);
+  const auto steepness = [](const Sample& one) {
+    return one.scale > 0 ? one.slope.cwiseAbs().maxCoeff() / one.scale : 0;  // without any stiffness every state is as good
+  };
+  bool downhill = true;
+  for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough); ++iteration) {
+    Vec2 d = step(*s);
+    downhill = false;
+    for (int halving = 0; halving < 40 && !downhill; ++halving, d /= 2) {
+      const auto next = sheet.at(q + d);
+      // near the minimum W has no digits left to compare, there the slope decides
+      downhill = next && (next->r.W < s->r.W || steepness(*next) < 0.5 * steepness(*s));
+      if (downhill) q += d, s = next;
+      if (downhill) break;
+    }
+  }
+  if (!s) return false;
+  S = s->r.S, W = s->r.W;
+  return steepness(*s) <= acceptable;
+}
+
+// every fibre along x: width and thickness of a pull are equal by symmetry
+bool axial(std::span<const Vec3> a) {
+  return std::all_of(a.begin(), a.end(), [](const Vec3& one) { return one[1] == 0 && one[2] == 0; });
+}
+
+}  // namespace
+
+PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind, double first, double second,
+                       OffAxisShear shear, const PointMemory* memory) {
+  const bool slides = kind == TestKind::simple_shear;
+  const double lambda_x = slides ? 1 : first;
+  double lambda_z = kind == TestKind::biaxial ? second : kind == TestKind::equibiaxial ? first : 1;
+  PlaneState state;
+  if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) || !std::isless(std::abs(first), largest_stretch)) return state;
+  if (kind == TestKind::uniaxial) lambda_z = 1 / std::sqrt(lambda_x);
+  Vec2 q(std::log(lambda_z), slides ? first : 0);
+  const bool off_axis = !axial(a), free_width = kind == TestKind::uniaxial && off_axis;
+  const bool free_shear = shear == OffAxisShear::free && !slides && off_axis;
+  Vec6 S;
+  if (free_width) {
+    if (!solve({material, a, lambda_x, true, free_shear, memory}, q, S, state.W)) return state;
+    state.F = gradient(lambda_x, std::exp(q[0]), q[1]);
+  } else if (free_shear) {
+    if (!solve({material, a, lambda_x, false, true, memory}, q, S, state.W)) return state;
+    state.F = gradient(lambda_x, lambda_z, q[1]);
+  } else {
+    state.F = gradient(lambda_x, lambda_z, q[1]);
+    const Mat3 C = right_cauchy_green(state.F);
+    const Response r = memory ? incremental(material, C, a, *memory, false) : isochoric(material, C, a, false);
+    S = r.S, state.W = r.W;
+  }
+  state.sigma = cauchy(state.F, S, 1);
+  state.sigma -= state.sigma(1, 1) * Mat3::Identity();
+  state.converged = state.sigma.allFinite() && std::isfinite(state.W);
+  return state;
+}
+
+std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind, StressMeasure measure) {
+  // F and sigma in the plane; the thickness carries nothing
+  const double fx = state.F(0, 0), fz = state.F(2, 2), g = state.F(0, 2);
+  const double xx = state.sigma(0, 0), zz = state.sigma(2, 2), xz = state.sigma(0, 2);
+  const bool slides = kind == TestKind::simple_shear;
+  switch (measure) {
+    case StressMeasure::cauchy:
+      return {slides ? xz : xx, slides ? 0 : zz};
+    case StressMeasure::nominal:
+      // P = sigma F^-T,  F^-1 = [1/fx, -g/(fx fz); 0, 1/fz]
+      return {slides ? xz / fz : (xx - g / fz * xz) / fx, slides ? 0 : zz / fz};
+    case StressMeasure::second_piola:
+      // S = F^-1 P
+      return {slides ? (xz - g / fz * zz) / (fx * fz) : (xx - 2 * g / fz * xz + g * g / (fz * fz) * zz) / (fx * fx),
+              slides ? 0 : zz / (fz * fz)};
+  }
+  return {};
+}
+
+std::vector<Vec3> specimen_fibres(const Material& material, double angle_deg) {
+  std::vector<Vec3> a;
+  for (double alpha : fibre_angles(material)) a.push_back(fibre_direction(alpha + angle_deg));
+  return a;
+}
+
+}  // namespace langer

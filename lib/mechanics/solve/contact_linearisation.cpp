@@ -1,0 +1,257 @@
+#include "mechanics/solve/contact_linearisation.hpp"
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "mechanics/contact/supported_problem.hpp"
+#include "mechanics/solve/condensed_contact.hpp"
+#include "core/tensor/dense.hpp"
+
+namespace langer {
+
+namespace {
+
+// Far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away. Those with springs
+// are all needed, to take the springs out.
+// travel: of the indenter under force control, which may take as much of the gap as well
+std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor, const VecX& move, double travel) {
+  std::vector<Near> near;
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const RigidContact& contact = state.contacts[k];
+    const Vec3 c = state.c[k], c0 = state.c_start[k];
+    const double further = static_cast<int>(k) == state.controlled ? travel : 0;
+    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+      const int node = contact.nodes[i];
+      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node), x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
+      Vec3 d = Vec3::Zero();
+      for (int j = 0; j < 3; ++j) {
+        const int row = factor.last_of(3 * node + j);
+        d[j] = row >= 0 ? move[row] : 0;
+      }
+      const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
+      const bool bonded = state.bonds && state.bonds->holds(k, i);
+      if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
+      Near n{k, i, linearise(contact, x, x0, c, c0, state.r[k][i]), {}, {}};
+      if (bonded) n.law.D += n.law.frame.transpose() * state.bonds->tangent(k, i) * n.law.frame;
+      n.r = n.law.frame.transpose() * state.r[k][i];
+      n.move = n.law.frame.transpose() * d;
+      near.push_back(n);
+    }
+  }
+  return near;
+}
+
+}  // namespace
+
+Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near) {
+  const auto m = static_cast<Eigen::Index>(near.size()), n_last = static_cast<Eigen::Index>(factor.last().size());
+  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}, false, {}, {}, {}};
+  const auto node_of = [&](const Near& n) { return state.contacts[n.contact].nodes[n.candidate]; };
+  std::vector<int> sharing(factor.last().size(), 0);  // candidates of several contacts share a node's springs
+  for (Eigen::Index p = 0; p < m; ++p)
+    for (int j = 0; j < 3; ++j)
+      if (const int row = factor.last_of(3 * node_of(near[p]) + j); row >= 0)
+        out.B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j), ++sharing[row];
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const Near& n = near[p];
+    out.move.segment<3>(3 * p) = n.move, out.present.segment<3>(3 * p) = n.r, out.q.segment<3>(3 * p) = n.law.q;
+    out.mu[p] = state.contacts[n.contact].mu;
+    Mat3 E = n.law.D;
+    if (factor.with_springs()) {
+      Mat3 springs = Mat3::Zero();
+      for (int j = 0; j < 3; ++j)
+        if (const int row = factor.last_of(3 * node_of(n) + j); row >= 0) springs(j, j) = factor.gamma() / sharing[row];
+      const Mat3 turned = n.law.frame.transpose() * springs * n.law.frame;
+      E += turned;
+      if (state.controlled >= 0) out.springs.push_back(turned);
+    }
+    out.T.push_back(n.law.T), out.E.push_back(E);
+    out.follows = out.follows || !E.isZero(0);
+  }
+  out.W = factor.linear().compliance(out.B);
+  if (state.controlled < 0) return out;
+  out.along = VecX::Zero(3 * m);
+  if (!state.start_moves.empty()) out.start_moves = VecX::Zero(3 * m);
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const Near& n = near[p];
+    if (static_cast<int>(n.contact) != state.controlled) continue;
+    out.along.segment<3>(3 * p) = n.law.frame.transpose() * state.contacts[n.contact].control->along;
+    if (state.start_moves.empty()) continue;
+    out.start_moves.segment<3>(3 * p) = n.law.frame.transpose() * state.start_moves[n.candidate];
+    out.start_moves[3 * p] = 0;  // the gap knows no start
+  }
+  return out;
+}
+
+namespace {
+
+struct Answer {
+  VecX s, r;  // local
+  int sweeps = 0;
+  bool solved = false;
+};
+
+void take(const LocalReport& local, Answer& answer) {
+  answer.sweeps += local.sweeps;
+  answer.solved = local.converged && answer.r.allFinite();
+}
+
+// The law on the near candidates, for any travel of the indenter under force control.
+class Law {
+ public:
+  explicit Law(const Condensed& c) : c_(c) {
+    if (!c.follows) {
+      W_r_ = c.W, direct_ = true;
+    } else {
+      A_ = MatX::Identity(c.move.size(), c.move.size());  // r = b + A s
+      for (std::size_t p = 0; p < c.E.size(); ++p)
+        if (const auto row = 3 * static_cast<Eigen::Index>(p); !c.E[p].isZero(0))
+          A_.middleRows<3>(row) -= c.E[p] * c.W.middleRows<3>(row);
+      lu_.compute(A_);
+      direct_ = lu_.rcond() > 1e-9;  // s = A^-1 (r - b)
+      if (direct_) W_r_ = lu_.solve_transposed(c.W.transpose()).transpose();
+    }
+    if (direct_) slipping_ = c.slipping(W_r_);
+  }
+
+  // r: to start from
+  Answer at(double travel, const VecX& r) const {
+    const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along) : c_.move;  // of the nodes past the indenter
+    const VecX b = without_change(travel, move);
+    const VecX q = c_.start_moves.size() > 0 ? VecX(c_.q - travel * c_.start_moves) : c_.q;
+    Answer answer{VecX(c_.move.size()), r};
+    if (direct_) {
+      take(solve_local({slipping_, q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
+      if (!c_.follows) answer.s = answer.r - c_.present;
+      if (answer.solved && c_.follows) answer.s = lu_.solve(answer.r - b);
+      if (answer.solved || !c_.follows) return answer;
+    }
+    answer.s = VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
+    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, q + c_.slipping(move), b, c_.mu}, answer.s);
+    answer.r = b + A_ * answer.s;
+    for (std::size_t p = 0; p < c_.E.size(); ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
+      if (local.status[p] == ContactStatus::open) answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
+    take(local, answer);
+    return answer;
+  }
+
+  // What the indenter under force control then bears along its direction [N].
+  double force(const Answer& answer) const {
+    double sum = c_.along.dot(c_.present + answer.s);
+    if (c_.springs.empty()) return sum;
+    const VecX moved = c_.move + c_.W * answer.s;
+    for (std::size_t p = 0; p < c_.springs.size(); ++p) {
+      const auto row = 3 * static_cast<Eigen::Index>(p);
+      sum -= c_.along.segment<3>(row).dot(c_.springs[p] * moved.segment<3>(row));
+    }
+    return sum;
+  }
+
+  // Where it just touches, if its candidates bear nothing: the largest travel without a force.
+  double touch(const Answer& free) const {
+    const VecX moved = c_.q + c_.slipping(c_.move + c_.W * free.s);
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index p = 0; p < c_.mu.size(); ++p)
+      if (c_.along[3 * p] > 1e-9) least = std::min(least, moved[3 * p] / c_.along[3 * p]);
+    return least;
+  }
+
+ private:
+  // reactions without a force change on the body
+  VecX without_change(double travel, const VecX& move) const {
+    VecX b = c_.present;
+    for (std::size_t p = 0; p < c_.E.size() && c_.follows; ++p)
+      if (const auto row = 3 * static_cast<Eigen::Index>(p); !c_.E[p].isZero(0))
+        b.segment<3>(row) -= c_.E[p] * move.segment<3>(row);
+    for (std::size_t p = 0; p < c_.springs.size(); ++p) {  // springs stand still when the indenter moves
+      const auto row = 3 * static_cast<Eigen::Index>(p);
+      b.segment<3>(row) -= travel * (c_.springs[p] * c_.along.segment<3>(row));
+    }
+    return b;
+  }
+
+  const Condensed& c_;
+  MatX A_, W_r_, slipping_;
+  Lu lu_;
+  bool direct_ = false;
+};
+
+struct Pushed {
+  Answer answer;
+  double travel = 0;
+};
+
+// the candidates of the indenter bear nothing
+Answer without_indenter(const Law& law, const Condensed& c) {
+  VecX none = c.present;
+  for (Eigen::Index i = 0; i < none.size(); i += 3)
+    if (!c.along.segment<3>(i).isZero(0)) none.segment<3>(i).setZero();
+  return law.at(-1e3 * (1 + c.q.lpNorm<Eigen::Infinity>() + c.move.lpNorm<Eigen::Infinity>()), none);
+}
+
+// The travel at which the indenter bears the given force: the root of a function that does not fall, and is linear while no contact
+// changes. Secants within the bounds known so far; the cone law holds exactly at each.
+Pushed pushed_by(const Law& law, const Condensed& c, double force) {
+  constexpr double exact = 1e-12, enough = 1e-9, infinite = std::numeric_limits<double>::infinity();
+  double low = -infinite, high = infinite;
+  struct Point {
+    double travel, miss;
+  };
+  std::optional<Point> last;
+  Pushed best{{{}, c.present}, 0};
+  double least = infinite, next = 0;
+  int sweeps = 0;
+  if (force == 0 || c.along.dot(c.present) == 0) {  // from the touch on
+    best.answer = without_indenter(law, c);
+    low = best.travel = law.touch(best.answer);
+    if (force == 0 || !best.answer.solved || !std::isfinite(low)) return best;
+    sweeps = best.answer.sweeps, last = {low, -force}, next = low + 1e-3;
+  }
+  for (int i = 0; i < 100 && least > exact * force; ++i) {
+    Answer answer = law.at(next, best.answer.r);
+    sweeps += answer.sweeps;
+    if (!answer.solved) {  // too far
+      (next > 0 ? high : low) = next, next *= 0.5;
+      continue;
+    }
+    const Point here{next, law.force(answer) - force};
+    if (std::abs(here.miss) < least) least = std::abs(here.miss), best = {std::move(answer), next};
+    (here.miss < 0 ? low : high) = next;
+    const double slope = last ? (here.miss - last->miss) / (here.travel - last->travel) : 0;
+    const double furthest = last ? 100 * std::abs(here.travel - last->travel) : 1e-3;
+    const double step = slope > 0 ? std::abs(here.miss) / slope : furthest;
+    next += here.miss < 0 ? std::min(step, furthest) : -std::min(step, furthest);
+    if (std::isfinite(low) && std::isfinite(high) && (!(next > low && next < high) || i % 8 == 7)) next = 0.5 * (low + high);
+    if (std::isfinite(low) && high - low <= 1e-16 * (1 + std::abs(low))) break;
+    last = here;
+  }
+  best.answer.sweeps = sweeps;
+  best.answer.solved = least <= enough * force;
+  return best;
+}
+
+}  // namespace
+
+std::optional<ContactChange> linearised_contact(const ContactState& state, const TangentFactor& factor, const VecX& move) {
+  ContactChange change{VecX::Zero(static_cast<Eigen::Index>(factor.last().size())), state.r};
+  for (double travel = 0.1;; travel = 2 * change.travel) {
+    const std::vector<Near> near = near_candidates(state, factor, move, travel);
+    if (near.empty() && state.controlled < 0) return change;
+    if (near.empty()) return std::nullopt;
+    const Condensed c = condensed(state, factor, near);
+    const Law law(c);
+    const Pushed found = state.controlled < 0 ? Pushed{law.at(0, c.present), 0} : pushed_by(law, c, state.force);
+    const Answer& answer = found.answer;
+    if (!answer.s.allFinite() || !answer.r.allFinite()) return std::nullopt;
+    if (state.controlled >= 0 && !answer.solved) return std::nullopt;
+    change.travel = found.travel;
+    if (change.travel > travel) continue;  // more candidates may close
+    change.force = c.B * answer.s;
+    change.sweeps += answer.sweeps;
+    for (std::size_t p = 0; p < near.size(); ++p)
+      change.r[near[p].contact][near[p].candidate] = near[p].law.frame * answer.r.segment<3>(3 * static_cast<Eigen::Index>(p));
+    return change;
+  }
+}
+
+}  // namespace langer

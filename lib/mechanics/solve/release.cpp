@@ -1,0 +1,86 @@
+#include "mechanics/solve/release.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/interrupt.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double most_loosened = 0.5;
+
+double hardest_work(const std::vector<RigidContact>& contacts) {
+  double work = 0;
+  for (const RigidContact& contact : contacts)
+    if (contact.adhesion) work = std::max(work, contact.adhesion->work);
+  return work;
+}
+
+// Bonds come loose in parts, each an equilibrium: less damped while that is easy, more where it is not.
+SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve, const std::function<void(int)>& jumping) {
+  constexpr int parts = 400;
+  constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
+  const double work = hardest_work(statics.contacts());
+  SolveReport all;
+  Statics::Trial last = statics.kept_trial();
+  double damping = work;
+  for (int i = 0; i < parts && damping < stiffest * work && !interrupted(); ++i) {
+    jumping(i);
+    statics.bonds().go_on();
+    statics.bonds().damp(damping);
+    SolveReport part = solve();
+    all.iterations += part.iterations, all.again += part.again, all.evaluations += part.evaluations;
+    const double loosened = statics.bonds().loosened();
+    if (!part.converged() || (damping == 0 && loosened > settled)) {
+      statics.bonds().damp(std::numeric_limits<double>::infinity());  // as they were
+      statics.back_to(last);
+      damping = damping == 0 ? 0.1 * work : 8 * damping;
+      continue;
+    }
+    if (damping == 0) {
+      part.iterations = all.iterations, part.again = all.again, part.evaluations = all.evaluations;
+      return part;
+    }
+    last = statics.kept_trial();
+    if (loosened < settled)
+      damping *= 0.1;
+    else if (part.iterations <= 6)
+      damping *= 0.5;
+    if (damping < undamped * work) damping = 0;
+  }
+  all.outcome = Outcome::not_converged, all.why = "the bonds of the adhesion find no state in which they rest";
+  return all;
+}
+
+}  // namespace
+
+SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve,
+                                 const std::function<void(int)>& jumping) {
+  const double from = statics.accepted().t;
+  SolveReport report = solve();
+  const double loosened = report.converged() ? statics.bonds().loosened() : 0;
+  if (report.converged() && loosened <= most_loosened) return report;
+  if (t - from > shortest) {
+    if (report.converged()) report.why = "bonds of the adhesion lose more than half of their intensity in one increment";
+    report.outcome = Outcome::not_converged;
+    return report;
+  }
+  statics.begin(t);
+  const double at_begin = statics.accepted().in_bonds.stored;
+  statics.bonds().damp(std::numeric_limits<double>::infinity());
+  SolveReport held = solve();
+  if (!held.converged()) return held;
+  const double before = statics.stored();
+  const VecX u = statics.trial();
+  SolveReport jump = let_go(statics, solve, jumping);
+  jump.iterations += report.iterations + held.iterations, jump.again += report.again + held.again;
+  if (!jump.converged()) return jump;
+  const double of_loads = statics.work_of_loads(u);
+  statics.jumped(before - at_begin + of_loads,
+                 before - statics.stored() + of_loads - statics.bonds().dissipated_since(statics.accepted().bonds));
+  return jump;
+}
+
+}  // namespace langer

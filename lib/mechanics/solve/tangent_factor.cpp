@@ -1,0 +1,162 @@
+#include "mechanics/solve/tangent_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/assembly/zero_energy_modes.hpp"
+#include "core/base/error.hpp"
+#include "mechanics/mesh/quality.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr std::size_t many_candidates = 400;
+// flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it, factorizations that follow every change of
+// stick and slip cost more than they save (langer-bench wide, with friction)
+constexpr double deep = 8;
+// rows from which on an iterative solution is cheaper than a factor (langer-bench growth)
+constexpr int large = 100000;
+
+// of the order of what the body opposes to a movement of one node
+double node_stiffness(const Equilibrium& body) {
+  double mu = 0;
+  const int n_cells = body.mesh().n_cells();
+  for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
+  return mu * std::cbrt(quality(body.mesh()).volume / n_cells);
+}
+
+bool with_friction(const std::vector<RigidContact>& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& contact) { return contact.mu > 0; });
+}
+
+}  // namespace
+
+std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation, const std::vector<RigidContact>& contacts,
+                          bool follows, LinearBy linear_by) {
+  if (linear_by == LinearBy::direct) return "linear: direct asks for one";
+  if (linear_by == LinearBy::automatic && dofs.n_free() < large) return "it is small, and quickly factorized";
+  if (!contacts.empty() && !zero_energy_modes(mesh, dofs).empty()) return "only contact holds the body";
+  if (!ContactInTangent::serves(contacts)) return "an indenter adheres or is pushed with a given force, or two may touch one node";
+  if (follows) return "pressures follow the surface";
+  if (formulation != Formulation::mean_dilatation || mesh.cell().n_nodes != 8)
+    return "only 8-node hexahedra with a mean dilatation";
+  return "";
+}
+
+TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, ContactBy contact_by,
+                             LinearBy linear_by)
+    : threads_(threads) {
+  const Dofs& dofs = body.dofs();
+  if (take_iterative(body, contacts, linear_by)) return;
+  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
+  std::size_t candidates = 0;
+  for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
+  const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);
+  const bool tangent_serves = wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
+  if (tangent_serves && (contact_by == ContactBy::tangent || !with_friction(contacts))) {
+    take_into_tangent(body, contacts);
+    return;
+  }
+  if (!contacts.empty()) last_of_.assign(dofs.n, -1);
+  for (const RigidContact& contact : contacts)
+    for (int node : contact.nodes)
+      for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
+        if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
+          last_of_[dof] = static_cast<int>(last_.size());
+          last_.push_back(dofs.equation[dof]);
+        }
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
+  if (tangent_serves && linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
+    last_.clear(), last_of_.clear();
+    take_into_tangent(body, contacts);
+    return;
+  }
+  if (last_.empty() || !loose) return;
+  loose_ = node_stiffness(body);  // the weak resistance of contact to a free motion stays visible beside it
+}
+
+void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts) {
+  in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
+}
+
+bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, LinearBy linear_by) {
+  std::string why = why_by_factor(body.mesh(), body.dofs(), body.formulation(), contacts, body.loads().follow(), linear_by);
+  if (why.empty()) mixed_ = MixedTangent::of(body, threads_, why);
+  if (mixed_) {
+    in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
+  } else if (linear_by == LinearBy::iterative) {
+    throw Failure(Exit::config,
+                  Error{{}, "solver.newton.linear", "found iterative, which does not serve here: " + why, "direct", ""});
+  }
+  return mixed_ != nullptr;
+}
+
+void TangentFactor::take_factor(const Equilibrium& body) {
+  by_factor_ = gave_up_ = true;
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
+}
+
+LinearSolver::Size TangentFactor::size() const {
+  if (linear_) return linear_->size();
+  return {mixed_->solver().entries(), 0, mixed_->solver().bytes(), 0};
+}
+
+void TangentFactor::begin_increment() {
+  supported_ = false;
+  if (!mixed_) return;
+  if (by_factor_) linear_.reset(), by_factor_ = false;
+  mixed_->solver().forget();
+  in_tangent_->begin_increment();
+}
+
+bool TangentFactor::factorize(const Equilibrium& body) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole;
+  if (!supported_ && loose_ == 0 && linear_->factorize(body.K())) return true;
+  ++counts_.indefinite;
+  if (!last_.empty()) return factorize_supported(body);
+  ++counts_.unstable;
+  kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(body.K());
+}
+
+bool TangentFactor::factorize_supported(const Equilibrium& body) {
+  kind_ = Kind::supported;
+  const Pattern& pattern = body.pattern();
+  double diagonal = 0;  // a column starts with its diagonal
+  for (int row : last_) diagonal += std::abs(body.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
+  const auto K_with_springs = [&] {
+    std::vector<double> K = body.K();
+    for (int row : last_) K[pattern.column_start[row]] += gamma_;
+    return K;
+  };
+  for (double spring : {loose_, diagonal, 30 * diagonal, 1000 * diagonal}) {
+    if (spring == 0 || (supported_ && spring < 0.5 * gamma_)) continue;  // softer springs were not enough in this increment
+    gamma_ = spring;
+    if (linear_->factorize(K_with_springs())) return supported_ = true;
+  }
+  // The body itself gives way. In a few directions stabilisation springs help; where they are many, the increment was too long: K there
+  // says nothing, and the same point comes within reach by shorter ones.
+  kind_ = Kind::indefinite, ++counts_.unstable;
+  return supported_ = linear_->factorize_with_springs(K_with_springs());
+}
+
+bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole;
+  if (linear_->factorize(values)) return true;
+  ++counts_.indefinite, ++counts_.unstable, kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(values);
+}
+
+bool TangentFactor::factorize_fixed_reactions(const Equilibrium& body) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole, supported_ = false;
+  if (linear_->factorize(body.K())) return true;
+  ++counts_.indefinite, kind_ = Kind::indefinite;
+  return linear_->factorize_indefinite(body.K());
+}
+
+}  // namespace langer

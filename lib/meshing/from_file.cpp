@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "meshing/block.hpp"
+#include "meshing/exchange.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string kind_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  std::string kind = dot == std::string::npos ? "" : path.substr(dot + 1);
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return kind;
+}
+
+// names stand in paths of keys and of HDF5
+std::string tame(const std::string& name, std::vector<std::string>& notes) {
+  std::string s = name;
+  for (char& c : s)
+    if (c == ' ' || c == '\t' || c == '/' || c == '.') c = '_';
+  if (s != name) notes.push_back(fmt::format("\"{}\" is called {} here", name, s));
+  return s;
+}
+
+template <class Sets>
+void tame_names(Sets& sets, std::vector<std::string>& notes) {
+  Sets renamed;
+  for (auto& [name, set] : sets) renamed[tame(name, notes)] = std::move(set);
+  sets = std::move(renamed);
+}
+
+}  // namespace
+
+bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
+
+std::vector<Complaint> FromFile::complaints() const {
+  const std::string kind = kind_of(file.path);
+  if (kind == "msh" || kind == "inp") {
+    if (edge) return {{"edge", "found beside a mesh", "none: its cells are there", ""}};
+    return {};
+  }
+  if (kind == "step" || kind == "stp" || kind == "stl") {
+    if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
+    return {};
+  }
+  return {{"path", "found \"" + file.path + "\"", "a mesh, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
+           "other formats: make a hexahedral mesh of them with gmsh"}};
+}
+
+Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
+  const std::string& path = from.file.path;
+  const std::string kind = kind_of(path);
+  Mesh mesh = kind == "msh"   ? read_msh(path, notes)
+              : kind == "inp" ? read_inp(path, notes)
+                              : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  if (mesh.type != cells)
+    throw Failure(Exit::config, Error{{},
+                                      "cells",
+                                      fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
+                                      fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path),
+                                      ""});
+  for (Vec3& x : mesh.X) x *= from.scale;
+  std::vector<std::string> said;
+  tame_names(mesh.facet_sets, said);
+  tame_names(mesh.node_sets, said);
+  for (std::string& body : mesh.bodies) body = tame(body, said);
+  for (const std::string& note : said)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  if (std::set<std::string>(mesh.bodies.begin(), mesh.bodies.end()).size() != mesh.bodies.size())
+    throw Failure(Exit::input, Error{{from.file.path}, "", "two bodies of one name", "bodies of different names", ""});
+  return mesh;
+}
+
+Box box(const Geometry& geometry) {
+  return std::visit(
+      [](const auto& g) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, FromFile>)
+          return Box{};
+        else if constexpr (requires { g.spans(); })
+          return g.spans();
+        else
+          return Box{g.origin, g.size};
+      },
+      geometry);
+}
+
+bool is_section(const Geometry& geometry) {
+  return std::holds_alternative<SectionBox>(geometry) || std::holds_alternative<IndentedDisc>(geometry);
+}
+
+std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }
+
+}  // namespace langer

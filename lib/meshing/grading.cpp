@@ -1,0 +1,179 @@
+#include "meshing/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace langer {
+
+void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
+  throw Failure(Exit::config, Error{{}, key, found, expected, hint});
+}
+
+namespace {
+
+constexpr double largest_growth = 3;  // from cell to cell; beyond, elements are too unlike their neighbours to trust
+
+// edge (q + q^2 + ... + q^m), or infinite where that is more than `enough`; in quarters, so that nothing overflows before it is
+double growing(double edge, double q, int m, double enough) {
+  double sum = 0, term = 0.25 * edge;
+  enough *= 0.25;
+  for (int i = 0; i < m; ++i) {
+    if (term > enough / q) return std::numeric_limits<double>::infinity();
+    sum += term *= q;
+    if (sum > enough) return std::numeric_limits<double>::infinity();
+  }
+  return 4 * sum;
+}
+
+}  // namespace
+
+std::vector<double> refined(double length, int n, double edge, double within, const std::string& key) {
+  const int fine = 0.5 * within / n < 0.5 * edge ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n) : n, m = n - fine;
+  const double left = length - fine * edge, rest = m == 0 && std::abs(left) < 1e-9 * length ? 0 : left, most = rest * (1 + 1e-9),
+               least = rest * (1 - 1e-9);
+  if (growing(edge, 1, m, most) > most)
+    refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge", "");
+  if (growing(edge, largest_growth, m, least) < least)
+    refuse(key, fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge, largest_growth, length),
+           "more divisions or a larger edge", "");
+  double low = 1, high = largest_growth;
+  for (int i = 0; i < 200; ++i) (growing(edge, 0.5 * (low + high), m, rest) > rest ? high : low) = 0.5 * (low + high);
+  std::vector<double> lines{0};
+  double step = edge;
+  for (int i = 0; i < n; ++i) {
+    if (i >= fine) step *= low;
+    lines.push_back(lines.back() + step);
+  }
+  lines.back() = length;
+  return lines;
+}
+
+std::vector<double> even_lines(double low, double high, int n) {
+  std::vector<double> lines(static_cast<std::size_t>(n) + 1);
+  for (int i = 0; i <= n; ++i) lines[i] = 0.5 * (low + high) + (high - low) * (i - 0.5 * n) / n;  // exact mirror images about 0
+  lines.front() = low, lines.back() = high;
+  return lines;
+}
+
+std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within, const std::string& key) {
+  const double half = 0.5 * (high - low), centre = 0.5 * (low + high);
+  std::vector<double> away;  // distances from the centre, ascending
+  if (n % 2 == 0) {
+    away = refined(half, n / 2, edge, within, key);
+  } else if (n == 1) {
+    away = {half};
+  } else {  // the centre lies in the middle of a cell
+    away = refined(half - 0.5 * edge, n / 2, edge, within - 0.5 * edge, key);
+    for (double& x : away) x += 0.5 * edge;
+  }
+  std::vector<double> lines;
+  for (auto x = away.rbegin(); x != away.rend(); ++x) lines.push_back(centre - *x);
+  for (std::size_t i = n % 2 == 0 ? 1 : 0; i < away.size(); ++i) lines.push_back(centre + away[i]);
+  lines.front() = low, lines.back() = high;
+  return lines;
+}
+
+std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above, const std::string& key) {
+  const auto away = [&](const GradedSide& side) {
+    return side.n > 0 ? refined(side.length, side.n, side.edge, side.within, key) : std::vector<double>{0};
+  };
+  std::vector<double> lines;
+  const std::vector<double> low = away(below), high = away(above);
+  for (auto x = low.rbegin(); x != low.rend(); ++x) lines.push_back(place - *x);
+  for (std::size_t i = 1; i < high.size(); ++i) lines.push_back(place + high[i]);
+  return lines;
+}
+
+std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key) {
+  std::vector<double> lines;
+  const std::vector<double> below = refined(high - low, n, edge, 0, key);
+  for (auto x = below.rbegin(); x != below.rend(); ++x) lines.push_back(high - *x);
+  lines.front() = low, lines.back() = high;
+  return lines;
+}
+
+std::vector<double> resampled(const std::vector<double>& lines, int n) {
+  const int most = static_cast<int>(lines.size()) - 2;  // the last cell
+  const auto length = [&](int i) { return lines[static_cast<std::size_t>(i) + 1] - lines[static_cast<std::size_t>(i)]; };
+  std::vector<double> found{lines.front()};
+  for (int j = 1; j < n; ++j) {
+    const double s = (most + 1.0) * j / n;
+    const int cell = std::min(static_cast<int>(s), most), before = std::max(cell - 1, 0), after = std::min(cell + 1, most);
+    // within the cell lengths grow as from the one before to the one after: of cells that grow by one factor, exactly so
+    const double growth = after == before ? 0 : std::log(length(after) / length(before)) / (after - before);
+    const double part = std::abs(growth) < 1e-9 ? s - cell : std::expm1(growth * (s - cell)) / std::expm1(growth);
+    found.push_back(lines[static_cast<std::size_t>(cell)] + part * length(cell));
+  }
+  found.push_back(lines.back());
+  return found;
+}
+
+Moved through(const std::vector<double>& lines, std::vector<Demand> demands, const std::string& axis, const std::string& key) {
+  const int n = static_cast<int>(lines.size()) - 1;
+  const double tolerance = 1e-12 * (lines.back() - lines.front());
+  std::sort(demands.begin(), demands.end(), [](const Demand& a, const Demand& b) { return a.at < b.at; });
+  struct Pin {
+    int line;
+    double at;
+    std::string by;
+  };
+  std::vector<Pin> pins{{0, lines.front(), ""}};
+  for (const Demand& d : demands) {
+    if (d.at < lines.front() - tolerance || d.at > lines.back() + tolerance)
+      refuse(d.by, fmt::format("{} = {} is outside the block", axis, d.at), fmt::format("{} to {}", lines.front(), lines.back()),
+             "");
+    if (std::abs(d.at - pins.back().at) <= tolerance || std::abs(d.at - lines.back()) <= tolerance) continue;
+    // the nearest line inside the block; the sides stay where they are
+    int nearest = 1;
+    for (int i = 1; i < n; ++i)
+      if (std::abs(lines[i] - d.at) < std::abs(lines[nearest] - d.at)) nearest = i;
+    if (n < 2 || nearest <= pins.back().line)
+      refuse(d.by,
+             fmt::format("no grid line is left for {} = {}{}", axis, d.at,
+                         pins.back().by.empty() ? "" : ", the nearest goes through " + pins.back().by),
+             "more divisions, or points further apart", fmt::format("{} divides {} into {} cells", key, axis, n));
+    pins.push_back({nearest, d.at, d.by});
+  }
+  pins.push_back({n, lines.back(), ""});
+  Moved moved{lines, 0};
+  for (std::size_t p = 1; p < pins.size(); ++p) {
+    const Pin &a = pins[p - 1], &b = pins[p];
+    for (int i = a.line; i < b.line; ++i)
+      moved.lines[i] = a.at + (lines[i] - lines[a.line]) * ((b.at - a.at) / (lines[b.line] - lines[a.line]));
+  }
+  // mirror images to the last digit, where lines and demands were so but for rounding
+  const double middle = 0.5 * (lines.front() + lines.back());
+  for (int i = 0; 2 * i <= n; ++i)
+    if (std::abs(moved.lines[i] + moved.lines[n - i] - 2 * middle) <= 10 * tolerance)
+      moved.lines[i] = 2 * i == n ? middle : 2 * middle - moved.lines[n - i];
+  for (const Pin& pin : pins) moved.lines[pin.line] = pin.at;
+  for (int i = 0; i <= n; ++i) moved.furthest = std::max(moved.furthest, std::abs(moved.lines[i] - lines[i]));
+  return moved;
+}
+
+std::vector<int> divided(const std::vector<int>& n, double wanted) {
+  std::vector<int> best = n;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k : n)
+    for (double to : {std::floor(k / wanted), std::ceil(k / wanted)}) {
+      if (to < 1) continue;
+      const double factor = k / to;
+      double off = 0.7 * std::abs(std::log(factor / wanted));
+      std::vector<int> counts = n;
+      for (int& count : counts) {
+        if (count == 0) continue;
+        const int fewer = std::max(1, static_cast<int>(std::lround(count / factor)));
+        off = std::max(off, std::abs(std::log(count / (fewer * factor))));
+        count = fewer;
+      }
+      if (counts != n && off < least) least = off, best = counts;
+    }
+  return best;
+}
+
+}  // namespace langer

@@ -1,0 +1,293 @@
+#include "pipeline/plan/expand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/config/reader.hpp"
+#include "core/config/writer.hpp"
+
+namespace langer::pipeline {
+
+namespace {
+
+constexpr std::size_t most_steps = 10'000;
+
+using Point = std::map<std::string, std::size_t>;  // axis -> index of its value
+
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::size_t integer_digits(const std::string& label) {
+  const std::size_t first = label.find_first_of("0123456789");
+  return std::min(label.find_first_not_of("0123456789", first), label.size()) - first;
+}
+
+class Expansion {
+ public:
+  Expansion(const Pipeline& pipeline, const ReadYaml& read) : pipeline_(pipeline), read_(read) {}
+
+  std::vector<Step> steps() {
+    gather_axes();
+    for (const Node& n : pipeline_.nodes) visit(n);
+    stop_if_wrong();
+    for (const Node& n : pipeline_.nodes) check_kinds(n);
+    stop_if_wrong();
+    for (const Node* n : order_) add_steps(*n);
+    stop_if_wrong();
+    for (Step& step : steps_) step.final = used_.count(step.output()) == 0;
+    return std::move(steps_);
+  }
+
+ private:
+  const Pipeline& pipeline_;
+  const ReadYaml& read_;
+  Findings f_;
+  std::vector<const Axis*> axes_;  // in order of declaration
+  std::vector<const Node*> order_, open_;
+  std::map<std::string, std::vector<const Axis*>> axes_of_;
+  std::vector<Step> steps_;
+  std::set<std::string> used_;
+
+  void stop_if_wrong() {
+    if (!f_.errors.empty()) throw_sorted(std::move(f_.errors));
+  }
+
+  void gather_axes() {
+    std::map<std::string, std::string> folders;  // first folder of a member -> axis
+    for (const Node& n : pipeline_.nodes)
+      for (const Axis& axis : n.sweep) {
+        const auto same = std::find_if(axes_.begin(), axes_.end(), [&](const Axis* a) { return a->name == axis.name; });
+        if (same == axes_.end()) {
+          axes_.push_back(&axis);
+          for (std::size_t i = 0; i < axis.points.size(); ++i) folders[member_folder(axis, i)] = axis.name;
+          continue;
+        }
+        const bool agree = to_text(axis.design) == to_text((*same)->design) &&
+                           std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(), (*same)->points.end(),
+                                      [](const AxisPoint& a, const AxisPoint& b) { return a.label == b.label; });
+        if (!agree)
+          f_.say(axis.place, fmt::format("nodes.{}.sweep.{}", n.name, axis.name),
+                 fmt::format("the axis has other values at line {}", (*same)->place.line), "the same values in the same order",
+                 "an axis that two nodes declare is one axis");
+      }
+    for (const Node& n : pipeline_.nodes)
+      if (const auto it = folders.find(n.name); it != folders.end())
+        f_.say(n.place, "nodes." + n.name, fmt::format("a member of the axis {} has the same folder", it->second), "another name");
+  }
+
+  void check_kinds(const Node& n) {
+    for (const Source& s : n.sources) {
+      const std::string key = fmt::format("nodes.{}.{}", n.name, s.port);
+      const Port& port = *n.stage->port(s.port);
+      if (!s.node.empty()) {
+        const StageSpec* makes = pipeline_.node(s.node)->stage;
+        if (!contains(port.made_by, makes->name))
+          f_.say(s.place, key, fmt::format("the node \"{}\" makes {}", s.node, makes->output),
+                 "a node of the stage " + fmt::format("{}", fmt::join(port.made_by, " or ")));
+      } else if (!is_safe_path(s.file)) {
+        f_.say(s.place, key, "found " + s.file, "a path of letters, digits, _ . + - and / only",
+               "make gives other characters a meaning");
+      }
+    }
+  }
+
+  void visit(const Node& n) {
+    if (contains_node(order_, n)) return;
+    if (contains_node(open_, n)) {
+      std::string round;
+      for (auto it = std::find(open_.begin(), open_.end(), &n); it != open_.end(); ++it) round += (*it)->name + " -> ";
+      f_.say(n.place, "nodes." + n.name, "the nodes depend on each other: " + round + n.name);
+      return;
+    }
+    open_.push_back(&n);
+    std::vector<std::string> found;
+    for (const Axis& axis : n.sweep) found.push_back(axis.name);
+    std::vector<std::string> below;
+    for (const Source& s : n.sources) {
+      if (s.node.empty()) continue;
+      visit(*pipeline_.node(s.node));
+      for (const auto& [axis, label] : s.at) check_member(n, s, axis, label);
+      for (const Axis* axis : axes_of_[s.node])
+        if (!chosen(s, axis->name)) below.push_back(axis->name);
+    }
+    for (const std::string& name : n.over)
+      if (!contains(below, name))
+        f_.say(n.over_place, fmt::format("nodes.{}.over", n.name), fmt::format("found \"{}\"", name),
+               below.empty() ? "no axis: the inputs have none" : "an axis of the inputs: " + list_words(below));
+    for (const std::string& name : below)
+      if (!contains(n.over, name)) found.push_back(name);
+    axes_of_[n.name] = ordered(found);
+    open_.pop_back();
+    order_.push_back(&n);
+  }
+
+  // label of the axis that the source is fixed to, or nullptr
+  static const std::string* chosen(const Source& s, const std::string& axis) {
+    for (const auto& [name, label] : s.at)
+      if (name == axis) return &label;
+    return nullptr;
+  }
+
+  void check_member(const Node& n, const Source& s, const std::string& axis, const std::string& label) {
+    std::vector<std::string> known;
+    for (const Axis* a : axes_of_[s.node]) known.push_back(a->name);
+    const std::string key = fmt::format("nodes.{}.{}.{}", n.name, s.port, axis);
+    if (!contains(known, axis))
+      return f_.say(s.place, key, fmt::format("the node {} has no such axis", s.node),
+                    known.empty() ? "none: it has one member" : "one of " + list_words(known));
+    std::vector<std::string> labels;
+    for (const Axis* a : axes_of_[s.node])
+      if (a->name == axis)
+        for (const AxisPoint& point : a->points) labels.push_back(point.label);
+    if (!contains(labels, label)) f_.say(s.place, key, "found " + label, "one of " + list_words(labels));
+  }
+
+  static std::size_t index_of(const Axis& axis, const std::string& label) {
+    std::size_t i = 0;
+    while (axis.points[i].label != label) ++i;
+    return i;
+  }
+
+  static bool contains_node(const std::vector<const Node*>& list, const Node& n) {
+    return std::find(list.begin(), list.end(), &n) != list.end();
+  }
+
+  std::vector<const Axis*> ordered(const std::vector<std::string>& names) const {
+    std::vector<const Axis*> found;
+    for (const Axis* axis : axes_)
+      if (contains(names, axis->name)) found.push_back(axis);
+    return found;
+  }
+
+  // every combination of the axes' points, the last axis fastest
+  static std::vector<Point> points(const std::vector<const Axis*>& axes) {
+    std::vector<Point> all{Point{}};
+    for (const Axis* axis : axes) {
+      std::vector<Point> longer;
+      if (all.size() * axis->points.size() > most_steps)
+        throw Failure(Exit::config, Error{axis->place, axis->name, fmt::format("more than {} steps", most_steps), "", ""});
+      for (const Point& p : all)
+        for (std::size_t i = 0; i < axis->points.size(); ++i) {
+          longer.push_back(p);
+          longer.back()[axis->name] = i;
+        }
+      all = std::move(longer);
+    }
+    return all;
+  }
+
+  static std::string member(const std::vector<const Axis*>& axes, const Point& at) {
+    std::string folder;
+    for (const Axis* axis : axes) folder += member_folder(*axis, at.at(axis->name)) + "/";
+    return folder;
+  }
+
+  // the config as written, from its file where one is named
+  Tree written(const Node& n, const Tree& config) {
+    Tree tree = config;
+    if (config.kind == Tree::Kind::scalar) {
+      try {
+        tree = read_(config.scalar);
+      } catch (const Failure& failure) {
+        if (failure.code() != Exit::input) throw;
+        throw Failure(Exit::config, Error{config.place, fmt::format("nodes.{}.config", n.name), failure.what(), "a YAML file",
+                                          "paths are relative to the working directory"});
+      }
+    }
+    if (tree.place.file.empty()) tree.place = n.place;
+    return tree;
+  }
+
+  Tree config_at(const Node& n, const Point& at) {
+    const Tree* source = &n.config;
+    for (const Axis& axis : n.sweep)
+      if (const Tree& other = axis.points[at.at(axis.name)].config; other.kind == Tree::Kind::scalar) source = &other;
+    Tree config = written(n, *source);
+    for (const auto& [key, value] : n.settings) set_value(config, key, value);
+    for (const Axis& axis : n.sweep)
+      for (const auto& [key, value] : axis.points[at.at(axis.name)].settings) set_value(config, key, value);
+    return config;
+  }
+
+  void add_steps(const Node& n) {
+    for (const Point& at : points(axes_of_[n.name])) {
+      Step step{n.name, n.stage, member(axes_of_[n.name], at) + n.name, {}, {}, true};
+      try {
+        step.config = config_at(n, at);
+      } catch (const Failure& failure) {
+        for (const Error& e : failure.errors())
+          if (std::none_of(f_.errors.begin(), f_.errors.end(), [&](const Error& known) { return text(known) == text(e); }))
+            f_.errors.push_back(e);
+      }
+      for (const Source& s : n.sources) add_inputs(n, s, at, step);
+      steps_.push_back(std::move(step));
+    }
+  }
+
+  void add_inputs(const Node& n, const Source& s, const Point& at, Step& step) {
+    if (s.node.empty()) {
+      step.inputs.push_back({s.port, s.file, false, s.place});
+      return;
+    }
+    const Node& from = *pipeline_.node(s.node);
+    const std::vector<const Axis*>& axes = axes_of_[s.node];
+    std::vector<const Axis*> gathered;
+    for (const Axis* axis : axes)
+      if (contains(n.over, axis->name) && !chosen(s, axis->name)) gathered.push_back(axis);
+    const std::vector<Point> members = points(gathered);
+    for (const Point& p : members) {
+      Point full = p;
+      for (const Axis* axis : axes)
+        if (const std::string* label = chosen(s, axis->name))
+          full[axis->name] = index_of(*axis, *label);
+        else if (const auto it = at.find(axis->name); it != at.end())
+          full[axis->name] = it->second;
+      step.inputs.push_back({s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
+      used_.insert(step.inputs.back().path);
+    }
+    if (n.stage->port(s.port)->members) describe_members(gathered, members, step);
+  }
+
+  // the keys `axes` and `members` of a config that gathers
+  static void describe_members(const std::vector<const Axis*>& axes, const std::vector<Point>& members, Step& step) {
+    Tree axis_list, member_list;
+    axis_list.kind = member_list.kind = Tree::Kind::list;
+    for (const Axis* axis : axes) {
+      Tree one;
+      one.kind = Tree::Kind::map;
+      one.map = {{"name", text_tree(axis->name)}, {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
+      if (axis->design.kind == Tree::Kind::map) one.map.push_back({"design", axis->design});
+      if (axis->samples > 0) one.map.push_back({"samples", plain_tree(std::to_string(axis->samples))});
+      axis_list.list.push_back(one);
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      Tree one, at;
+      at.kind = Tree::Kind::list;
+      for (const Axis* axis : axes) at.list.push_back(text_tree(axis->points[members[i].at(axis->name)].label));
+      one.kind = Tree::Kind::map;
+      one.map = {{"path", text_tree(step.inputs[i].path)}, {"at", at}};
+      member_list.list.push_back(one);
+    }
+    set_value(step.config, "axes", axis_list);
+    set_value(step.config, "members", member_list);
+  }
+};
+
+}  // namespace
+
+std::string member_folder(const Axis& axis, std::size_t point) {
+  const std::string& label = axis.points[point].label;
+  if (!axis.numbers || label.find('e') != std::string::npos) return axis.name + "_" + label;
+  std::size_t width = 3;
+  for (const AxisPoint& p : axis.points) width = std::max(width, integer_digits(p.label));
+  const std::string sign = label[0] == '-' ? "-" : "";
+  return axis.name + "_" + sign + std::string(width - integer_digits(label), '0') + label.substr(sign.size());
+}
+
+std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read) { return Expansion(pipeline, read).steps(); }
+
+}  // namespace langer::pipeline

@@ -1,0 +1,40 @@
+// Pipeline -> steps, one per run of a program. Pure: files are read by the function given.
+// A node's axes are its own sweep plus those of its inputs; `over` removes the axes that it gathers. Several axes multiply.
+// Axes nest in the order in which the pipeline declares them: code_FER/alpha_030/solve.
+// Refused: nodes that depend on each other, an axis declared twice with other points, `over` an axis that is not there,
+// an input of the wrong kind, folders that would coincide, more than 10 000 steps.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/plan/pipeline.hpp"
+
+namespace langer::pipeline {
+
+struct StepInput {
+  std::string port;
+  std::string path;   // relative to the run's folder if a step makes it, otherwise as the pipeline gives it
+  bool made = false;  // by a step
+  Place place;
+};
+
+struct Step {
+  std::string node;
+  const StageSpec* stage = nullptr;
+  std::string folder;  // relative to the run's folder
+  Tree config;         // with `set` and the member's values applied
+  std::vector<StepInput> inputs;
+  bool final = true;  // no other step reads its output
+
+  std::string output() const { return folder + "/" + stage->output; }
+};
+
+using ReadYaml = std::function<Tree(const std::string& path)>;
+std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read);
+
+// "alpha_030": the integer part of numbers is padded so that folders sort
+std::string member_folder(const Axis& axis, std::size_t point);
+
+}  // namespace langer::pipeline

@@ -1,0 +1,279 @@
+#include "pipeline/plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "core/config/reader.hpp"
+#include "core/hdf5/replace.hpp"
+#include "core/hdf5/seal.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/expand.hpp"
+#include "pipeline/plan/makefile.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "pipeline/plan/siblings.hpp"
+#include "pipeline/plan/slurm.hpp"
+#include "pipeline/plan/snakefile.hpp"
+#include "results/store/lock.hpp"
+#include "results/store/material_file.hpp"
+#include "results/store/mesh_file.hpp"
+
+namespace langer {
+
+namespace fs = std::filesystem;
+using namespace pipeline;
+
+namespace {
+
+struct TextFile {
+  std::string path;  // relative to the run's folder
+  std::string text;
+};
+
+class Planning {
+ public:
+  explicit Planning(fs::path folder) : folder_(std::move(folder)) {}
+
+  std::vector<TextFile> files;
+  std::vector<Rule> rules;
+  std::vector<std::string> finals;
+  std::vector<std::string> doubts;
+
+  void look_at_data() {
+    for (const auto& look : looks_) collect([&] { add_doubts(look()); });
+  }
+
+  void add(const Step& step) {
+    const std::string here = (folder_ / step.folder).string();
+    const std::string config = step.folder + "/" + step.stage->name + ".yaml";
+    Rule rule{step.output(), {config}, std::string("langer-") + step.stage->name, config};
+    for (const StepInput& input : step.inputs) {
+      const std::string path = input.made ? input.path : given_file(step, input);
+      rule.prerequisites.push_back(path);
+      rule.arguments += fmt::format(" --{} {}", input.port, path);
+    }
+    collect([&] {
+      std::vector<std::string> ports;
+      for (const StepInput& input : step.inputs) ports.push_back(input.port);
+      need_one_source(*step.stage, step.config, ports);
+      const Effective effective = effective_config(*step.stage, step.config, here);
+      add_doubts(effective.notices);
+      for (const Effective::File& file : effective.files) {
+        need_file(file.path, file.place, file.key);
+        rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
+      }
+      if (effective.look_at_data) looks_.push_back(effective.look_at_data);
+      SceneNames& names = names_[rule.target] = effective.names;
+      for (const StepInput& input : step.inputs) add_names(step, input, names);
+      if (const std::vector<Error> lost = lost_names(names); !lost.empty()) throw Failure(Exit::config, lost);
+      // the command stands in the config, so that a changed input is a changed config
+      files.push_back({config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
+    });
+    rule.threads = threads_of(step.config);
+    if (step.final) finals.push_back(rule.target);
+    rules.push_back(std::move(rule));
+  }
+
+  void stop_if_wrong() {
+    if (errors_.empty()) return;
+    throw Failure(code_, errors_);
+  }
+
+ private:
+  fs::path folder_;
+  std::vector<std::function<std::vector<std::string>()>> looks_;
+  std::map<std::string, SceneNames> names_;  // of steps by output and of files by path
+  std::vector<Error> errors_;
+  Exit code_ = Exit::input;
+
+  // what is wrong with them is said elsewhere
+  static int threads_of(const Tree& config) {
+    int most = 1;
+    for (const char* key : {"threads", "blas_threads", "jobs"})
+      if (const Tree* value = config.find(key); value && value->kind == Tree::Kind::scalar) {
+        int n = 0;
+        std::from_chars(value->scalar.data(), value->scalar.data() + value->scalar.size(), n);
+        most = std::max(most, n);
+      }
+    return most;
+  }
+
+  void add_doubts(const std::vector<std::string>& more) {
+    for (const std::string& doubt : more)
+      if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(doubt);
+  }
+
+  // What an input has of names, made by a step before or given as a file.
+  void add_names(const Step& step, const StepInput& input, SceneNames& names) {
+    const std::string port = input.port, made_by = step.stage->name;
+    if ((made_by != "solve" || (port != "mesh" && port != "material")) && (made_by != "post" || port != "solution")) return;
+    const SceneNames& there = input.made ? names_[input.path] : names_in_file(port, input.path);
+    if (port != "material" && !names.mesh) names.mesh = there.mesh;
+    if (port != "mesh" && !names.families) names.families = there.families;
+    if (port == "solution") names.more_families = there.more_families, names.contacts = there.contacts;
+  }
+
+  const SceneNames& names_in_file(const std::string& port, const std::string& path) {
+    const auto [known, is_new] = names_.emplace("file " + path, SceneNames{});
+    std::error_code ec;
+    if (!is_new || !fs::is_regular_file(path, ec)) return known->second;
+    try {
+      if (fs::path(path).extension() != ".h5" && port == "material")
+        known->second = effective_port_file({.name = "material", .says = "", .made_by = {}}, load_yaml(path), "").names;
+      else if (port == "mesh")
+        known->second.mesh = names_of(read_mesh(path).mesh);
+      else if (port == "material")
+        known->second = names_in(read_material(path).material);
+    } catch (const Failure&) {  // said where the file itself is looked at
+    }
+    return known->second;
+  }
+
+  // Members of a sweep share most of their config: each error is kept once.
+  void collect(auto&& work) {
+    try {
+      work();
+    } catch (const Failure& failure) {
+      if (failure.code() != Exit::input) code_ = failure.code();
+      for (const Error& e : failure.errors())
+        if (std::none_of(errors_.begin(), errors_.end(), [&](const Error& known) { return text(known) == text(e); }))
+          errors_.push_back(e);
+    }
+  }
+
+  std::string from_run(const std::string& path, const Place& place, const std::string& key) const {
+    const std::string seen = relative_path(path, folder_.string());
+    if (!is_safe_path(seen))
+      throw Failure(Exit::config, Error{place, key, "found the path " + seen, "letters, digits, _ . + - and / only",
+                                        "make gives other characters a meaning"});
+    return seen;
+  }
+
+  // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the step's config.
+  std::string given_file(const Step& step, const StepInput& input) {
+    const std::string key = fmt::format("nodes.{}.{}", step.node, input.port);
+    std::string path;
+    collect([&] {
+      need_file(input.path, input.place, key);
+      const std::string extension = fs::path(input.path).extension().string();
+      if (extension == ".h5") {
+        path = from_run(input.path, input.place, key);
+        return;
+      }
+      const Port& port = *step.stage->port(input.port);
+      if (!port.takes_yaml || (extension != ".yaml" && extension != ".yml")) {
+        const char* expected = port.takes_yaml ? "a .h5 or a .yaml file" : "a .h5 file";
+        throw Failure(Exit::config, Error{input.place, key, "found " + input.path, expected, ""});
+      }
+      path = fmt::format("{}/{}.yaml", step.folder, input.port);
+      const Effective effective = effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string());
+      add_doubts(effective.notices);
+      files.push_back({path, effective.text});
+    });
+    return path;
+  }
+};
+
+bool holds(const fs::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream found;
+  found << file.rdbuf();
+  return file.good() && found.str() == text;
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code ec;
+  fs::create_directories(path, ec);
+  if (!fs::is_directory(path)) throw Failure(Exit::input, Error{{path.string()}, "", "this folder cannot be made", "", ""});
+}
+
+bool write_if_changed(const fs::path& path, const std::string& text) {
+  if (holds(path, text)) return false;
+  make_folder(path.parent_path());
+  write_text_file_soon(path.string(), text);
+  return true;
+}
+
+}  // namespace
+
+namespace {
+
+// A folder of programs may be called anything; a blank has to be told to make, and to the shell, as such.
+std::string as_make_reads(const std::string& folder) {
+  std::string seen;
+  for (const char c : folder) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c != ' ' && byte < 0x80 && !std::isalnum(byte) && std::string_view("/._-+,=@~").find(c) == std::string_view::npos)
+      throw Failure(Exit::input, Error{{folder},
+                                       "",
+                                       fmt::format("the programs lie in a folder with {} in its name", c),
+                                       "letters, digits, blanks, / . _ - + , = @ ~",
+                                       "make gives it a meaning: put them elsewhere"});
+    seen += c == ' ' ? "\\ " : std::string(1, c);
+  }
+  return seen;
+}
+
+struct Planned {
+  Planning planning;
+  PlanReport report;
+  std::string name;
+  std::vector<Step> steps;
+};
+
+// siblings: array jobs of one node start together, and none waits for another
+Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides, bool siblings,
+                bool with_data = false) {
+  Tree tree = load_yaml(pipeline_file);
+  apply(overrides, tree);
+  set_base(tree, "");
+  const Pipeline written = read_pipeline(tree);
+  if (folder.empty()) folder = "runs/" + written.name;
+  std::vector<Step> steps = expand(written, load_yaml);
+  if (siblings) offer_siblings(steps);
+  Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
+  for (const Step& step : p.steps) p.planning.add(step);
+  if (with_data) p.planning.look_at_data();
+  p.planning.stop_if_wrong();
+  p.report.doubts = p.planning.doubts;
+  return p;
+}
+
+}  // namespace
+
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder, const Overrides& overrides) {
+  return planned(pipeline_file, std::move(folder), overrides, true, true).report;
+}
+
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
+                PlanFor others, const Overrides& overrides) {
+  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides, !others.slurm);
+  make_folder(report.folder);
+  const std::string makefile = (fs::path(report.folder) / "Makefile").string(),
+                    snakefile = (fs::path(report.folder) / "Snakefile").string();
+  need_own_text(makefile, planned_by);
+  if (others.snakemake) need_own_text(snakefile, planned_by);
+  begin_beside(makefile);
+  const OutputLock lock(makefile, command);
+  for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
+  const std::string seen_bin = as_make_reads(relative_path(bin, report.folder));
+  const std::string file_name = fs::path(pipeline_file).filename().string();
+  write_if_changed(makefile, makefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.snakemake) write_if_changed(snakefile, snakefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.slurm)
+    for (const SlurmFile& file : slurm_files(name, steps)) {
+      const fs::path path = fs::path(report.folder) / file.name;
+      write_if_changed(path, file.text);
+      if (file.program) fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
+    }
+  return report;
+}
+
+}  // namespace langer

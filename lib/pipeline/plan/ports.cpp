@@ -1,0 +1,108 @@
+#include "pipeline/plan/ports.hpp"
+
+namespace langer {
+
+namespace {
+
+const StageSpec mesh_stage{"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
+const StageSpec fit_stage{"fit",
+                          "Finds material parameters from a measured curve.",
+                          {{.name = "curves",
+                            .says = "what was measured in a scene, of the items of data without a file, in their order",
+                            .made_by = {"post"},
+                            .required = false,
+                            .several = true}},
+                          "material.h5"};
+const StageSpec sample_stage{"sample",
+                             "Takes one of the sets of parameters that a fit leaves open.",
+                             {{.name = "material", .says = "the fit", .made_by = {"fit"}}},
+                             "material.h5"};
+const StageSpec sensitivity_stage{
+    "sensitivity",
+    "Ranks material parameters: one at a time, by Morris, by Sobol.",
+    {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},
+    "sensitivity.h5"};
+const StageSpec solve_stage{"solve",
+                            "Finds equilibrium along a load path.",
+                            {{.name = "mesh",
+                              .says = "mesh with named sets and frames, unless the config has one",
+                              .made_by = {"mesh"},
+                              .required = false,
+                              .or_key = true},
+                             {.name = "material",
+                              .says = "energy terms and their parameters, unless the config has them",
+                              .made_by = {"fit", "sample"},
+                              .required = false,
+                              .or_key = true,
+                              .takes_yaml = true},
+                             {.name = "mirror",
+                              .says = "a solution with other fibre angles, copied where this scene is its image",
+                              .made_by = {"solve"},
+                              .required = false}},
+                            "solution.h5",
+                            true};
+const StageSpec post_stage{
+    "post",
+    "Turns a solution into fields and curves.",
+    {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
+    "curves.h5",
+    false,
+    "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
+    "and wants --solution only"};
+const StageSpec gather_stage{
+    "gather",
+    "Collects one quantity or several over a sweep.",
+    {{.name = "curves",
+      .says = "a member of the sweep: any file with a /summary",
+      .made_by = {"post", "fit", "sensitivity", "mesh"},
+      .several = true,
+      .members = true},
+     {.name = "material", .says = "of a sweep over {samples: 100} the fit that has them", .made_by = {"fit"}, .required = false}},
+    "sweep.h5"};
+const StageSpec report_stage{
+    "report",
+    "Writes a report on a run: one page that opens offline.",
+    {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
+     {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
+     {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
+     {.name = "solution", .says = "a body to look at", .made_by = {"solve"}, .required = false, .several = true},
+     {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
+     {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
+    "report.html"};
+const StageSpec tune_stage{
+    "tune",
+    "Draws the work-precision diagram of a refinement study: which settings give the least error for their cost.",
+    {{.name = "curves",
+      .says = "one level of the study: curves of its solution",
+      .made_by = {"post"},
+      .several = true,
+      .members = true}},
+    "levels.h5"};
+
+}  // namespace
+
+const std::vector<StageSpec>& stages() {
+  static const std::vector<StageSpec> table{mesh_stage, fit_stage,    sample_stage, sensitivity_stage, solve_stage,
+                                            post_stage, gather_stage, report_stage, tune_stage};
+  return table;
+}
+
+const Port* StageSpec::port(const std::string& wanted) const {
+  for (const Port& p : inputs)
+    if (wanted == p.name) return &p;
+  return nullptr;
+}
+
+const StageSpec* find_stage(const std::string& name) {
+  for (const StageSpec& s : stages())
+    if (name == s.name) return &s;
+  return nullptr;
+}
+
+std::vector<std::string> stage_names() {
+  std::vector<std::string> names;
+  for (const StageSpec& s : stages()) names.push_back(s.name);
+  return names;
+}
+
+}  // namespace langer

@@ -1,0 +1,44 @@
+// One table over the members of a sweep: a row per member, first its values on the axes, then quantities of its summary.
+// A quantity that a member does not have is NaN here and an empty cell in CSV.
+// Refused: a quantity that no member has, a quantity whose unit differs between members.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "results/store/provenance.hpp"
+
+namespace langer {
+
+struct GatherInput {
+  std::string path;             // what the member is called
+  std::vector<std::string> at;  // its value on each axis, as text
+  std::vector<Summary> summary;
+};
+
+struct SweepAxis {
+  std::string name, unit;
+  std::vector<std::string> values;  // one per member
+  bool samples = false;             // of what a fit leaves open (sweep/spread.hpp)
+};
+
+struct SweepColumn {
+  std::string name, unit;
+  std::vector<double> values;  // one per member
+};
+
+struct Sweep {
+  std::vector<std::string> members;
+  std::vector<SweepAxis> axes;
+  std::vector<SweepColumn> columns;
+};
+
+// `axes` come without values; `columns` empty: all quantities of the first member; `columns_at`: where they were asked for
+Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes, const std::vector<GatherInput>& members,
+             const Place& columns_at = {});
+
+// header and one line per member
+std::string csv(const Sweep& sweep);
+
+}  // namespace langer

@@ -1,0 +1,161 @@
+#include "pipeline/sweep/spread.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/quantile.hpp"
+#include "core/config/writer.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr const char* prefix = "parameter_";
+
+double mean_of(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+
+// sum of (a - mean)(b - mean)/(n - 1)
+double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
+  const double ma = mean_of(a), mb = mean_of(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - ma) * (b[i] - mb);
+  return sum / static_cast<double>(a.size() - 1);
+}
+
+double percentile(std::vector<double> v, double part) {
+  std::sort(v.begin(), v.end());
+  return quantile(v, part);
+}
+
+// of a curve at a place between its rows; beyond them their nearest end
+double read_at(const Column& x, const Column& y, double at) {
+  const std::size_t n = std::min(x.values.size(), y.values.size());
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double a = x.values[i], b = x.values[i + 1];
+    if (a == b || (at - a) * (at - b) > 0) continue;
+    return y.values[i] + (at - a) / (b - a) * (y.values[i + 1] - y.values[i]);
+  }
+  return std::abs(at - x.values[0]) < std::abs(at - x.values[n - 1]) ? y.values[0] : y.values[n - 1];
+}
+
+}  // namespace
+
+std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summary>>& sets) {
+  std::vector<SweepColumn> all;
+  if (sets.empty()) return all;
+  for (const Summary& first : sets[0]) {
+    SweepColumn column{first.name, first.unit, {}};
+    for (const std::vector<Summary>& set : sets) {
+      const auto it = std::find_if(set.begin(), set.end(), [&](const Summary& one) { return one.name == first.name; });
+      column.values.push_back(it == set.end() ? std::nan("") : it->value);
+    }
+    const bool varies = std::any_of(column.values.begin(), column.values.end(), [&](double v) { return v != column.values[0]; });
+    if (varies) all.push_back(std::move(column));
+  }
+  return all;
+}
+
+Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& parameters) {
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < column.values.size(); ++i)
+    if (std::isfinite(column.values[i])) there.push_back(i);
+  const auto chosen = [&](const std::vector<double>& all) {
+    std::vector<double> some;
+    for (std::size_t i : there) some.push_back(all[i]);
+    return some;
+  };
+  const double none = std::nan("");
+  Spread spread{column.name, column.unit, none, none, none, none};
+  if (there.size() < 2) return spread;
+  const std::vector<double> v = chosen(column.values);
+  spread.mean = mean_of(v), spread.deviation = std::sqrt(covariance_of(v, v));
+  spread.low = percentile(v, 0.025), spread.high = percentile(v, 0.975);
+  for (const SweepColumn& p : parameters) {
+    const std::vector<double> q = chosen(p.values);
+    const double variance = covariance_of(q, q), both = covariance_of(v, q);
+    const double part = variance > 0 && spread.deviation > 0 ? both * both / (variance * spread.deviation * spread.deviation) : 0;
+    spread.parts.push_back({p.name.substr(std::string(prefix).size()), spread.deviation * std::sqrt(std::max(0.0, 1 - part))});
+  }
+  std::stable_sort(spread.parts.begin(), spread.parts.end(), [](const auto& a, const auto& b) { return a.without < b.without; });
+  return spread;
+}
+
+std::string spread_csv(const std::vector<Spread>& all) {
+  std::vector<std::string> names;
+  for (const Spread& one : all)
+    for (const Spread::Part& part : one.parts)
+      if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
+  std::sort(names.begin(), names.end());
+  std::string text = "quantity,unit,mean,standard_deviation,lower_95,upper_95";
+  for (const std::string& name : names) text += "," + csv_cell("without_" + name);
+  text += "\n";
+  const auto cell = [](double x) { return std::isnan(x) ? std::string() : number_text(x); };
+  for (const Spread& one : all) {
+    text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit), cell(one.mean), cell(one.deviation),
+                        cell(one.low), cell(one.high));
+    for (const std::string& name : names) {
+      const auto part = std::find_if(one.parts.begin(), one.parts.end(), [&](const auto& p) { return p.name == name; });
+      text += "," + (part == one.parts.end() ? std::string() : cell(part->without));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string in_words(const Spread& s) {
+  const auto percent = [&](double part) { return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(s.mean), 1e-300)); };
+  std::string words = fmt::format("{} {:.4g}{} +- {} (parameters), 95 % in {:.4g} to {:.4g}", s.name, s.mean,
+                                  s.unit == "-" ? "" : " " + s.unit, percent(s.deviation), s.low, s.high);
+  int said = 0;
+  for (const Spread::Part& part : s.parts)
+    if (part.without < 0.9 * s.deviation && said++ < 3)
+      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without), part.name);
+  return words;
+}
+
+Band band_of(const std::string& figure, const std::vector<const Column*>& x, const std::vector<const Column*>& y) {
+  Band band{figure, *x[0], *y[0], *y[0], *y[0], *y[0]};
+  for (std::size_t row = 0; row < x[0]->values.size(); ++row) {
+    std::vector<double> at;
+    for (std::size_t k = 0; k < x.size(); ++k) at.push_back(read_at(*x[k], *y[k], x[0]->values[row]));
+    band.mean.values[row] = mean_of(at);
+    band.deviation.values[row] = std::sqrt(covariance_of(at, at));
+    band.low.values[row] = percentile(at, 0.025), band.high.values[row] = percentile(at, 0.975);
+  }
+  return band;
+}
+
+void write_spread(const h5::Group& root, const std::vector<Spread>& all, const std::vector<Band>& bands) {
+  const auto write_interval = [](const h5::Group& group, const std::vector<double>& low, const std::vector<double>& high,
+                                 const std::string& unit) {
+    std::vector<double> both;
+    for (std::size_t i = 0; i < low.size(); ++i) both.push_back(low[i]), both.push_back(high[i]);
+    group.write<double>("interval", {low.size(), 2}, both, unit);
+  };
+  const h5::Group spreads = root.make_group("spread");
+  for (const Spread& one : all) {
+    const h5::Group group = spreads.make_group(one.name);
+    group.write_scalar("mean", one.mean, one.unit), group.write_scalar("deviation", one.deviation, one.unit);
+    write_interval(group, {one.low}, {one.high}, one.unit);
+    std::vector<double> without;
+    std::vector<std::string> order;
+    for (const Spread::Part& part : one.parts) without.push_back(part.without), order.push_back(part.name);
+    group.write<double>("without", {without.size()}, without, one.unit);
+    group.attribute("order", fmt::format("{}", fmt::join(order, " ")));
+  }
+  const h5::Group curves = root.make_group("bands");
+  for (const Band& band : bands) {
+    const h5::Group group = curves.make_group(band.figure + "_" + band.mean.name);
+    const std::size_t n = band.x.values.size();
+    group.write<double>("x", {n}, band.x.values, band.x.unit);
+    group.write<double>("mean", {n}, band.mean.values, band.mean.unit);
+    group.write<double>("deviation", {n}, band.deviation.values, band.mean.unit);
+    write_interval(group, band.low.values, band.high.values, band.mean.unit);
+    group.attribute("x", band.x.name), group.attribute("y", band.mean.name);
+  }
+}
+
+}  // namespace langer

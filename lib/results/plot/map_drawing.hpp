@@ -1,0 +1,38 @@
+// How maps (post/map.hpp) are drawn: one panel, or several on one scale.
+//   bands   between round numbers; where the values have both signs white is 0, one colour below and another above
+//   range   values beyond it take a colour of their own, and the colour bar ends in a tip
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/fields.hpp"
+#include "results/plot/drawing.hpp"
+#include "results/store/curves_file.hpp"
+
+namespace langer {
+
+struct MapStyle {
+  std::optional<double> reach;
+  std::optional<std::array<double, 2>> range;
+  bool cells = false, fibres = true;
+  std::string title;
+  static void fields(auto& v) {
+    v(&MapStyle::reach, "reach", unit::mm, "half the side of the square shown, around x = z = 0; by default all", positive);
+    v(&MapStyle::range, "range", unit::none, "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&MapStyle::cells, "cells", unit::none, "draw the edges of the cells");
+    v(&MapStyle::fibres, "fibres", unit::none, "draw the direction of the first fibre family");
+    v(&MapStyle::title, "title", unit::none, "above the picture");
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+struct MapPanel {
+  std::string title;
+  const SurfaceMap* map = nullptr;
+};
+// all panels show the same quantity; one colour scale for all
+Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns = 1, const Look& look = {});
+
+}  // namespace langer

@@ -1,0 +1,131 @@
+#include "results/post/curves.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "mechanics/element/surface.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "core/tensor/stress.hpp"
+
+namespace langer {
+
+namespace {
+
+Vec3 mean(const std::vector<Vec3>& field, const std::vector<int>& nodes) {
+  Vec3 sum = Vec3::Zero();
+  for (int node : nodes) sum += field[node];
+  return sum / static_cast<double>(nodes.size());
+}
+
+Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gauss) {
+  Extremes all;
+  int cell = 0, point = 0;
+  for (int e = 0; e < body.mesh().n_cells(); ++e) {
+    add_gauss_values(body, u, e, gauss);
+    for (int g = 0; g < gauss[e].rows(); ++g) {
+      const VecX row = gauss[e].row(g).transpose();
+      const Mat3 sigma = sigma_of(row);
+      if (const double s = von_mises(sigma); s > all.von_mises) all.von_mises = s, cell = e, point = g;
+      all.J = std::min(all.J, J_of(row));
+      all.pressure_min = std::min(all.pressure_min, mean_stress(sigma));
+      all.pressure_max = std::max(all.pressure_max, mean_stress(sigma));
+      for (std::size_t k = 0; k < body.fibres(e).size(); ++k)
+        all.fibre_stretch = std::max(all.fibre_stretch, fibre_stretch_of(row, static_cast<int>(k)));
+    }
+  }
+  all.place = gauss_position(body.mesh(), cell, point);
+  return all;
+}
+
+// Each point of the surface goes straight: V = integral over 0 <= s <= 1 of (integral u . n da) where s u is reached, a polynomial of second
+// degree in s, which Simpson's rule integrates exactly.
+double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<Vec3>& u) {
+  double volume = 0;
+  for (const Facet& facet : facets) {
+    const auto nodes = mesh.cell(facet.cell);
+    ElementNodes X = element_nodes(mesh, facet.cell), moved = X;
+    for (std::size_t a = 0; a < nodes.size(); ++a) moved.row(static_cast<Eigen::Index>(a)) = u[nodes[a]].transpose();
+    for (const auto& [s, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}})
+      volume -= weight * follower_pressure(mesh.cell(), facet.local, X + s * moved).cwiseProduct(moved).sum();
+  }
+  return mesh.section ? cell_share(*mesh.section) * volume : volume;
+}
+
+}  // namespace
+
+StepState unloaded(const Mesh& mesh) {
+  StepState state;
+  state.u.assign(mesh.X.size(), Vec3::Zero());
+  state.reaction = state.u;
+  return state;
+}
+
+double value_of(Quantity quantity, const VecX& row, int family) { return std::get<OfPoint>(line_of(quantity).value)(row, family); }
+
+namespace {
+
+// The value of a line's function, given what it takes.
+struct Measurement {
+  const Body& body;
+  const Measure& m;
+  StressAt at;
+  const StepState& state;
+  GaussValues& gauss;
+  std::optional<Extremes>& all;  // found once for all measures
+
+  double operator()(OfState value) const { return value(state); }
+  double operator()(OfNodes value) const { return value(mean(state.u, m.nodes)); }
+  double operator()(OfContact value) const {
+    double sum = 0;
+    for (int node : m.nodes)
+      sum += value(state.contact.empty() ? ContactNode{0, 0, 0, 0} : state.contact[static_cast<std::size_t>(node)]);
+    return sum / static_cast<double>(m.nodes.size());
+  }
+  double operator()(OfSet value) const {
+    SetState set{mean(state.u, m.nodes), Vec3::Zero(), m.length};
+    for (int node : m.nodes) set.reaction += state.reaction[node];
+    if (!m.facets.empty()) set.swept = swept_volume(body.mesh(), m.facets, state.u);
+    return value(set);
+  }
+  double operator()(OfPoint value) const {
+    double sum = 0;
+    for (int node : m.nodes) {
+      for (const auto [e, a] : body.corners(node)) add_gauss_values(body, state.u, e, gauss);
+      sum += value(node_values(body, node, gauss, at), m.family);
+    }
+    return sum / static_cast<double>(m.nodes.size());
+  }
+  double operator()(OfBody value) const {
+    if (!all) all = extremes(body, state.u, gauss);
+    return value(*all);
+  }
+};
+
+}  // namespace
+
+std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at, const StepState& state,
+                             GaussValues& gauss) {
+  std::vector<double> values;
+  std::optional<Extremes> all;
+  for (const Measure& m : measures) {
+    if (m.quotient) {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+    } else if (m.quantity) {
+      values.push_back(std::visit(Measurement{body, m, at, state, gauss, all}, line_of(*m.quantity).value));
+    } else {
+      const auto found = state.histories.find(m.history);
+      values.push_back(found == state.histories.end() ? 0 : found->second);
+    }
+  }
+  const auto named = [&](const std::string& name) {
+    const auto found = std::find_if(measures.begin(), measures.end(), [&](const Measure& m) { return m.name == name; });
+    return found == measures.end() ? 0 : values[static_cast<std::size_t>(found - measures.begin())];
+  };
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    if (const auto& pair = measures[i].quotient)
+      if (const double below = named((*pair)[1]); below != 0) values[i] = named((*pair)[0]) / below;
+  for (double& value : values) value += 0.0;  // no -0 in tables
+  return values;
+}
+
+}  // namespace langer

@@ -1,0 +1,184 @@
+#include "results/post/energy_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "mechanics/contact/touch.hpp"
+
+namespace langer {
+
+namespace {
+
+// Of an increment in which a pushed indenter comes to the body, the movement behind the touch: before it there is no force.
+Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& from, std::size_t k, const Vec3& c,
+                  const Vec3& dc) {
+  const std::vector<Vec3>& r = from.r[k];
+  if (!contact.control || std::any_of(r.begin(), r.end(), [](const Vec3& r_i) { return !r_i.isZero(0); })) return dc;
+  const RigidContact pushed{contact.name, contact.shape, 0, contact.nodes, {}, ForceControl{contact.control->along, {}}};
+  const auto position = [&](int node) { return Vec3(mesh.X[node] + from.u[node] - c); };
+  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0)), way = dc.dot(contact.control->along);
+  return free < way ? Vec3(dc - free * contact.control->along) : dc;
+}
+
+// Of a body of revolution what points away from the axis is that of the whole circle, and cancels.
+Vec3 of_circle(const Mesh& mesh, const Vec3& sum) {
+  return mesh.section && mesh.section->of == SectionOf::axisymmetric ? Vec3(0, sum[1], 0) : sum;
+}
+
+// What bonds make of the force on the body that pulls it towards the indenter, along the mean normal of what bears [N].
+double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state, std::size_t k, const Vec3& c) {
+  Vec3 force = Vec3::Zero(), normal = Vec3::Zero();
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const Vec3 &r = state.r[k][i], &bond = state.bonds[k][i];
+    if (r.isZero(0) && bond.isZero(0)) continue;
+    const int node = contact.nodes[i];
+    const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
+    force += r + bond, normal += (r.norm() + bond.norm()) * n;
+  }
+  normal = of_circle(mesh, normal);
+  return normal.isZero(0) ? 0 : std::max(0.0, -force.dot(normal.normalized()));
+}
+
+}  // namespace
+
+EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks,
+                       std::vector<TurnedSet> turned)
+    : mesh_(mesh), contacts_(std::move(contacts)), kinks_(std::move(kinks)), turned_(std::move(turned)) {
+  for (const RigidContact& contact : contacts_) slips_.emplace_back(contact.nodes.size(), 0.0);
+}
+
+void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) {
+  const RigidContact& contact = contacts_[k];
+  const Vec3 c0 = indenter_displacement(contact, last_.t), c = indenter_displacement(contact, now.t), dc = c - c0;
+  rates.push_back(dc / step.dt);
+  if (k == 0) {
+    Vec3 force = Vec3::Zero();
+    for (const Vec3& r : now.r[0]) force += r;
+    step.way = dc.norm(), step.travel = c.norm(), step.force = of_circle(mesh_, force).norm();
+  }
+  if (!now.bonds.empty() && !now.bonds[k].empty()) step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
+  double angle = 0;
+  if (contact.rotation) {
+    angle = contact.rotation->angle.at(now.t) - contact.rotation->angle.at(last_.t);
+    rates.push_back(angle / step.dt * contact.rotation->axis.along);
+    step.begin += angle * torque(
+                              contact, [&](int node) { return Vec3(mesh_.X[node] + last_.u[node]); }, c0, last_.r[k]);
+    step.end += angle * torque(
+                            contact, [&](int node) { return Vec3(mesh_.X[node] + now.u[node]); }, c, now.r[k]);
+  }
+  const Vec3 worked = behind_touch(contact, mesh_, last_, k, c0, dc);
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const int node = contact.nodes[i];
+    const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
+    from_contact.begin[node] += r0, from_contact.end[node] += r1;
+    step.begin += r0.dot(worked), step.end += r1.dot(worked);
+    for (const auto& [state, from, power] :
+         {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin}, {&now, &from_contact.end, &step.end}})
+      if (k < state->bonds.size() && !state->bonds[k].empty())
+        (*from)[node] += state->bonds[k][i], *power += state->bonds[k][i].dot(worked);
+    // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
+    const Vec3 x0 = mesh_.X[node] + last_.u[node];
+    Vec3 v = now.u[node] - last_.u[node] - dc;
+    if (angle != 0) {  // a node at rest slips along an arc about the axis, and this is its chord, seen from the end
+      v -= carried(contact, angle, x0, c0);
+      v = 0.5 * angle / std::sin(0.5 * angle) * (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
+    }
+    for (const auto& [r, x] : {std::pair{r0, Vec3(x0 - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
+      if (r.isZero(0)) continue;
+      const Vec3 n = shape_at(contact.shape, x).normal;
+      step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
+    }
+    if (r0.isZero(0) || r1.isZero(0)) continue;
+    const Vec3 n = shape_at(contact.shape, Vec3(mesh_.X[node] + now.u[node] - c)).normal;
+    slips_[k][i] += (v - v.dot(n) * n).norm();
+  }
+}
+
+EnergyPath::Ends EnergyPath::imposed(const State& now) const {
+  Ends du;
+  for (std::size_t i = 0; i < now.u.size(); ++i) du.begin.push_back(now.u[i] - last_.u[i]);
+  du.end = du.begin;
+  for (const TurnedSet& set : turned_) {
+    const Vec3 p0 = set.axis_at(last_.t), p = set.axis_at(now.t);
+    const Vec3 turn = (set.angle.at(now.t) - set.angle.at(last_.t)) * set.axis.along;
+    for (int node : set.nodes) {
+      du.begin[node] = p - p0 + cross(turn, mesh_.X[node] + last_.u[node] - p0);
+      du.end[node] = p - p0 + cross(turn, mesh_.X[node] + now.u[node] - p);
+    }
+  }
+  return du;
+}
+
+void EnergyPath::add(State now) {
+  stored_.push_back(now.stored);
+  if (stored_.size() == 1) {
+    last_ = std::move(now);
+    return;
+  }
+  Interval step{now.t - last_.t, 0, 0, intervals_.size() > 0, 0, 0, 0, 0};
+  const std::vector<Vec3> none(now.u.size(), Vec3::Zero());
+  Ends from_contact{none, none};
+  std::vector<Vec3> rates;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) add_contact(k, now, step, from_contact, rates);
+  const Ends du = imposed(now);  // supports do not move
+  for (std::size_t i = 0; i < now.u.size(); ++i) {
+    if (now.loads.size() > 0) {
+      const auto row = 3 * static_cast<Eigen::Index>(i);
+      const Vec3 moved = now.u[i] - last_.u[i];
+      step.begin += last_.loads.segment<3>(row).dot(moved), step.end += now.loads.segment<3>(row).dot(moved);
+    }
+    step.begin += (last_.reaction[i] - from_contact.begin[i]).dot(du.begin[i]);
+    step.end += (now.reaction[i] - from_contact.end[i]).dot(du.end[i]);
+  }
+  step.begin /= step.dt, step.end /= step.dt;
+  for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
+    step.goes_on = (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
+  for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
+  if (const double jump = now.jumps - last_.jumps; jump != 0 || jumped_) {
+    step.goes_on = false, jumped_ = jump != 0;
+    if (jumped_) step.begin = step.end = jump / step.dt, step.dissipated = 0;  // friction in a jump is part of what it releases
+  }
+  intervals_.push_back(step);
+  rates_ = std::move(rates);
+  last_ = std::move(now);
+}
+
+std::vector<PathSums> EnergyPath::sums() const {
+  std::vector<PathSums> all(stored_.size());
+  double largest = 0, most_force = 0, work_at_begin = 0;
+  bool came_back = false;
+  for (std::size_t k = 0; k < intervals_.size(); ++k) {
+    const Interval& here = intervals_[k];
+    const double goes = here.travel - (k > 0 ? intervals_[k - 1].travel : 0);
+    if (goes > 0 && came_back) work_at_begin = all[k].work;
+    if (goes != 0) came_back = goes < 0;
+    const double slope = (here.end - here.begin) / here.dt;
+    // second divided differences with the states before and after
+    double curvature = 0;
+    int neighbours = 0;
+    if (here.goes_on) {
+      const Interval& before = intervals_[k - 1];
+      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
+    }
+    if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
+      const Interval& after = intervals_[k + 1];
+      curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
+    }
+    if (neighbours > 0) curvature /= neighbours;
+    PathSums& sum = all[k + 1];
+    sum.path = all[k].path + here.way;
+    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature;
+    sum.dissipated = all[k].dissipated + here.dissipated;
+    sum.hysteresis = sum.work - work_at_begin;
+    most_force = std::max(most_force, here.force);
+    sum.pull_off = std::max(all[k].pull_off, here.pull);
+    if (most_force > 0) sum.relaxation = here.force / most_force;
+    largest = std::max(largest, std::abs(sum.work));
+    if (largest > 0) sum.balance = (sum.work - stored_[k + 1] - sum.dissipated) / largest;
+  }
+  return all;
+}
+
+}  // namespace langer

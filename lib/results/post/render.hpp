@@ -1,0 +1,86 @@
+// A picture of the deformed body: its outer surface in orthographic projection, coloured by a field, with colour bar,
+// axes and the rigid indenters. Painted from back to front; made without a display.
+//   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
+//   outline  the edges of the undeformed body; points  named places, with their names; actions  what holds and moves the body
+//   cuts  only the cells on one side of each plane are shown; the first plane that meets an indenter cuts it too
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/contact/outline.hpp"
+#include "mechanics/mesh/mesh.hpp"
+#include "results/plot/drawing.hpp"
+#include "results/post/curves.hpp"
+
+namespace langer {
+
+enum class CutNormal { x, y, z };
+constexpr auto names(CutNormal) { return std::array{"x", "y", "z"}; }
+enum class Side { below, above };
+constexpr auto names(Side) { return std::array{"below", "above"}; }
+
+struct Cut {
+  CutNormal axis = CutNormal::z;
+  double at = 0;
+  Side keep = Side::below;
+  static void fields(auto& v) {
+    v(&Cut::axis, "axis", unit::none, "normal of the plane", required);
+    v(&Cut::at, "at", unit::mm, "reference coordinate of the plane", required);
+    v(&Cut::keep, "keep", unit::none, "which side is shown: of smaller or larger coordinates");
+  }
+};
+
+struct RenderChoice {
+  std::optional<Quantity> field;
+  int family = 1;
+  std::string step = "last";
+  std::optional<std::array<double, 2>> view;
+  std::vector<Cut> cuts;
+  std::optional<std::array<double, 2>> range;
+  std::vector<std::string> points;
+  bool outline = false, actions = false;
+  std::string title;
+  static void fields(auto& v) {
+    v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface; none: the mesh alone");
+    v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
+    v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
+    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0",
+      between(-360, 360));
+    v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
+    v(&RenderChoice::range, "range", unit::none,
+      "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&RenderChoice::points, "points", unit::none, "observation points that are marked and named");
+    v(&RenderChoice::outline, "outline", unit::none, "draw the edges of the undeformed body");
+    v(&RenderChoice::actions, "actions", unit::none, "draw supports and imposed displacements with what they impose");
+    v(&RenderChoice::title, "title", unit::none, "above the picture");
+  }
+  std::vector<Complaint> complaints() const;
+};
+
+// A displacement that is imposed on a set of nodes: 0 is a support.
+struct Action {
+  std::vector<Vec3> at;        // some of its nodes, deformed [mm]
+  Vec3 along = Vec3::UnitX();  // unit: the way it goes; of a support from outside to the body
+  bool moves = false;
+  std::string says;  // "u_x = 18 mm"
+};
+
+struct RenderScene {
+  const Mesh& mesh;
+  std::vector<Vec3> x;                                    // deformed positions (n) [mm]
+  std::vector<double> values;                             // of the field (n); empty without one
+  std::string label;                                      // of the colour bar, with unit; enhanced text
+  std::vector<Outline> indenters;                         // where they are now
+  std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
+  std::vector<Action> actions = {};
+};
+
+Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look = {});
+
+// Facets that belong to one of the kept cells only, corners counter-clockwise from outside.
+std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept);
+
+}  // namespace langer

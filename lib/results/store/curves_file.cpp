@@ -1,0 +1,164 @@
+#include "results/store/curves_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/hdf5/h5.hpp"
+#include "core/hdf5/seal.hpp"
+#include "core/hdf5/unit_attribute.hpp"
+
+namespace langer {
+
+std::string csv_name(const std::string& name, const std::string& unit) {
+  if (unit.empty() || unit == "-") return name;
+  std::string word;
+  for (char c : unit.starts_with("1/") ? unit.substr(1) : unit)
+    word += c == '/' ? (word.empty() ? "per_" : "_per_") : c == ' ' ? "_" : std::string(1, c);
+  return name + "_" + word;
+}
+
+std::string csv_cell(const std::string& text) {
+  const bool blank = !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '#');
+  if (!blank && text.find_first_of(",;\"\n\r\t") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv(const std::vector<Column>& columns) {
+  std::string text;
+  const std::size_t rows = columns.empty() ? 0 : columns[0].values.size();
+  for (const Column& c : columns) {
+    if (c.values.size() != rows)
+      throw Failure(Exit::bug, Error{{}, c.name, fmt::format("{} values", c.values.size()), fmt::format("{} rows", rows), ""});
+    text += (text.empty() ? "" : ",") + csv_cell(csv_name(c.name, c.unit));
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t c = 0; c < columns.size(); ++c)  // shortest digits that read back as the same number
+      text += fmt::format("{}{}", std::isnan(columns[c].values[i]) ? "" : fmt::format("{}", columns[c].values[i]),
+                          c + 1 < columns.size() ? "," : "\n");
+  return text;
+}
+
+std::vector<Column> columns_of(const SurfaceMap& map) {
+  std::vector<Column> columns{{"x", "mm", {}}, {"z", "mm", {}}, {map.name, map.unit, map.values}};
+  for (const auto& place : map.places)
+    for (std::size_t i = 0; i < 2; ++i) columns[i].values.push_back(place[i]);
+  return columns;
+}
+
+namespace {
+
+template <class To, class From, std::size_t n>
+std::vector<To> flat(const std::vector<std::array<From, n>>& rows) {
+  std::vector<To> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+template <class To, std::size_t n, class From>
+std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
+  std::vector<std::array<To, n>> rows(values.size() / n);
+  for (std::size_t i = 0; i < values.size(); ++i) rows[i / n][i % n] = static_cast<To>(values[i]);
+  return rows;
+}
+
+void write_map(const h5::Group& group, const SurfaceMap& map) {
+  const std::size_t n = map.places.size(), m = map.facets.size();
+  group.write_scalar("t", map.t, "-");
+  group.write<double>("places", {n, 2}, flat<double>(map.places), "mm");
+  group.write<double>("values", {n}, map.values, map.unit);
+  group.annotate("values", "label", map.label);
+  group.write<std::int64_t>("facets", {m, 4}, flat<std::int64_t>(map.facets));
+  group.write<double>("fibres", {map.fibres.size(), 2}, flat<double>(map.fibres), "-");
+  std::string names;
+  std::vector<std::array<double, 2>> points;
+  for (const auto& [name, at] : map.points) names += (names.empty() ? "" : " ") + name, points.push_back(at);
+  group.write<double>("points", {points.size(), 2}, flat<double>(points), "mm");
+  group.annotate("points", "names", names);
+}
+
+SurfaceMap read_map(const h5::Group& group, const std::string& name) {
+  SurfaceMap map{name, group.annotation("values", "label"), group.unit("values"), group.read_scalar("t"), {}, {}, {}, {}, {}};
+  need_known_unit(group, "values");
+  for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
+  map.values = group.read_finite("values", {h5::any});
+  const std::size_t n = map.values.size();
+  map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));
+  map.facets = rows_of<int, 4>(group.read<std::int64_t>("facets", {h5::any, 4}).values);
+  for (const auto& facet : map.facets)
+    for (int node : facet)
+      if (node < 0 || node >= static_cast<int>(n)) group.refuse("facets", fmt::format("node {}", node), "a node of the map");
+  map.fibres = rows_of<double, 2>(group.read_finite("fibres", {h5::any, 2}));
+  if (!map.fibres.empty() && map.fibres.size() != map.facets.size())
+    group.refuse("fibres", fmt::format("{} rows", map.fibres.size()), "one for each facet");
+  std::istringstream names(group.annotation("points", "names"));
+  const auto points = rows_of<double, 2>(group.read_finite("points", {h5::any, 2}));
+  std::string point;
+  for (const auto& at : points)
+    if (names >> point) map.points[point] = at;
+  return map;
+}
+
+}  // namespace
+
+void write_curves(const std::string& path, const Curves& all, const Identity& identity) {
+  if (!all.columns.empty()) write_text_file(std::filesystem::path(path).replace_extension(".csv").string(), csv(all.columns));
+  h5::File file = h5::File::create(path);
+  write_identity(file.root(), curves_schema, identity);
+  const h5::Group curves = file.root().make_group("curves"), columns = file.root().make_group("columns");
+  for (const NamedCurve& c : all.curves) {
+    const h5::Group one = curves.make_group(c.name);
+    one.write<double>("x", {c.x.size()}, c.x, c.x_unit);
+    one.write<double>("y", {c.y.size()}, c.y, c.y_unit);
+    one.annotate("x", "label", c.x_label);
+    one.annotate("y", "label", c.y_label);
+  }
+  std::string order;
+  for (const Column& c : all.columns) {
+    columns.write<double>(c.name, {c.values.size()}, c.values, c.unit);
+    order += (order.empty() ? "" : " ") + c.name;
+  }
+  columns.attribute("order", order);
+  if (!all.maps.empty()) {
+    const h5::Group maps = file.root().make_group("maps");
+    for (const SurfaceMap& map : all.maps) write_map(maps.make_group(map.name), map);
+  }
+  write_summary(file.root(), all.summary);
+  file.commit();
+}
+
+CurvesFile read_curves(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  CurvesFile result;
+  result.content_id = content_id(read_identity(file.root(), curves_schema), curves_schema.version);
+  const h5::Group curves = file.root().group("curves"), columns = file.root().group("columns");
+  for (const std::string& name : curves.groups()) {
+    const h5::Group one = curves.group(name);
+    NamedCurve c{name, one.annotation("x", "label"), one.unit("x"), one.annotation("y", "label"), one.unit("y"), {}, {}};
+    for (const char* axis : {"x", "y"}) need_known_unit(one, axis);
+    c.x = one.read<double>("x", {h5::any}).values;
+    c.y = one.read<double>("y", {c.x.size()}).values;
+    result.curves.curves.push_back(std::move(c));
+  }
+  std::istringstream order(columns.text_attribute("order"));
+  std::size_t rows = h5::any;
+  for (std::string name; order >> name;) {
+    need_known_unit(columns, name);
+    Column c{name, columns.unit(name), columns.read<double>(name, {rows}).values};
+    rows = c.values.size();
+    result.curves.columns.push_back(std::move(c));
+  }
+  if (file.root().has("maps")) {
+    const h5::Group maps = file.root().group("maps");
+    for (const std::string& name : maps.groups()) result.curves.maps.push_back(read_map(maps.group(name), name));
+  }
+  result.curves.summary = read_summary(file.root());
+  return result;
+}
+
+}  // namespace langer

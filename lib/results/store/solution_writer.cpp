@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/hdf5/seal.hpp"
+#include "results/store/vtk_grid.hpp"
+#include "results/store/listing.hpp"
+#include "results/store/provenance.hpp"
+#include "results/store/solution_file.hpp"
+#include "results/store/solution_layout.hpp"
+#include "results/store/step_journal.hpp"
+#include "results/store/xdmf.hpp"
+
+namespace langer {
+
+struct SolutionWriter::State {
+  State(h5::File f, const SolutionHeader& h, std::string where) : file(std::move(f)), header(h), path(std::move(where)) {}
+  h5::File file;
+  SolutionHeader header;
+  std::string path;
+  int n_steps = 0;
+  std::optional<StepRecord> before, last;
+  std::unique_ptr<StepJournal> journal;
+
+  void begin();
+  void check(const StepRecord& record) const;
+  void append(const StepRecord& record);
+  void contact(const StepRecord& record);
+  std::string as_xdmf();
+};
+
+namespace {
+
+constexpr std::size_t history_chunk = 128;  // steps; one chunk holds a usual run
+
+template <class T>
+void extend(const h5::Group& group, const std::string& name, const h5::Shape& row, std::size_t chunk, const std::vector<T>& rows,
+            const std::string& unit = "") {
+  if (!group.has(name)) group.make_extendible<T>(name, row, chunk, unit);
+  group.append<T>(name, rows);
+}
+
+void add(const h5::Group& group, const std::string& name, double value, const std::string& unit) {
+  extend<double>(group, name, {}, history_chunk, {value}, unit);
+}
+void add(const h5::Group& group, const std::string& name, const Vec3& value, const std::string& unit) {
+  extend<double>(group, name, {3}, history_chunk, {value[0], value[1], value[2]}, unit);
+}
+void add(const h5::Group& group, const std::string& name, std::int64_t value, const h5::Shape& row = {}) {
+  extend<std::int64_t>(group, name, row, history_chunk, {value});
+}
+
+[[noreturn]] void bug(const std::string& key, const std::string& found, const std::string& expected) {
+  throw Failure(Exit::bug, Error{{}, "StepRecord." + key, found, expected, ""});
+}
+
+void check_length(const std::string& key, std::size_t length, std::size_t expected) {
+  if (length != expected) bug(key, fmt::format("{} entries", length), fmt::format("{}", expected));
+}
+
+bool finite(double value) { return std::isfinite(value); }
+bool finite(const Vec3& value) { return value.allFinite(); }
+
+template <class T>
+void check_finite(const std::string& key, const std::vector<T>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!finite(values[i])) bug(key, fmt::format("entry {} is not finite", i), "finite numbers");
+}
+
+std::string names_of(const auto& map) {
+  std::string names;
+  for (const auto& [name, value] : map) names += name + " ";
+  return names;
+}
+
+}  // namespace
+
+SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header, const StillGood& still_good) {
+  const auto begin = [&] {  // the journal looks first at what is there
+    if (state_) return;
+    state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header, path);
+    state_->begin();
+    sync_folder_of(path);
+  };
+  auto journal = std::make_unique<StepJournal>(path, header, [&](const StepRecord& step, const EarlierRun& run) {
+    if (still_good && !still_good(step, run)) return false;
+    begin();
+    state_->append(step);
+    return true;
+  });
+  begin();
+  state_->journal = std::move(journal);
+}
+
+SolutionWriter::~SolutionWriter() = default;
+
+std::optional<StepRecord> SolutionWriter::resumed() const { return state_->last; }
+std::optional<StepRecord> SolutionWriter::before_resumed() const { return state_->before; }
+int SolutionWriter::n_steps() const { return state_->n_steps; }
+const std::vector<EarlierRun>& SolutionWriter::earlier() const { return state_->journal->earlier(); }
+
+void SolutionWriter::State::begin() {
+  const h5::Group root = file.root();
+  write_identity(root, schema_of(solution_schema, header.mesh), header.identity);
+  const h5::Group grid = write_grid(root, header.mesh, {2, 0});
+  write_sets(root, header.mesh);
+  write_section(root, header.mesh);
+  write_hanging(root, header.mesh);
+  root.attribute("formulation", header.formulation);
+  write_listing(root.make_group("material"), header.material);
+  if (!header.materials.empty()) {
+    const h5::Group materials = root.make_group("materials");
+    for (std::size_t b = 0; b < header.materials.size(); ++b)
+      write_listing(materials.make_group(std::to_string(b)), header.materials[b]);
+  }
+  const int families = header.directions.from_field() ? header.directions.n_families() : 0;
+  for (int k = 0; k < families; ++k) {
+    std::vector<Vec3> directions;  // zero in cells without this family
+    for (int e = 0; e < header.mesh.n_cells(); ++e) {
+      const auto a = header.directions.of(e);
+      directions.push_back(static_cast<std::size_t>(k) < a.size() ? a[static_cast<std::size_t>(k)] : Vec3(Vec3::Zero()));
+    }
+    grid.group("CellData").write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions), "-");
+  }
+  grid.make_group("PointData");
+  const h5::Group steps = grid.make_group("Steps");
+  steps.make_group("PointDataOffsets");
+  steps.make_group("CellDataOffsets");
+  steps.attribute("NSteps", std::int64_t{0});
+  root.make_group("history").make_group("reactions");
+  for (const auto& [name, nodes] : header.contact_nodes)
+    root.make_group("contact").make_group(name).write<std::int64_t>("nodes", {nodes.size()},
+                                                                    std::vector<std::int64_t>(nodes.begin(), nodes.end()));
+  for (const auto& [name, triangles] : header.indenter_surfaces)
+    write_triangles(root.group("contact").group(name).make_group("surface"), triangles);
+  file.flush();
+}
+
+// Before anything is written, so that a refused record leaves no rows behind.
+void SolutionWriter::State::check(const StepRecord& record) const {
+  check_length("u", record.u.size(), header.mesh.X.size());
+  check_length("reaction", record.reaction.size(), header.mesh.X.size());
+  check_finite("u", record.u);
+  check_finite("reaction", record.reaction);
+  check_finite("u_ind, force_ind, t, increment or residual",
+               std::vector<Vec3>{record.u_ind, record.force_ind, {record.t, record.increment, record.residual}});
+  for (const auto& [name, values] : record.point_fields) {
+    check_length(name, values.size(), header.mesh.X.size());
+    check_finite(name, values);
+  }
+  for (const auto& [name, values] : record.cell_fields) {
+    check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells() * solution::components_of(name)));
+    check_finite(name, values);
+  }
+  for (const auto& [name, value] : record.scalars) {
+    check_finite(name, std::vector{value});
+    if (solution::among(solution::histories, name)) bug("scalars." + name, "a name of the file's own", "another name");
+  }
+  const auto all_names = [](const StepRecord& r) {
+    return names_of(r.point_fields) + names_of(r.cell_fields) + names_of(r.scalars);
+  };
+  if (last && all_names(record) != all_names(*last))
+    bug("point_fields, cell_fields and scalars", all_names(record), all_names(*last) + "as in the steps before");
+  check_length("contacts", record.contacts.size(), header.contact_nodes.size());
+  for (const auto& [name, nodes] : header.contact_nodes) {
+    const auto found = record.contacts.find(name);
+    if (found == record.contacts.end()) bug("contacts", "nothing for " + name, "every contact of the header");
+    check_length(name + ".r", found->second.r.size(), nodes.size());
+    check_length(name + ".status", found->second.status.size(), nodes.size());
+    check_length(name + ".gap", found->second.gap.size(), nodes.size());
+    check_finite(name + ".r", found->second.r);
+    check_finite(name + ".gap", found->second.gap);
+    for (int status : found->second.status)
+      if (status < 0 || status > 2) bug(name + ".status", std::to_string(status), "0 open, 1 stick or 2 slip");
+  }
+}
+
+void SolutionWriter::State::append(const StepRecord& record) {
+  check(record);
+  if (journal) journal->append(record);  // from here on the step has been made, whatever becomes of the HDF5 file
+  const h5::Group root = file.root(), grid = root.group("VTKHDF"), history = root.group("history");
+  const std::size_t n = header.mesh.X.size(), e = static_cast<std::size_t>(header.mesh.n_cells());
+  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"), steps = grid.group("Steps");
+  const h5::Group point_offsets = steps.group("PointDataOffsets"), cell_offsets = steps.group("CellDataOffsets");
+  extend<double>(points, "u", {3}, n, flat(record.u), "mm");
+  extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
+  for (const char* name : {"u", "reaction"}) add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  for (const auto& [name, values] : record.point_fields) {
+    extend<double>(points, name, {3}, n, flat(values), "-");
+    add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  }
+  for (const auto& [name, values] : record.cell_fields) {
+    const auto components = static_cast<std::size_t>(solution::components_of(name));
+    if (components == 9 && n_steps == 0) cells.attribute("Tensors", name);  // as VTK marks them
+    extend<double>(cells, name, components == 1 ? h5::Shape{} : h5::Shape{components}, e, values, solution::unit_of(name));
+    add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
+  }
+  add(steps, "Values", record.t, "-");
+  for (const char* name : {"PartOffsets", "PointOffsets"}) add(steps, name, std::int64_t{0});
+  add(steps, "NumberOfParts", std::int64_t{1});
+  for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) add(steps, name, std::int64_t{0}, {1});
+  for (const std::string& name : cells.datasets())
+    if (solution::is_static(name)) add(cell_offsets, name, std::int64_t{0});
+
+  add(history, "t", record.t, "-");
+  add(history, "increment", record.increment, "-");
+  add(history, "iterations", std::int64_t{record.iterations});
+  add(history, "residual", record.residual, "-");
+  for (const auto& [name, value] : record.scalars) add(history, name, value, solution::unit_of(name));
+  for (const auto& [name, nodes] : header.mesh.node_sets) {
+    Vec3 sum = Vec3::Zero();
+    for (int node : nodes) sum += record.reaction[static_cast<std::size_t>(node)];
+    add(history.group("reactions"), name, sum, "N");
+  }
+  if (!header.contact_nodes.empty()) contact(record);
+
+  // after everything it covers is in the file: who reads along sees whole steps
+  file.flush();
+  steps.attribute("NSteps", std::int64_t{++n_steps});
+  file.flush();
+  before = std::move(last);
+  last = record;
+}
+
+void SolutionWriter::State::contact(const StepRecord& record) {
+  const h5::Group root = file.root(), history = root.group("history");
+  add(history, "u_ind", record.u_ind, "mm");
+  add(history, "force_ind", record.force_ind, "N");
+  std::int64_t counts[3] = {0, 0, 0};
+  for (const auto& [name, nodes] : header.contact_nodes) {
+    const ContactRecord& contact = record.contacts.at(name);
+    const std::size_t k = nodes.size();
+    for (int status : contact.status) ++counts[status];
+    const h5::Group group = root.group("contact").group(name);
+    extend<double>(group, "r", {k, 3}, 1, flat(contact.r), "N");
+    extend<std::int64_t>(group, "status", {k}, 1, {contact.status.begin(), contact.status.end()});
+    extend<double>(group, "gap", {k}, 1, contact.gap, "mm");
+    if (contact.beta.empty()) continue;
+    extend<double>(group, "beta", {k}, 1, contact.beta, "-");
+    extend<double>(group, "bonded_at", {k, 3}, 1, flat(contact.bonded_at), "mm");
+    extend<double>(group, "adhesive", {k, 3}, 1, flat(contact.adhesive), "N");
+  }
+  for (int s = 0; s < 3; ++s)
+    add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
+}
+
+// empty: cells that XDMF does not know, or no step
+std::string SolutionWriter::State::as_xdmf() {
+  if (n_steps == 0 || !without_xdmf(header.mesh).empty()) return {};
+  const h5::Group grid = file.root().group("VTKHDF");
+  std::vector<XdmfArray> arrays;
+  for (const bool of_cells : {false, true})
+    for (const h5::Group group = grid.group(of_cells ? "CellData" : "PointData"); const std::string& name : group.datasets()) {
+      const h5::Shape shape = group.shape(name);
+      if (name == "body") continue;  // whole numbers, in the mesh
+      arrays.push_back({name, shape.size() > 1 ? static_cast<int>(shape[1]) : 1, of_cells, of_cells && solution::is_static(name)});
+    }
+  const auto times = grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
+  return xdmf(header.mesh, std::filesystem::path(path).filename().string(), times, arrays);
+}
+
+void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
+
+void SolutionWriter::say_image_of(const std::string& which) {
+  state_->file.root().group("provenance").write_text("image_of", which);
+}
+
+namespace {
+// steps that were made by other settings than those of the config in the file
+void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs, const std::string& config) {
+  if (std::all_of(runs.begin(), runs.end(), [&](const EarlierRun& r) { return r.config == config; })) return;
+  const h5::Group earlier = provenance.make_group("earlier");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const h5::Group one = earlier.make_group(std::to_string(i));
+    one.attribute("steps", std::int64_t{runs[i].steps});
+    one.write_text("config", runs[i].config);
+    one.write_text("command", runs[i].command);
+    one.write_text("code_version", runs[i].code_version);
+    one.write_text("created_utc", runs[i].created_utc);
+  }
+}
+}  // namespace
+
+void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary, const Histories& found_later) {
+  const h5::Group history = state_->file.root().group("history");
+  for (const auto& [name, values] : found_later) {
+    check_length(name, values.size(), static_cast<std::size_t>(n_steps()));
+    check_finite(name, values);
+    extend<double>(history, name, {}, history_chunk, values, solution::unit_of(name));
+  }
+  write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
+  if (!summary.empty()) write_summary(state_->file.root(), summary);
+  write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);
+  if (const std::string text = state_->as_xdmf(); !text.empty())
+    write_text_file(std::filesystem::path(state_->path).replace_extension(".xdmf").string(), text);
+  state_->file.commit();  // last: once it is there, everything is
+  state_->journal->remove();
+}
+
+}  // namespace langer

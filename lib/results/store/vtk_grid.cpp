@@ -1,0 +1,217 @@
+#include "results/store/vtk_grid.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/hdf5/unit_attribute.hpp"
+#include "mechanics/mesh/hanging.hpp"
+#include "mechanics/mesh/reference.hpp"
+#include "mechanics/mesh/section.hpp"
+
+namespace langer {
+
+namespace {
+
+using Integers = std::vector<std::int64_t>;
+constexpr const char* axes[3] = {"e_x", "e_y", "e_z"};
+
+void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape, const Integers& values) {
+  group.write<std::int64_t>(name, shape, values);
+}
+
+Mat3 orthonormal(const h5::Group& group, const std::vector<double>* columns, int e) {
+  Mat3 frame;
+  for (int i = 0; i < 3; ++i) frame.col(i) = Vec3(columns[i].data() + std::size_t{3} * e);
+  // files keep all digits of a double; 1e-9 leaves room for frames made by other tools
+  if (!((frame.transpose() * frame - Mat3::Identity()).norm() < 1e-9 && frame.determinant() > 0))
+    group.refuse("e_x", fmt::format("the frame of cell {} is not orthonormal and right-handed", e));
+  return frame;
+}
+
+std::vector<int> indices(const h5::Group& group, const std::string& name, const h5::Shape& shape, std::int64_t below) {
+  const auto array = group.read<std::int64_t>(name, shape);
+  for (std::int64_t value : array.values)
+    if (value < 0 || value >= below) group.refuse(name, fmt::format("index {}", value), fmt::format("0 to {}", below - 1));
+  return {array.values.begin(), array.values.end()};
+}
+
+std::int64_t count(const h5::Group& group, const std::string& name) {
+  const std::int64_t n = group.read<std::int64_t>(name, {1}).values[0];
+  if (n < 1 || n > std::numeric_limits<int>::max() / 8) group.refuse(name, fmt::format("{}", n), "a count of at least 1");
+  return n;
+}
+
+}  // namespace
+
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+  std::vector<double> values;
+  values.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors) values.insert(values.end(), v.data(), v.data() + 3);
+  return values;
+}
+
+std::vector<Vec3> vectors(const std::vector<double>& flat) {
+  std::vector<Vec3> vectors(flat.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = Vec3(flat.data() + 3 * i);
+  return vectors;
+}
+
+h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& version) {
+  const h5::Group grid = root.make_group("VTKHDF");
+  grid.attribute("Version", version);
+  grid.attribute("Type", std::string("UnstructuredGrid"));
+  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()), per_cell = nodes_per_cell(mesh.type);
+  write_integers(grid, "NumberOfPoints", {1}, {static_cast<std::int64_t>(n)});
+  write_integers(grid, "NumberOfCells", {1}, {static_cast<std::int64_t>(e)});
+  write_integers(grid, "NumberOfConnectivityIds", {1}, {static_cast<std::int64_t>(e * per_cell)});
+  grid.write<double>("Points", {n, 3}, flat(mesh.X), "mm");
+  write_integers(grid, "Connectivity", {e * per_cell}, {mesh.connectivity.begin(), mesh.connectivity.end()});
+  Integers offsets(e + 1);
+  for (std::size_t i = 0; i <= e; ++i) offsets[i] = static_cast<std::int64_t>(i * per_cell);
+  write_integers(grid, "Offsets", {e + 1}, offsets);
+  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
+
+  const h5::Group cells = grid.make_group("CellData");
+  write_integers(cells, "body", {e}, {mesh.body.begin(), mesh.body.end()});
+  std::string names;
+  for (const std::string& body : mesh.bodies) names += (names.empty() ? "" : " ") + body;
+  cells.annotate("body", "names", names);
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Vec3> column;
+    for (const Mat3& frame : mesh.frames) column.push_back(frame.col(i));
+    cells.write<double>(axes[i], {e, 3}, flat(column), "-");
+  }
+  return grid;
+}
+
+void write_sets(const h5::Group& root, const Mesh& mesh) {
+  const h5::Group sets = root.make_group("sets"), nodes = sets.make_group("nodes"), facets = sets.make_group("facets");
+  for (const auto& [name, set] : mesh.node_sets) write_integers(nodes, name, {set.size()}, {set.begin(), set.end()});
+  for (const auto& [name, set] : mesh.facet_sets) {
+    Integers pairs;
+    for (const Facet& facet : set) pairs.insert(pairs.end(), {facet.cell, facet.local});
+    write_integers(facets, name, {set.size(), 2}, pairs);
+  }
+}
+
+void write_section(const h5::Group& root, const Mesh& mesh) {
+  if (!mesh.section) return;
+  const h5::Group group = root.make_group("section");
+  group.attribute("of", std::string(names(mesh.section->of)[static_cast<int>(mesh.section->of)]));
+  group.write_scalar("depth", mesh.section->depth, mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
+}
+
+void write_hanging(const h5::Group& root, const Mesh& mesh) {
+  if (mesh.hanging.empty()) return;
+  const h5::Group group = root.make_group("hanging");
+  Integers nodes, of;
+  for (const HangingNode& h : mesh.hanging) nodes.push_back(h.node), of.insert(of.end(), h.of.begin(), h.of.end());
+  write_integers(group, "node", {nodes.size()}, nodes);
+  write_integers(group, "of", {nodes.size(), 4}, of);
+}
+
+Schema schema_of(const Schema& schema, const Mesh& mesh) {
+  if (!mesh.hanging.empty()) return {schema.name, 3};
+  return mesh.section ? Schema{schema.name, 2} : schema;
+}
+
+namespace {
+
+void read_section(const h5::Group& root, Mesh& mesh) {
+  if (!root.has("section")) return;
+  const h5::Group group = root.group("section");
+  const std::string of = group.text_attribute("of");
+  const auto known = names(SectionOf{});
+  const auto kind = std::find(known.begin(), known.end(), of);
+  if (kind == known.end()) group.refuse("of", "\"" + of + "\"", fmt::format("one of {}", fmt::join(known, ", ")));
+  mesh.section = Section{static_cast<SectionOf>(kind - known.begin()), group.read_scalar("depth")};
+  if (const std::string fault = section_fault(mesh); !fault.empty()) group.refuse("", fault, "one layer of cells behind z = 0");
+}
+
+void read_hanging(const h5::Group& root, Mesh& mesh) {
+  if (!root.has("hanging")) return;
+  const h5::Group group = root.group("hanging");
+  const auto below = static_cast<std::int64_t>(mesh.X.size());
+  const std::vector<int> nodes = indices(group, "node", {h5::any}, below), of = indices(group, "of", {nodes.size(), 4}, below);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    mesh.hanging.push_back({nodes[i], {of[4 * i], of[4 * i + 1], of[4 * i + 2], of[4 * i + 3]}});
+  if (const std::string fault = hanging_fault(mesh); !fault.empty())
+    group.refuse("node", fault, "nodes between those of larger hexahedra");
+}
+
+CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) {
+  std::string known;
+  for (const ReferenceCell& cell : reference_cells()) {
+    if (std::all_of(types.begin(), types.end(), [&](std::uint8_t type) { return type == cell.names.vtk; })) return cell.type;
+    known += fmt::format("{}{} ({})", known.empty() ? "one of " : ", ", cell.names.vtk, cell.names.vtk_word);
+  }
+  const auto other = std::find_if(types.begin(), types.end(), [&](std::uint8_t type) { return type != types[0]; });
+  grid.refuse("Types", fmt::format("VTK cell type {}", other == types.end() ? types[0] : *other), known + "; one for all");
+}
+
+}  // namespace
+
+Mesh read_grid(const h5::Group& root) {
+  const h5::Group grid = root.group("VTKHDF"), cells = grid.group("CellData");
+  Mesh mesh;
+  const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints")),
+                    e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
+  const auto types = grid.read<std::uint8_t>("Types", {e}).values;
+  mesh.type = type_of(grid, types);
+  const std::int64_t per_cell = nodes_per_cell(mesh.type);
+  need_unit(grid, "Points", "mm");
+  mesh.X = vectors(grid.read_finite("Points", {n, 3}));
+  mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));
+  const auto offsets = grid.read<std::int64_t>("Offsets", {e + 1});
+  for (std::size_t i = 0; i <= e; ++i)
+    if (offsets.values[i] != static_cast<std::int64_t>(i) * per_cell)
+      grid.refuse("Offsets", fmt::format("cells that do not have {} nodes each", per_cell));
+
+  std::istringstream names(cells.annotation("body", "names"));
+  for (std::string name; names >> name;) mesh.bodies.push_back(name);
+  mesh.body = indices(cells, "body", {e}, static_cast<std::int64_t>(mesh.bodies.size()));
+  std::vector<double> columns[3];
+  for (int i = 0; i < 3; ++i) columns[i] = cells.read_finite(axes[i], {e, 3});
+  for (std::size_t i = 0; i < e; ++i) mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
+
+  const h5::Group sets = root.group("sets"), nodes = sets.group("nodes"), facets = sets.group("facets");
+  for (const std::string& name : nodes.datasets())
+    mesh.node_sets[name] = indices(nodes, name, {h5::any}, static_cast<std::int64_t>(n));
+  for (const std::string& name : facets.datasets()) {
+    const std::vector<int> pairs =
+        indices(facets, name, {h5::any, 2}, std::max(static_cast<std::int64_t>(e), std::int64_t{mesh.cell().n_facets()}));
+    auto& set = mesh.facet_sets[name];
+    for (std::size_t i = 0; i < pairs.size(); i += 2) {
+      if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= mesh.cell().n_facets())
+        facets.refuse(name, fmt::format("cell {}, local facet {}", pairs[i], pairs[i + 1]), "a facet of this mesh");
+      set.push_back({pairs[i], pairs[i + 1]});
+    }
+  }
+  read_section(root, mesh);
+  read_hanging(root, mesh);
+  return mesh;
+}
+
+void write_triangles(const h5::Group& group, const Triangles& triangles) {
+  group.write<double>("points", {triangles.points.size(), 3}, flat(triangles.points), "mm");
+  Integers corners;
+  for (const auto& triangle : triangles.corners) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  write_integers(group, "triangles", {triangles.corners.size(), 3}, corners);
+}
+
+Triangles read_triangles(const h5::Group& group) {
+  Triangles triangles;
+  need_unit(group, "points", "mm");
+  triangles.points = vectors(group.read_finite("points", {h5::any, 3}));
+  const std::vector<int> corners = indices(group, "triangles", {h5::any, 3}, static_cast<std::int64_t>(triangles.points.size()));
+  if (corners.empty()) group.refuse("triangles", "none", "the triangles of a surface");
+  for (std::size_t i = 0; i < corners.size(); i += 3) triangles.corners.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  return triangles;
+}
+
+}  // namespace langer

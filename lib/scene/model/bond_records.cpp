@@ -1,0 +1,51 @@
+#include "scene/model/bond_records.hpp"
+
+#include <algorithm>
+
+namespace langer {
+
+void tell_bonds(const Statics& statics, StepRecord& record) {
+  const Bonds& bonds = statics.bonds();
+  const BodyState& state = statics.accepted();
+  double bonded = 0;
+  for (std::size_t k = 0; k < statics.contacts().size(); ++k) {
+    if (!bonds.of(k)) continue;
+    const RigidContact& law = statics.contacts()[k];
+    ContactRecord& contact = record.contacts.at(law.name);
+    contact.adhesive = bonds.forces(k);
+    for (const Bond& bond : state.bonds[k])
+      contact.beta.push_back(bond.made ? bond.beta : -1), contact.bonded_at.push_back(bond.at);
+    const Vec3 sum = bonds.sum(k);
+    record.force_ind -= sum;
+    for (int j = 0; j < 3 && statics.contacts().size() > 1; ++j) record.scalars.at("force_" + law.name + "_" + "xyz"[j]) -= sum[j];
+    for (std::size_t i = 0; i < law.nodes.size(); ++i) bonded += law.area[i] * state.bonds[k][i].beta;
+  }
+  record.scalars["bonded_area"] = bonded;
+  record.scalars["adhesion_stored"] = bonds.stored();
+  record.scalars["adhesion_dissipated"] = state.in_bonds.dissipated;
+  record.scalars["energy_released"] = state.in_bonds.released;
+  record.scalars["work_of_jumps"] = state.in_bonds.work_of_jumps;
+}
+
+Bond bond_of(const ContactRecord& contact, std::size_t candidate) {
+  return {std::max(contact.beta[candidate], 0.0), contact.bonded_at[candidate], contact.beta[candidate] >= 0};
+}
+
+BondEnergy bond_energies(const StepRecord& step) {
+  const auto& of = step.scalars;
+  if (!of.count("adhesion_stored")) return {};
+  return {of.at("adhesion_dissipated"), of.at("energy_released"), of.at("work_of_jumps"),
+          of.at("energy") + of.at("adhesion_stored")};
+}
+
+void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts, BodyState& state) {
+  state.in_bonds = bond_energies(step);
+  if (!step.scalars.count("adhesion_stored")) return;
+  for (const RigidContact& contact : contacts) {
+    const ContactRecord& record = step.contacts.at(contact.name);
+    std::vector<Bond>& bonds = state.bonds.emplace_back();
+    for (std::size_t i = 0; i < record.beta.size(); ++i) bonds.push_back(bond_of(record, i));
+  }
+}
+
+}  // namespace langer

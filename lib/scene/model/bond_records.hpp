@@ -1,0 +1,16 @@
+// Bonds of contacts that adhere, and their energies, in the record of a step and from there.
+#pragma once
+
+#include "mechanics/solve/statics.hpp"
+#include "results/store/solution_file.hpp"
+
+namespace langer {
+
+// Adds what bonds bear to forces that the record has of the contact law alone.
+void tell_bonds(const Statics& statics, StepRecord& record);
+
+Bond bond_of(const ContactRecord& contact, std::size_t candidate);
+BondEnergy bond_energies(const StepRecord& step);
+void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts, BodyState& state);
+
+}  // namespace langer

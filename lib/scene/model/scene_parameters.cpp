@@ -1,0 +1,189 @@
+#include "scene/model/scene_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/material/parameters.hpp"
+
+namespace langer {
+
+namespace {
+
+std::string name_of(const std::string& key) {
+  std::string name;
+  for (char c : key)
+    if (c != ']') name += c == '.' || c == '[' ? '_' : c;
+  return name;
+}
+
+// the part behind a beginning; nothing where it begins otherwise
+std::optional<std::string> behind(const std::string& text, const std::string& beginning) {
+  if (!text.starts_with(beginning)) return std::nullopt;
+  return text.substr(beginning.size());
+}
+
+// bodies that take the material at the top, and its angles
+std::vector<int> followers(const SolveConfig& config, const Mesh& mesh, bool angles) {
+  std::vector<int> bodies;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const auto own = config.materials.find(mesh.bodies[b]);
+    if (own == config.materials.end() || (!own->second.material && (!angles || own->second.fibre_angles.empty())))
+      bodies.push_back(static_cast<int>(b));
+  }
+  return bodies;
+}
+
+bool has_field(const SolveConfig& config, const std::string& body) {
+  const auto own = config.materials.find(body);
+  if (own == config.materials.end()) return config.fibre_field.has_value();
+  const bool follows = !own->second.material && own->second.fibre_angles.empty();
+  return own->second.fibre_field.has_value() || (follows && config.fibre_field.has_value());
+}
+
+int family_of(const std::string& key) {
+  const auto rest = behind(key, "fibres[");
+  return rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.') ? std::stoi(*rest) : -1;
+}
+
+double& number(Material& material, const std::string& key) {
+  for (const MaterialParameter& p : parameters(material))
+    if (p.key == key) return *p.value;
+  throw Failure(Exit::bug, Error{{}, key, "no number of the law", "one", ""});
+}
+
+Directions turned(const Directions& directions, const Mesh& mesh, const std::vector<int>& bodies, int family, double by_deg) {
+  Directions out(directions.from_field());
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    std::vector<Vec3> a{directions.of(e).begin(), directions.of(e).end()};
+    const int body = mesh.body.empty() ? 0 : mesh.body[static_cast<std::size_t>(e)];
+    if (std::find(bodies.begin(), bodies.end(), body) != bodies.end() && static_cast<std::size_t>(family) < a.size()) {
+      const Vec3 axis = mesh.frames.empty() ? Vec3(Vec3::UnitY()) : Vec3(mesh.frames[static_cast<std::size_t>(e)].col(1));
+      Vec3& one = a[static_cast<std::size_t>(family)];
+      one = Eigen::AngleAxisd(-by_deg * std::numbers::pi / 180, axis) * one;  // from e_x towards e_z
+    }
+    out.append(std::move(a));
+  }
+  return out;
+}
+
+double largest_modulus(Material material) {
+  double largest = 0;
+  for (const MaterialParameter& p : parameters(material))
+    if (p.modulus()) largest = std::max(largest, std::abs(*p.value));
+  return largest > 0 ? largest : 1;
+}
+
+}  // namespace
+
+std::string derivative_name(const std::string& quantity, const SceneParameter& parameter) {
+  return "d_" + quantity + "_d_" + parameter.name;
+}
+
+SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Where& where) {
+  for (std::size_t i = 0; i < config.sensitivity.size(); ++i) {
+    const std::string at = fmt::format("sensitivity[{}]", i), &key = config.sensitivity[i];
+    take(key, config, mesh, scene, {where(at), at, fmt::format("found \"{}\"", key), "", ""});
+  }
+}
+
+void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+                           const Error& refused) {
+  const auto refuse = [&](std::string found, std::string expected, std::string hint = "") {
+    Error error = refused;
+    if (!found.empty()) error.found += ", " + found;
+    error.expected = std::move(expected), error.hint = std::move(hint);
+    throw Failure(Exit::config, std::move(error));
+  };
+  for (const SceneParameter& other : list_)
+    if (other.key == key) refuse("a second time", "each number once");
+  for (const Material& m : scene.materials)
+    if (is_viscous(m)) refuse("and a material is viscous", "an elastic law", "derivatives do not follow what branches remember");
+  std::vector<std::string> known;
+  for (const RigidContact& contact : scene.contacts) {
+    if (contact.adhesion)
+      refuse("and the contact \"" + contact.name + "\" has adhesion", "contacts without bonds",
+             "derivatives do not follow what bonds remember");
+    const std::string friction = "contacts." + contact.name + ".friction";
+    if (contact.mu > 0) known.push_back(friction);
+    if (key != friction) continue;
+    if (!(contact.mu > 0))
+      refuse("which is 0", "friction above 0", "without friction nothing says how a contact slips that sticks");
+    list_.push_back({key, name_of(key), unit::none, contact.mu});
+    of_.push_back({contact.name, "", {}});
+    return;
+  }
+  const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies, const std::vector<int>& of_angles) {
+    if (bodies.empty()) return false;
+    Material material = scene.materials[static_cast<std::size_t>(bodies[0])];
+    for (const MaterialParameter& p : parameters(material)) {
+      known.push_back(beginning + p.key);
+      if (key != beginning + p.key && key != beginning + "material." + p.key) continue;
+      const int family = family_of(p.key);
+      const std::vector<int>& concerned = family >= 0 ? of_angles : bodies;
+      for (int b : concerned)
+        if (family == 0 && has_field(config, mesh.bodies[static_cast<std::size_t>(b)]))
+          refuse("and a fibre_field gives the directions of that family", "another number");
+      list_.push_back({key, name_of(key), p.unit, *p.value});
+      of_.push_back({"", p.key, concerned, family, p.modulus(), largest_modulus(material)});
+      return true;
+    }
+    return false;
+  };
+  if (look_in("", followers(config, mesh, false), followers(config, mesh, true))) return;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const auto own = config.materials.find(mesh.bodies[b]);
+    if (own == config.materials.end() || (!own->second.material && own->second.fibre_angles.empty())) continue;
+    const std::vector<int> body{static_cast<int>(b)};
+    const std::string beginning = "materials." + mesh.bodies[b] + ".";
+    const std::string own_key = key.starts_with(beginning) ? key.substr(beginning.size()) : "";
+    const bool angle = family_of(own_key.starts_with("material.") ? own_key.substr(9) : own_key) >= 0;
+    if (!own->second.material && !angle && !own_key.empty())
+      refuse("and this body takes the material at the top", own_key, "that number is one of all bodies that take it");
+    if (look_in(beginning, body, body)) return;
+  }
+  const std::string near = nearest(key, known);
+  refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")),
+         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+}
+
+bool SceneParameters::turns_fibres() const {
+  return std::any_of(of_.begin(), of_.end(), [](const Of& of) { return of.family >= 0; });
+}
+
+double SceneParameters::step(std::size_t i) const {
+  if (of_[i].family >= 0) return 1e-3;  // degrees
+  if (of_[i].linear) return of_[i].modulus;
+  // exponents and shares that are almost 0 still act as much as one of 0.1 does
+  const double size = std::max(std::abs(list_[i].value), list_[i].unit == unit::none ? 0.1 : 0);
+  return size > 0 ? 1e-5 * size : 1e-5;
+}
+
+SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& mesh, std::size_t i, double by) const {
+  Laws laws{scene.materials, scene.directions};
+  const Of& of = of_[i];
+  if (of.family >= 0) laws.directions = turned(scene.directions, mesh, of.bodies, of.family, by);
+  for (int b : of.bodies) number(laws.materials[static_cast<std::size_t>(b)], of.key) += by;
+  return laws;
+}
+
+Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const {
+  Scene other = scene;
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    const double share = 0.01 * static_cast<double>(i + 1);
+    if (!of_laws(i)) {
+      for (RigidContact& contact : other.contacts)
+        if (contact.name == of_[i].contact) contact.mu *= 1 + share;
+      continue;
+    }
+    const double value = list_[i].value;
+    Laws laws = varied(other, mesh, i, of_[i].family >= 0 ? 137 * share : value == 0 ? share : share * value);
+    other.materials = std::move(laws.materials), other.directions = std::move(laws.directions);
+  }
+  return other;
+}
+
+}  // namespace langer

@@ -1,0 +1,64 @@
+// The numbers of a scene that a config's `sensitivity` names, and the same scene where they are others.
+//   matrix.yeoh.a1                      of the material at the top, in all bodies that take it (material/parameters.hpp)
+//   materials.dermis.matrix.yeoh.a1     of the body's own
+//   fibres[0].alpha                     angle of a family [deg]: it turns in its cells
+//   contacts.sphere.friction            of an indenter
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/model/scene.hpp"
+
+namespace langer {
+
+struct SceneParameter {
+  std::string key;   // as in the config
+  std::string name;  // dots and brackets turned to underscores: matrix_yeoh_a1, fibres_0_hgo_c1
+  std::string unit;
+  double value = 0;  // in the scene
+};
+
+// name of the derivative of a quantity, unit included: d_force_N_d_matrix_yeoh_a1
+std::string derivative_name(const std::string& quantity, const SceneParameter& parameter);
+
+class SceneParameters {
+ public:
+  using Where = std::function<Place(const std::string&)>;
+  // None without the key. Throws Failure(config) at sensitivity[i]: a number that the scene does not have, or that nothing can be
+  // differentiated by.
+  SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Where& where);
+
+  const std::vector<SceneParameter>& list() const { return list_; }
+  bool turns_fibres() const;
+  bool of_laws(std::size_t i) const { return of_[i].contact.empty(); }
+  const std::string& contact(std::size_t i) const { return of_[i].contact; }  // whose friction it is; empty: a number of laws
+  bool linear(std::size_t i) const { return of_[i].linear; }                  // forces and energy are linear in it
+  double step(std::size_t i) const;                                           // of a difference, central but where they are
+
+  // The laws and directions of the scene, or of a part of it, where number i is larger by `by`.
+  struct Laws {
+    std::vector<Material> materials;
+    Directions directions;
+  };
+  Laws varied(const Scene& scene, const Mesh& mesh, std::size_t i, double by) const;
+  // Each of them by another amount: what is symmetric then is so for every set of them.
+  Scene varied_unlike(const Scene& scene, const Mesh& mesh) const;
+
+ private:
+  struct Of {
+    std::string contact;
+    std::string key;          // of the material
+    std::vector<int> bodies;  // of the mesh
+    int family = -1;          // whose angle it is
+    bool linear = false;
+    double modulus = 0;  // where it is: the largest of its law [MPa]
+  };
+  void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Error& refused);
+
+  std::vector<SceneParameter> list_;
+  std::vector<Of> of_;
+};
+
+}  // namespace langer

@@ -1,0 +1,353 @@
+#include "scene/model/scene_symmetry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "mechanics/element/solid.hpp"
+#include "mechanics/mesh/bounding_box.hpp"
+#include "mechanics/mesh/mirror_image.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "scene/model/bond_records.hpp"
+#include "scene/model/scene_image.hpp"
+#include "scene/model/scene_section.hpp"
+
+namespace langer {
+
+namespace {
+
+struct Operation {
+  const char* name;
+  Vec3 signs;
+};
+const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
+
+std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
+  switch (wanted) {
+    case SymmetryChoice::none:
+      return {};
+    case SymmetryChoice::mirror_x:
+      return {{mirror_x}};
+    case SymmetryChoice::mirror_z:
+      return {{mirror_z}};
+    case SymmetryChoice::quarter:
+      return {{mirror_x, mirror_z}};
+    case SymmetryChoice::half_turn:
+      return {{half_turn}};
+    case SymmetryChoice::automatic:
+      return {{mirror_x, mirror_z}, {half_turn}, {mirror_x}, {mirror_z}};
+  }
+  return {};
+}
+
+}  // namespace
+
+namespace {
+
+// a symmetry of mesh and scene
+struct Generator {
+  Operation operation;
+  Symmetry mesh;
+  std::vector<int> contact;  // image of each
+};
+
+// by name, each looked for once
+class Found {
+ public:
+  Found(const Mesh& mesh, const Scene& scene, const Scene* varied, const Vec3& centre)
+      : mesh_(mesh), scene_(scene), varied_(varied), centre_(centre) {}
+  const Generator* operator()(const Operation& op) {
+    const auto known = known_.find(op.name);
+    if (known != known_.end()) return known->second ? &*known->second : nullptr;
+    std::optional<Generator>& found = known_[op.name];
+    auto g = find_symmetry(mesh_, op.signs, centre_);
+    const auto image_in = [&](const Scene& scene) {
+      return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
+    };
+    SceneImage image = g ? image_in(scene_) : SceneImage{"the mesh", {}};
+    if (image.broken.empty() && varied_)
+      if (const SceneImage other = image_in(*varied_); !other.broken.empty())
+        image.broken = other.broken + ", where the numbers of `sensitivity` are others";
+    if (!image.broken.empty())
+      breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
+    else
+      found = Generator{op, std::move(*g), std::move(image.contact)};
+    return found ? &*found : nullptr;
+  }
+  const std::string& breaks() const { return breaks_; }
+
+ private:
+  const Mesh& mesh_;
+  const Scene& scene_;
+  const Scene* varied_;
+  const Vec3 centre_;
+  std::map<std::string, std::optional<Generator>> known_;
+  std::string breaks_;
+};
+
+// images of the contacts by all products of the generators, in the order of group_of
+std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>& generators, std::size_t n_contacts) {
+  std::vector<std::vector<int>> group(1, std::vector<int>(n_contacts));
+  std::iota(group[0].begin(), group[0].end(), 0);
+  for (const Generator* g : generators)
+    for (std::size_t i = 0, n = group.size(); i < n; ++i) {
+      std::vector<int> product = group[i];
+      for (int& contact : product) contact = g->contact[contact];
+      group.push_back(std::move(product));
+    }
+  return group;
+}
+
+}  // namespace
+
+std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
+                                               const std::function<Place(const std::string&)>& where, const Scene* varied) {
+  if (mesh.section) return of_section(mesh, scene);
+  if (wanted == SymmetryChoice::none) return std::nullopt;
+  const Vec3 centre = bounding_box(mesh.X).middle();
+  Found found(mesh, scene, varied, centre);
+  for (const auto& operations : operations(wanted)) {
+    std::vector<const Generator*> generators;
+    for (const Operation& op : operations)
+      if (const Generator* g = found(op)) generators.push_back(g);
+    if (generators.size() < operations.size()) continue;
+    ReducedScene r;
+    std::vector<Symmetry> of_mesh;
+    for (const Generator* g : generators) {
+      of_mesh.push_back(g->mesh);
+      r.words_ += (r.words_.empty() ? "" : " and ") + std::string(g->operation.name);
+      for (int k = 0; k < 3; ++k)
+        if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
+    }
+    r.take_part(mesh, scene, of_mesh, contact_group(generators, scene.contacts.size()));
+    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], r.quotient_.cell.size(), mesh.n_cells());
+    return r;
+  }
+  if (wanted == SymmetryChoice::automatic) return std::nullopt;
+  throw Failure(Exit::config, Error{where("symmetry"), "symmetry", found.breaks(), "a scene with this symmetry",
+                                    "symmetry: auto takes what there is"});
+}
+
+void ReducedScene::take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
+                             const std::vector<std::vector<int>>& contacts) {
+  quotient_ = quotient(mesh, generators);
+  scene_.formulation = scene.formulation, scene_.materials = scene.materials, scene_.stops = scene.stops;
+  scene_.directions = scene.directions.of_cells(quotient_.cell);
+  take_supports(scene);
+  take_loads(scene);
+  const std::vector<Symmetry> group = group_of(mesh, generators);
+  find_turned_families(mesh, scene, group);
+  for (const auto& images : contacts)
+    for (std::size_t c = 0; c < images.size(); ++c) swaps_indenters_ = swaps_indenters_ || images[c] != static_cast<int>(c);
+  // Of the pairs of an indenter and a node that are images of each other one is kept: at the node that is kept, the first indenter.
+  take_contacts(scene, [&](int contact, int node) {
+    Touch kept{static_cast<int>(scene.contacts.size()), quotient_.node_image[node].of, Mat3::Identity(), 0};
+    const int at = quotient_.node[kept.node];
+    for (std::size_t h = 0; h < group.size(); ++h)
+      if (group[h].node[node] == at && contacts[h][contact] < kept.contact)
+        kept.contact = contacts[h][contact], kept.T = group[h].signs.asDiagonal();
+    int in_place = 0;
+    Vec3 allowed = Vec3::Ones();  // what leaves the pair in place and changes a sign forbids that direction
+    for (std::size_t h = 0; h < group.size(); ++h)
+      if (group[h].node[at] == at && contacts[h][kept.contact] == kept.contact) {
+        ++in_place;
+        for (int k = 0; k < 3; ++k)
+          if (group[h].signs[k] < 0) allowed[k] = 0;
+      }
+    kept.T = kept.T * allowed.asDiagonal(), kept.share = static_cast<double>(group.size()) / in_place;
+    return kept;
+  });
+}
+
+void ReducedScene::take_supports(const Scene& scene) {
+  const Quotient& q = quotient_;
+  std::vector<Prescribed> prescribed;
+  for (const Prescribed& p : scene.dofs.prescribed) {
+    const Image& image = q.node_image[p.dof / 3];
+    if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
+      prescribed.push_back(p), prescribed.back().dof = 3 * image.of + p.dof % 3;
+  }
+  scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie, q.mesh.hanging).dofs;
+}
+
+// facets of kept cells: a cell's share counts theirs
+void ReducedScene::take_loads(const Scene& scene) {
+  std::map<int, int> kept;
+  for (std::size_t e = 0; e < quotient_.cell.size(); ++e) kept[quotient_.cell[e]] = static_cast<int>(e);
+  for (const SurfaceLoad& whole : scene.loads) {
+    SurfaceLoad part = whole;
+    part.facets.clear();
+    for (const Facet& facet : whole.facets)
+      if (const auto at = kept.find(facet.cell); at != kept.end()) part.facets.push_back({at->second, facet.local});
+    scene_.loads.push_back(std::move(part));
+  }
+}
+
+void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(int, int)>& stands_for) {
+  contacts_ = scene.contacts;
+  std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    const RigidContact& whole = contacts_[c];
+    RigidContact part = whole;
+    part.nodes.clear(), part.area.clear();
+    std::vector<double> share;
+    std::vector<std::array<int, 2>> origin;
+    for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
+      const Touch kept = stands_for(c, whole.nodes[i]);
+      if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
+      index[{c, kept.node}] = {static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
+      part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
+      if (whole.adhesion) part.area.push_back(kept.share * whole.area[i]);
+    }
+    if (part.nodes.empty() && !whole.nodes.empty()) continue;  // another indenter stands for it
+    scene_.contacts.push_back(std::move(part));
+    candidate_share_.push_back(std::move(share)), origin_.push_back(std::move(origin));
+  }
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    std::vector<CandidateImage>& images = candidate_.emplace_back();
+    for (int node : contacts_[c].nodes) {
+      const Touch kept = stands_for(c, node);
+      images.push_back(index.at({kept.contact, kept.node})), images.back().T = kept.T;
+    }
+  }
+}
+
+// Where families change places in a mirror, the first one of a cell is another in the cell that stands for it.
+void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& group) {
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto own = scene.directions.of(e), kept = scene_.directions.of(quotient_.cell_image[e]);
+    if (own.empty()) continue;
+    std::optional<Vec3> turned;
+    bool same = false;
+    for (const Symmetry& g : group) {
+      if (g.cell[e] != quotient_.cell[quotient_.cell_image[e]]) continue;
+      const Vec3 a = g.signs.cwiseProduct(own[0]);
+      if (!turned) turned = a;
+      same = same || std::min((a - kept[0]).norm(), (a + kept[0]).norm()) <= same_place;
+    }
+    if (!same && turned) turned_.push_back({e, quotient_.cell_image[e], *turned});
+  }
+}
+
+ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
+  ReducedScene r;
+  r.words_ = section_words(mesh);
+  Quotient& q = r.quotient_;
+  q.mesh = mesh, q.tie = q.node_image = section_ties(mesh);
+  q.node.resize(mesh.X.size()), q.cell.resize(mesh.n_cells());
+  std::iota(q.node.begin(), q.node.end(), 0);
+  std::iota(q.cell.begin(), q.cell.end(), 0);
+  q.cell_image = q.cell;
+  q.cell_share.assign(q.cell.size(), langer::cell_share(*mesh.section));
+  q.node_share.assign(q.node.size(), 0);
+  for (int i = 0; i < n_front(mesh); ++i) q.node_share[i] = 1;
+  r.scene_ = scene, r.scene_.contacts.clear();
+  std::vector<Prescribed> prescribed;
+  for (const Prescribed& p : scene.dofs.prescribed)
+    if (q.tie[p.dof / 3].T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back(p);
+  r.scene_.dofs = number_dofs(mesh.n_nodes(), std::move(prescribed), q.tie).dofs;
+  r.take_contacts(scene, [&q](int contact, int node) {
+    const Image& image = q.node_image[node];
+    return Touch{contact, image.of, image.T, q.node_share[image.of]};
+  });
+  r.kept_directions_ = mesh.section->of == SectionOf::axisymmetric ? Vec3(0, 1, 0) : Vec3(1, 1, 0);
+  return r;
+}
+
+StepRecord ReducedScene::whole(const StepRecord& reduced) const {
+  StepRecord record = reduced;
+  record.u.clear(), record.reaction.clear();
+  const bool section = quotient_.mesh.section.has_value();
+  for (const Image& image : quotient_.node_image) {
+    const bool behind = section && image.of != static_cast<int>(record.u.size());  // those in z = 0 have all of the force
+    record.u.push_back(image.T * reduced.u[image.of]);
+    record.reaction.push_back(behind ? Vec3::Zero() : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
+  }
+  for (auto& [name, values] : record.cell_fields) {
+    const std::vector<double>& kept = reduced.cell_fields.at(name);
+    values.clear();
+    for (int cell : quotient_.cell_image) values.push_back(kept[cell]);
+  }
+  tell_fibres(reduced, record);
+  tell_contacts(reduced, record);
+  if (const auto found = record.scalars.find("weakest_cell"); found != record.scalars.end() && found->second >= 0)
+    found->second = quotient_.cell[static_cast<std::size_t>(found->second)];
+  return record;
+}
+
+void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) const {
+  record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
+  if (!contacts_.empty()) {
+    const auto travel = record.scalars.find("travel_" + contacts_[0].name);
+    record.u_ind = indenter_displacement(contacts_[0], record.t, travel == record.scalars.end() ? 0 : travel->second);
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    ContactRecord& contact = record.contacts[contacts_[c].name] = {};
+    Vec3 force = Vec3::Zero();
+    for (const CandidateImage& image : candidate_[c]) {
+      const ContactRecord& kept = reduced.contacts.at(scene_.contacts[image.contact].name);
+      contact.r.push_back(image.T * kept.r[image.of] / candidate_share_[image.contact][image.of]);
+      contact.status.push_back(kept.status[image.of]);
+      contact.gap.push_back(kept.gap[image.of]);
+      force -= contact.r.back();
+      if (kept.beta.empty()) continue;
+      contact.beta.push_back(kept.beta[image.of]);
+      contact.bonded_at.push_back(image.T * kept.bonded_at[image.of]);
+      contact.adhesive.push_back(image.T * kept.adhesive[image.of] / candidate_share_[image.contact][image.of]);
+      force -= contact.adhesive.back();
+    }
+    if (contacts_.size() < 2) continue;
+    for (int k = 0; k < 3; ++k) {
+      const std::string name = "force_" + contacts_[c].name + "_" + "xyz"[k];
+      // on a section radial forces of the whole circle add up to nothing
+      record.scalars[name] = quotient_.mesh.section ? kept_directions_[k] * reduced.scalars.at(name) : force[k];
+    }
+  }
+}
+
+void ReducedScene::tell_fibres(const StepRecord& reduced, StepRecord& record) const {
+  const auto I4_bar = record.cell_fields.find("I4_bar");
+  if (I4_bar == record.cell_fields.end()) return;
+  const Mesh& mesh = quotient_.mesh;
+  for (const TurnedFamily& family : turned_) {
+    const auto nodes = mesh.cell(family.of);
+    ElementNodes u(nodes.size(), 3);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const Image& tie = quotient_.tie[nodes[a]];
+      u.row(static_cast<Eigen::Index>(a)) = (tie.T * reduced.u[tie.of]).transpose();
+    }
+    const auto states = gauss_states(scene_.formulation, scene_.materials[mesh.body.empty() ? 0 : mesh.body[family.of]],
+                                     element_geometry(element_nodes(mesh, family.of)), scene_.directions.of(family.of), u);
+    I4_bar->second[family.cell] = mean_I4_bar(states, family.a);
+  }
+}
+
+BodyState ReducedScene::reduced(const StepRecord& whole) const {
+  BodyState state;
+  state.t = whole.t;
+  state.u = VecX::Zero(3 * static_cast<Eigen::Index>(quotient_.node.size()));
+  for (std::size_t i = 0; i < quotient_.node.size(); ++i)
+    if (quotient_.tie[i].of == static_cast<int>(i))
+      state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[static_cast<std::size_t>(quotient_.node[i])];
+  for (std::size_t c = 0; c < origin_.size(); ++c) {
+    std::vector<Vec3>& r = state.r.emplace_back();
+    for (std::size_t i = 0; i < origin_[c].size(); ++i) {
+      const auto& [contact, candidate] = origin_[c][i];
+      r.push_back(candidate_share_[c][i] * whole.contacts.at(contacts_[contact].name).r[candidate]);
+    }
+    const RigidContact& contact = scene_.contacts[c];
+    if (contact.control) state.travel = whole.scalars.at("travel_" + contact.name);
+    if (!whole.scalars.count("adhesion_stored")) continue;
+    std::vector<Bond>& bonds = state.bonds.emplace_back();
+    for (const auto& [of, candidate] : origin_[c])
+      if (const ContactRecord& record = whole.contacts.at(contacts_[of].name); !record.beta.empty())
+        bonds.push_back(bond_of(record, static_cast<std::size_t>(candidate)));
+  }
+  state.in_bonds = bond_energies(whole);
+  return state;
+}
+
+}  // namespace langer

@@ -1,0 +1,241 @@
+#include "scene/run/post_files.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "mechanics/mesh/bounding_box.hpp"
+#include "mechanics/mesh/section.hpp"
+#include "scene/run/recorded_contact.hpp"
+#include "scene/run/step_record.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/model/scene_loads.hpp"
+#include "scene/model/solve_config.hpp"
+#include "core/tensor/stress.hpp"
+
+namespace langer {
+
+namespace {
+
+// What follows from a row of values, at points and in cells alike.
+struct StressFields {
+  Field sigma, von_mises, pressure, principal, J;
+  std::vector<Field> stretch;
+  StressFields(std::size_t rows, int families)
+      : sigma(field("sigma", "MPa", 6, rows)),
+        von_mises(field("von_mises", "MPa", 1, rows)),
+        pressure(field("pressure", "MPa", 1, rows)),
+        principal(field("principal_stresses", "MPa", 3, rows)),
+        J(field("J", "-", 1, rows)) {
+    for (int k = 0; k < families; ++k) stretch.push_back(field(fmt::format("fibre_stretch_{}", k + 1), "-", 1, rows));
+  }
+  void put_row(std::size_t row, const VecX& values) {
+    const Mat3 stress = sigma_of(values);
+    put(sigma, row, values);
+    von_mises.values[row] = langer::von_mises(stress);
+    pressure.values[row] = mean_stress(stress);
+    put(principal, row, principal_stresses(stress));
+    J.values[row] = J_of(values);
+    for (std::size_t k = 0; k < stretch.size(); ++k) stretch[k].values[row] = fibre_stretch_of(values, static_cast<int>(k));
+  }
+  void move_to(std::vector<Field>& fields) {
+    for (Field* f : {&sigma, &von_mises, &pressure, &principal, &J}) fields.push_back(std::move(*f));
+    for (Field& f : stretch) fields.push_back(std::move(f));
+  }
+};
+
+}  // namespace
+
+void BranchRows::go_to(int row) {
+  if (!body_.viscous()) return;
+  if (!path_ || row < row_) path_.emplace(body_), row_ = 0;
+  for (; row_ < row; ++row_) {
+    const StepRecord next = solution_.step(row_);
+    path_->add(body_, next.scalars.at("time"), next.u);
+  }
+  path_->tell(body_);
+}
+
+Formulation formulation_of(const SolutionHeader& header, const std::string& path) {
+  const auto words = names(Formulation{});
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (header.formulation == words[i]) return static_cast<Formulation>(i);
+  throw Failure(
+      Exit::input,
+      Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation, displacement or linear_dilatation", ""});
+}
+
+StepState state_of(const StepRecord& record) {
+  StepState state;
+  state.t = record.t, state.increment = record.increment, state.residual = record.residual;
+  state.iterations = record.iterations;
+  state.u = record.u, state.reaction = record.reaction;
+  state.u_ind = record.u_ind, state.force_ind = record.force_ind;
+  for (const auto& [name, contact] : record.contacts)
+    for (int status : contact.status) state.stick += status == 1, state.slip += status == 2;
+  state.histories = record.scalars;
+  return state;
+}
+
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, int row,
+                               const ContactStates& contacts, StressAt at) {
+  const Mesh& mesh = body.mesh();
+  const std::size_t n = mesh.X.size(), n_cells = static_cast<std::size_t>(mesh.n_cells());
+  const GaussValues gauss = gauss_values(body, record.u);
+  SnapshotFields out;
+
+  Field u = field("u", "mm", 3, n), reaction = field("reaction", "N", 3, n);
+  StressFields at_nodes(n, body.n_families());
+  for (std::size_t i = 0; i < n; ++i) {
+    put(u, i, record.u[i]);
+    put(reaction, i, record.reaction[i]);
+    at_nodes.put_row(i, node_values(body, static_cast<int>(i), gauss, at));
+  }
+  out.points = {std::move(u), std::move(reaction)};
+  at_nodes.move_to(out.points);
+  add_contact_fields(out.points, contacts, header, record, row);
+
+  StressFields means(n_cells, body.n_families());
+  std::vector<Field> before, after;
+  for (int k = 0; k < body.n_families(); ++k) {
+    before.push_back(field(fmt::format("fibre_{}", k + 1), "-", 3, n_cells));
+    after.push_back(field(fmt::format("fibre_{}_deformed", k + 1), "-", 3, n_cells));
+  }
+  for (std::size_t e = 0; e < n_cells; ++e) {
+    const int cell = static_cast<int>(e);
+    means.put_row(e, element_mean(body, cell, gauss[e]));
+    const Mat3 F = mean_deformation_gradient(body, record.u, cell);
+    for (std::size_t k = 0; k < body.fibres(cell).size(); ++k) {
+      put(before[k], e, body.fibres(cell)[k]);
+      put(after[k], e, Vec3(F * body.fibres(cell)[k]));  // as long as the fibre is stretched
+    }
+  }
+  out.cells.push_back(means.J);  // first, and so the one that viewers show: at nodes it is smoothed
+  means.move_to(out.cells);
+  out.cells.erase(std::find_if(out.cells.begin() + 1, out.cells.end(), [](const Field& f) { return f.name == "J"; }));
+  for (auto* fibres : {&before, &after})
+    for (Field& f : *fibres) out.cells.push_back(std::move(f));
+  return out;
+}
+
+std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at) {
+  std::vector<double> values;
+  if (const OfNodes* of = std::get_if<OfNodes>(&line_of(field).value)) {
+    for (const Vec3& u : state.u) values.push_back((*of)(u));
+    return values;
+  }
+  if (const OfContact* of = std::get_if<OfContact>(&line_of(field).value)) {
+    values.assign(state.u.size(), (*of)(ContactNode()));
+    for (std::size_t i = 0; i < state.contact.size(); ++i) values[i] = (*of)(state.contact[i]);
+    return values;
+  }
+  const GaussValues gauss = gauss_values(body, state.u);
+  for (int node = 0; node < body.mesh().n_nodes(); ++node)
+    values.push_back(value_of(field, node_values(body, node, gauss, at), family - 1));
+  return values;
+}
+
+std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
+  std::vector<RigidContact> indenters;
+  if (header.contact_nodes.empty()) return indenters;
+  try {
+    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    for (const auto& [name, contact] : solve.contacts) {
+      if (!header.contact_nodes.count(name)) return {};
+      RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
+      indenter.nodes = header.contact_nodes.at(name);
+      if (auto* facets = std::get_if<Facets>(&indenter.shape)) {
+        const auto surface = header.indenter_surfaces.find(name);
+        if (surface == header.indenter_surfaces.end()) continue;
+        facets->tree = std::make_shared<TriangleTree>(surface->second);
+      }
+      indenters.push_back(std::move(indenter));
+    }
+  } catch (const Failure&) {
+    return {};  // written by another version of solve
+  }
+  return indenters;
+}
+
+void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution) {
+  for (RigidContact& indenter : indenters) {
+    if (!indenter.control) continue;
+    std::vector<Waypoint> found;
+    for (int i = 0; i < solution.n_steps(); ++i) {
+      const StepRecord step = solution.step(i);
+      found.push_back({step.t, indenter_at(indenter, step)});
+    }
+    indenter.motion = std::move(found);
+  }
+}
+
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header) {
+  std::vector<double> kinks;
+  try {
+    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    for (const LoadConfig& load : solve.loads)
+      for (const HistoryConfig& history : load.histories())
+        for (const HistoryPointConfig& point : history.points) kinks.push_back(place(point, solve.path.seconds));
+    return {mesh, std::move(indenters), std::move(kinks), turned_sets(solve, header.mesh)};
+  } catch (const Failure&) {
+    return {mesh, std::move(indenters)};  // written by another version of solve
+  }
+}
+
+std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
+  std::vector<std::string> names;
+  for (const auto& contact : header.contact_nodes) {
+    const std::string& name = contact.first;
+    if (std::none_of(indenters.begin(), indenters.end(), [&](const RigidContact& c) { return c.name == name; }))
+      names.push_back(name);
+  }
+  return names;
+}
+
+Shown shown_of(const Mesh& mesh) {
+  const BoundingBox box = bounding_box(mesh.X);
+  return {box.middle(), box.size().norm()};
+}
+
+Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
+  const Vec3 u = indenter_displacement(indenter, t);
+  Outline moved = outline(indenter.shape, {shown.middle - u, shown.size, shown.parts});
+  for (Vec3& x : moved.points) x += u;
+  return moved;
+}
+
+Loads loads_of(const SolutionHeader& header) {
+  try {
+    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    std::vector<Error> errors;
+    const Section* section = header.mesh.section ? &*header.mesh.section : nullptr;
+    std::vector<SurfaceLoad> loads = surface_loads(
+        solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
+    if (loads.empty() || !errors.empty()) return {};
+    const std::size_t n = section ? static_cast<std::size_t>(header.mesh.n_cells()) : 0;
+    return {header.mesh, std::move(loads), std::vector<double>(n, section ? cell_share(*section) : 1)};
+  } catch (const Failure&) {
+    return {};  // written by another version of solve
+  }
+}
+
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters, const Loads& loads) {
+  EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
+  for (const RigidContact& indenter : indenters) {
+    const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
+    state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
+    state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{} : found->second.adhesive);
+  }
+  if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end()) state.jumps = jumps->second;
+  if (!loads.empty()) {
+    VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
+    for (std::size_t i = 0; i < record.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+    state.loads = loads.forces(record.t, u);
+  }
+  for (const char* part : {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})
+    if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;
+  return state;
+}
+
+}  // namespace langer

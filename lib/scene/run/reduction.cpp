@@ -1,0 +1,87 @@
+#include "scene/run/reduction.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/run/step_record.hpp"
+#include "scene/model/scene_parameters.hpp"
+#include "scene/model/scene_section.hpp"
+
+namespace langer {
+
+Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part, int threads)
+    : mesh_(mesh), scene_(scene), threads_(threads), part_(std::move(part)) {}
+
+Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<HomogeneousScene> point)
+    : mesh_(mesh), scene_(scene), point_(std::move(point)) {}
+
+Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
+                          const std::function<Place(const std::string&)>& where, bool at_a_point) {
+  const SceneParameters parameters(config, mesh, scene, where);
+  if (at_a_point && !parameters.turns_fibres())  // turned ones shear a body that was stretched
+    if (auto point = HomogeneousScene::find(mesh, scene, config)) return {mesh, scene, std::move(point)};
+  if (config.sensitivity.empty()) return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+  const Scene varied = parameters.varied_unlike(scene, mesh);
+  if (mesh.section)
+    if (const auto errors = section_errors(config, mesh, varied, where); !errors.empty())
+      throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity", "found a number that a section has to leave as it is",
+                                        "others", errors.front().found});
+  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where, &varied), config.threads};
+}
+
+Reduction::Kind Reduction::kind() const {
+  if (point_) return Kind::homogeneous;
+  if (!part_) return Kind::none;
+  return mesh_.section ? Kind::section : Kind::symmetry;
+}
+
+const Mesh& Reduction::mesh() const { return point_ ? point_->mesh() : part_ ? part_->mesh() : mesh_; }
+
+const Scene& Reduction::scene() const { return point_ ? point_->scene() : part_ ? part_->scene() : scene_; }
+
+Equilibrium Reduction::equilibrium(std::optional<Division> division) const {
+  const std::vector<double> share = part_ ? part_->cell_share() : std::vector<double>{};
+  Equilibrium body(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs, point_ ? 1 : threads_,
+                   Kernel::packets, share, std::move(division));
+  if (!scene().loads.empty()) body.set_loads({mesh(), scene().loads, share});
+  return body;
+}
+
+Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }
+
+std::string Reduction::words() const {
+  switch (kind()) {
+    case Kind::homogeneous:
+      return fmt::format("homogeneous: one hexahedron stands for {} cells", mesh_.n_cells());
+    case Kind::symmetry:
+      return "symmetry: " + part_->words();
+    case Kind::section:
+      return part_->words();
+    case Kind::none:
+      break;
+  }
+  return "";
+}
+
+std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
+  if (point_) return point_->whole(of_part);
+  return part_ ? part_->whole(of_part) : of_part;
+}
+
+SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_whole) const {
+  return point_ ? point_->report(of_part, of_whole) : of_part;
+}
+
+const HomogeneousScene* Reduction::point() const { return point_.get(); }
+
+Equilibrium* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
+
+void Reduction::replay(const StepRecord& of_whole) const {
+  if (point_) point_->replay(of_whole);
+}
+
+BodyState Reduction::reduced(const StepRecord& of_whole) const {
+  if (point_) return point_->reduced(of_whole);
+  return part_ ? part_->reduced(of_whole) : state_of(of_whole, scene_);
+}
+
+}  // namespace langer

@@ -1,0 +1,53 @@
+#include "scene/run/run_words.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanics/assembly/zero_energy_modes.hpp"
+
+namespace langer {
+
+double say_scene(const Voice& voice, const Run& run) {
+  for (const Material& m : run.scene.materials)
+    if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
+  const FibreJump jump = run.scene.families() > 0 ? largest_jump(run.mesh, run.scene.directions) : FibreJump{};
+  if (jump.degrees > 1e-3)
+    voice.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
+              jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
+  if (const std::string words = run.reduction.words(); !words.empty()) voice.say("{}", words);
+  return jump.degrees;
+}
+
+std::string held_by_contact(const Run& run, const Run::Where& where) {
+  const std::string loose = zero_energy_modes(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
+  if (!loose.empty() && run.scene.contacts.empty())
+    throw Failure(Exit::config, Error{where("supports"), "supports", loose, "a body that is held, or contacts", ""});
+  return loose;
+}
+
+std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) {
+  const Statics::Cost cost = run.statics.cost();
+  std::vector<Summary> summary{{"steps", static_cast<double>(n_steps), "-"},
+                               {"iterations", static_cast<double>(end.path.iterations), "-"},
+                               {"cuts", static_cast<double>(end.path.cut_backs), "-"},
+                               {"indefinite", static_cast<double>(run.statics.n_indefinite()), "-"},
+                               {"cpu_assembly", cost.assembly, "s"},
+                               {"cpu_factor", cost.factor, "s"},
+                               {"cpu_solve", cost.solve, "s"},
+                               {"cpu_contact", cost.contact, "s"}};
+  if (!run.scene.contacts.empty()) summary.push_back({"force", end.last.force_ind.norm(), "N"});
+  for (const RigidContact& contact : run.scene.contacts)
+    if (const auto found = end.last.scalars.find("force_" + contact.name); found != end.last.scalars.end())
+      summary.push_back({"force_" + contact.name, found->second, "N"});
+  const double cells = run.mesh.n_cells();
+  if (run.reduction.kind() == Reduction::Kind::symmetry) summary.push_back({"symmetry", cells / run.body.mesh().n_cells(), "-"});
+  if (run.reduction.kind() == Reduction::Kind::homogeneous) summary.push_back({"homogeneous", cells, "-"});
+  return summary;
+}
+
+std::vector<Summary> joined(const std::vector<std::vector<Summary>>& parts) {
+  std::vector<Summary> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace langer

@@ -1,0 +1,136 @@
+#include "scene/run/step_record.hpp"
+
+#include <filesystem>
+
+#include "core/base/error.hpp"
+#include "mechanics/material/at_rest.hpp"
+#include "scene/model/bond_records.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "results/store/material_file.hpp"
+#include "core/tensor/stress.hpp"
+
+namespace langer {
+
+Material material_from(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  if (extension == ".yaml" || extension == ".yml") return read_config<Material>(load_yaml(path)).config;
+  return read_material(path).material;
+}
+
+Material material_of_body(const std::string& path) {
+  const Material material = material_from(path);
+  if (at_rest(material) == AtRest::without_stiffness)
+    throw Failure(Exit::input, Error{{path},
+                                     "",
+                                     "a law with " + at_rest_in_words(material),
+                                     stiffness_at_rest_cure(material),
+                                     "a body without it has no first step"});
+  return material;
+}
+
+SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity) {
+  SolutionHeader header;
+  header.mesh = mesh;
+  header.material = scene.materials.front();
+  if (scene.materials.size() > 1) header.materials = scene.materials;
+  header.directions = scene.directions;
+  header.formulation = names(formulation)[static_cast<int>(formulation)];
+  for (const RigidContact& contact : scene.contacts) {
+    header.contact_nodes[contact.name] = contact.nodes;
+    if (const auto* facets = std::get_if<Facets>(&contact.shape))
+      header.indenter_surfaces[contact.name] = facets->tree->triangles();
+  }
+  header.identity = identity;
+  return header;
+}
+
+namespace {
+
+// means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress, I4_bar of the first family
+void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u) {
+  const int n = body.mesh().n_cells();
+  bool fibres = false;
+  for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
+  for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
+  if (fibres) record.cell_fields["I4_bar"].resize(n);
+  auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"], &mises = record.cell_fields["von_mises"];
+  for (int e = 0; e < n; ++e) {
+    const auto a = body.fibres(e);
+    Mat3 sigma = Mat3::Zero();
+    const std::vector<Vec6> branches = body.viscous() ? body.memory()->stresses(e) : std::vector<Vec6>{};
+    const auto states =
+        gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e), branches);
+    const double w = 1.0 / static_cast<double>(states.size());
+    for (const GaussState& g : states) {
+      sigma += w * g.sigma;
+      J[e] += w * g.J;
+    }
+    pressure[e] = mean_stress(sigma), mises[e] = von_mises(sigma);
+    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : mean_I4_bar(states, a[0]);
+  }
+}
+
+}  // namespace
+
+void hang(const Equilibrium& body, const VecX& u, std::vector<Vec3>& nodal) {
+  for (const HangingNode& h : body.mesh().hanging) {
+    nodal[h.node].setZero();
+    for (int n : h.of) nodal[h.node] += 0.25 * displacement(body.dofs(), u, n);
+  }
+}
+
+Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
+  return indenter_displacement(indenter, step.t, indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
+}
+
+StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report) {
+  const BodyState& state = statics.accepted();
+  StepRecord record;
+  record.t = state.t, record.increment = taken, record.iterations = report.iterations;
+  record.residual = report.reference > 0 ? report.residual / report.reference : report.residual;
+  const VecX reactions = statics.reactions();
+  for (int i = 0; i < body.mesh().n_nodes(); ++i) {
+    record.u.push_back(state.u.segment<3>(3 * i));
+    record.reaction.push_back(reactions.segment<3>(3 * i));
+  }
+  hang(body, state.u, record.u);
+  add_cell_fields(record, body, state.u);
+  record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
+  record.scalars["J_min"] = body.J_min();
+  record.scalars["energy"] = body.W();
+  if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
+  const auto& contacts = statics.contacts();
+  if (contacts.empty()) return record;
+  const auto defects = statics.defects();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ContactDefect& d = defects[k];
+    ContactRecord& contact = record.contacts[contacts[k].name];
+    contact.r = state.r[k], contact.gap = d.gap;
+    for (ContactStatus status : d.status) contact.status.push_back(static_cast<int>(status));
+    for (const auto& [name, value] :
+         {std::pair{"penetration", d.penetration}, {"cone", d.cone}, {"complementarity", d.complementarity}})
+      record.scalars[name] = std::max(record.scalars[name], value);
+    if (contacts.size() > 1)
+      for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
+  }
+  if (const RigidContact* controlled = statics.controlled()) record.scalars["travel_" + controlled->name] = state.travel;
+  record.u_ind = indenter_at(contacts[0], record);
+  for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
+  if (!statics.bonds().none()) tell_bonds(statics, record);
+  return record;
+}
+
+BodyState state_of(const StepRecord& record, const Scene& scene) {
+  BodyState state;
+  state.t = record.t;
+  state.u.resize(3 * static_cast<Eigen::Index>(record.u.size()));
+  for (std::size_t i = 0; i < record.u.size(); ++i) state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+  for (const RigidContact& contact : scene.contacts) {
+    state.r.push_back(record.contacts.at(contact.name).r);
+    if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);
+  }
+  take_bonds(record, scene.contacts, state);
+  return state;
+}
+
+}  // namespace langer
