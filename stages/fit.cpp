@@ -2,17 +2,17 @@
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
 #include "core/base/interrupt.hpp"
+#include "core/hdf5/seal.hpp"
 #include "export/cards.hpp"
 #include "identification/fit/cross_check.hpp"
 #include "identification/fit/doubts.hpp"
-#include "core/hdf5/seal.hpp"
 #include "identification/inverse/inverse_fit.hpp"
 #include "identification/inverse/scene_candidates.hpp"
-#include "stage.hpp"
-#include "results/store/curves_file.hpp"
-#include "identification/setup/fit_report.hpp"
 #include "identification/sensitivity/long_work.hpp"
+#include "identification/setup/fit_report.hpp"
 #include "identification/statistics/study_files.hpp"
+#include "results/store/curves_file.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -29,17 +29,22 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
 
 void need_optimum(const Job<FitConfig>& job, const FitResult& found) {
   if (!found.best.converged)
-    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters",
-                                        fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
-                                                    job.config.searches(), found.best.why, found.best.kkt, found.best.cost),
-                                        "", "more starts, other start values or narrower bounds"});
+    throw Failure(
+        Exit::not_converged,
+        {job.where("parameters"), "parameters",
+         fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
+                     job.config.searches(), found.best.why, found.best.kkt, found.best.cost),
+         "", "more starts, other start values or narrower bounds"});
 }
 
 // tables and figures of what was measured in scenes
 void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) {
-  for (const NamedTable& table : curve_tables(record)) write_text_file(job.beside(table.name + ".csv"), table.text);
+  for (const NamedTable& table : curve_tables(record))
+    write_text_file(job.beside(table.name + ".csv"), table.text);
   if (!job.config.study || !job.config.study->figures) return;
-  for (const std::string& line : draw_curves(record.curves, job.config.figure_style, job.beside(""))) job.say("{}", line);
+  for (const std::string& line :
+       draw_curves(record.curves, job.config.figure_style, job.beside("")))
+    job.say("{}", line);
 }
 
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
@@ -51,13 +56,16 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   if (config.has_scenes()) {
     at_the_end_of_an_increment.emplace();
     scenes.emplace(job.voice(), config, job.where, problem,
-                   job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(), job.output + ".runs");
+                   job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(),
+                   job.output + ".runs");
   }
   FitResult found = scenes ? scenes->search() : best_fit(config, problem);
   need_optimum(job, found);
   const auto at_rest =
       scenes ? std::nullopt
-             : stiffen_at_rest(problem, found, {config.searches(), static_cast<unsigned>(config.seed), {}}, config.noise());
+             : stiffen_at_rest(problem, found,
+                               {config.searches(), static_cast<unsigned>(config.seed), {}},
+                               config.noise());
   FitRecord record = fit_record(problem, found);
   record.at_rest = at_rest;
   for (std::size_t i = 0; i < config.parameters.size(); ++i)
@@ -77,18 +85,21 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
     const SceneCandidates next = scene_candidates(config, problem, found, job.where);
     for (const std::string& line : next.without) job.warn("{}", line);
     record.study = study(
-        problem, found, *config.study, [&](const std::string& what) { return progress_of("fit", what, job.quiet); },
+        problem, found, *config.study,
+        [&](const std::string& what) { return progress_of("fit", what, job.quiet); },
         next.candidates);
     for (const std::string& line : study_lines(record.study)) job.say("{}", line);
-    for (const std::string& line : write_study_files(record.study, *config.study, config.figure_style, job.beside("")))
+    for (const std::string& line :
+         write_study_files(record.study, *config.study, config.figure_style, job.beside("")))
       job.say("{}", line);
   }
   if (!record.tests.empty()) write_text_file(job.beside("fit.csv"), fit_csv(record));
   write_text_file(job.beside("parameters.csv"), parameters_csv(record));
   write_curves_of_scenes(job, record);
-  if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 && problem.tests[0].kind == TestKind::uniaxial)
-    for (const std::string& line :
-         draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"), config.figure_style, job.beside("")))
+  if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 &&
+      problem.tests[0].kind == TestKind::uniaxial)
+    for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"),
+                                            config.figure_style, job.beside("")))
       job.say("{}", line);
   for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
@@ -99,4 +110,6 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit_stage); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit_stage);
+}

@@ -1,17 +1,17 @@
-// langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file, also as table.csv;
-// figures and maps of all members.
+// langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file,
+// also as table.csv; figures and maps of all members.
 #include <cstdlib>
 
 #include "core/hdf5/seal.hpp"
 #include "identification/inverse/parameter_sample.hpp"
-#include "results/plot/gnuplot.hpp"
-#include "results/plot/pictures.hpp"
-#include "stage.hpp"
-#include "results/store/material_file.hpp"
 #include "pipeline/sweep/design_tables.hpp"
 #include "pipeline/sweep/gather.hpp"
 #include "pipeline/sweep/gather_config.hpp"
 #include "pipeline/sweep/sweep_file.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/plot/pictures.hpp"
+#include "results/store/material_file.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 using Members = std::vector<SweepMember>;
 
 // The map of that name of every member.
-std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep& sweep, const Members& members,
-                                       const std::string& name) {
+std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep& sweep,
+                                       const Members& members, const std::string& name) {
   std::vector<const SurfaceMap*> found;
   for (std::size_t i = 0; i < members.size(); ++i) {
     std::vector<std::string> known;
@@ -30,14 +30,17 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
     }
     if (found.size() == i + 1) continue;
     const std::string key = "maps." + name, near = nearest(name, known);
-    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
-                                      known.empty() ? "a file with maps: post has the key `maps`" : "one of " + list_words(known),
-                                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    throw Failure(Exit::config,
+                  Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
+                        known.empty() ? "a file with maps: post has the key `maps`"
+                                      : "one of " + list_words(known),
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   return found;
 }
 
-// What figures may draw of a member: the columns and maps of curves.h5; of a fit strain, measured stress, model and error.
+// What figures may draw of a member: the columns and maps of curves.h5; of a fit strain, measured
+// stress, model and error.
 Curves curves_in(const std::string& file) {
   const std::string schema = read_origin(file).schema;
   if (schema == curves_schema.name) return read_curves(file).curves;
@@ -48,35 +51,45 @@ Curves curves_in(const std::string& file) {
   double largest = 0;
   for (double s : fit->stress) largest = std::max(largest, std::abs(s));
   std::vector<double> error;
-  for (std::size_t i = 0; i < fit->model.size(); ++i) error.push_back(100 * (fit->model[i] - fit->stress[i]) / largest);
-  curves.columns = {
-      {"strain", "-", fit->strain}, {"measured", "MPa", fit->stress}, {"model", "MPa", fit->model}, {"error", "percent", error}};
+  for (std::size_t i = 0; i < fit->model.size(); ++i)
+    error.push_back(100 * (fit->model[i] - fit->stress[i]) / largest);
+  curves.columns = {{"strain", "-", fit->strain},
+                    {"measured", "MPa", fit->stress},
+                    {"model", "MPa", fit->model},
+                    {"error", "percent", error}};
   return curves;
 }
 
-SweepColumn differences(const Job<GatherConfig>& job, const Members& members, const std::string& name,
-                        const std::vector<const SurfaceMap*>& maps) {
+SweepColumn differences(const Job<GatherConfig>& job, const Members& members,
+                        const std::string& name, const std::vector<const SurfaceMap*>& maps) {
   const MapComparison& compare = *job.config.maps.at(name).compare;
-  const auto other = std::find_if(members.begin(), members.end(), [&](const SweepMember& m) { return m.at == compare.with; });
+  const auto other = std::find_if(members.begin(), members.end(),
+                                  [&](const SweepMember& m) { return m.at == compare.with; });
   if (other == members.end()) {
     const std::string key = fmt::format("maps.{}.compare.with", name);
     std::vector<std::string> known;
-    for (const SweepMember& m : members) known.push_back(fmt::format("[{}]", fmt::join(m.at, ", ")));
-    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no member is [{}]", fmt::join(compare.with, ", ")),
-                                      fmt::format("one of {}", fmt::join(known, ", ")), ""});
+    for (const SweepMember& m : members)
+      known.push_back(fmt::format("[{}]", fmt::join(m.at, ", ")));
+    throw Failure(
+        Exit::config,
+        Error{job.where(key), key, fmt::format("no member is [{}]", fmt::join(compare.with, ", ")),
+              fmt::format("one of {}", fmt::join(known, ", ")), ""});
   }
   const SurfaceMap& reference = *maps[static_cast<std::size_t>(other - members.begin())];
   SweepColumn column{name + "_difference", "percent", {}};
-  for (const SurfaceMap* map : maps) column.values.push_back(100 * difference(*map, reference, compare.beyond));
+  for (const SurfaceMap* map : maps)
+    column.values.push_back(100 * difference(*map, reference, compare.beyond));
   return column;
 }
 
 // The effects of a design on each column, with the values of its points as columns of the table.
-std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design, Sweep& sweep, Pictures& pictures) {
+std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design,
+                                          Sweep& sweep, Pictures& pictures) {
   const std::vector<VecX> points = design_points(design);
   if (sweep.members.size() != points.size())
     throw Failure(Exit::config, Error{job.where("axes[0].design"), "axes[0].design",
-                                      fmt::format("{} members for {} points", sweep.members.size(), points.size()),
+                                      fmt::format("{} members for {} points", sweep.members.size(),
+                                                  points.size()),
                                       "one member for each point, in their order", ""});
   std::vector<QuantityEffects> effects;
   for (const SweepColumn& c : sweep.columns) {
@@ -85,8 +98,10 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
       line.starts_with("warning: ") ? job.warn("{}", line.substr(9)) : job.say("{}", line);
     if (!design.figures) continue;
     if (design.one_at_a_time || design.morris)
-      pictures.draw("effects_" + c.name, bars(effects_bars(design, effects.back()), pictures.look()));
-    if (design.sobol) pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back()), pictures.look()));
+      pictures.draw("effects_" + c.name,
+                    bars(effects_bars(design, effects.back()), pictures.look()));
+    if (design.sobol)
+      pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back()), pictures.look()));
   }
   for (std::size_t j = design.parameters.size(); j-- > 0;) {
     SweepColumn column{short_name(design.parameters[j]), design.parameters[j].unit, {}};
@@ -98,17 +113,21 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
 }
 
 // The spread of each column over sets of parameters, which stand as columns of the table then.
-std::vector<Spread> spreads_over(const Job<GatherConfig>& job, const std::vector<GatherInput>& members, Sweep& sweep) {
+std::vector<Spread> spreads_over(const Job<GatherConfig>& job,
+                                 const std::vector<GatherInput>& members, Sweep& sweep) {
   const auto refuse = [&](std::string found) {
-    throw Failure(Exit::config, Error{job.where("axes[0].samples"), "axes[0].samples", std::move(found),
-                                      "--material with the fit whose sets of parameters they are", ""});
+    throw Failure(Exit::config,
+                  Error{job.where("axes[0].samples"), "axes[0].samples", std::move(found),
+                        "--material with the fit whose sets of parameters they are", ""});
   };
   if (!job.has("material")) refuse("samples without the fit");
   const MaterialFile fitted = read_material(job.input("material"));
   std::vector<std::vector<Summary>> sets;
   for (const GatherInput& member : members) {
     const int number = std::atoi(member.at.at(0).c_str());
-    if (const std::string lacks = number < 1 ? "no set of that number" : why_no_samples(fitted, number); !lacks.empty())
+    if (const std::string lacks =
+            number < 1 ? "no set of that number" : why_no_samples(fitted, number);
+        !lacks.empty())
       refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), lacks));
     sets.push_back(sample_of(fitted, number).values);
   }
@@ -129,7 +148,8 @@ std::vector<Spread> spreads_over(const Job<GatherConfig>& job, const std::vector
 std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const auto refuse = [&](const std::string& found) {
-    throw Failure(Exit::config, Error{job.where("rows"), "rows", "parameters, of " + found, "material.h5 of one fit", ""});
+    throw Failure(Exit::config, Error{job.where("rows"), "rows", "parameters, of " + found,
+                                      "material.h5 of one fit", ""});
   };
   if (files.size() != 1) refuse(fmt::format("{} files", files.size()));
   if (read_origin(files[0]).schema != material_schema.name) refuse(files[0]);
@@ -137,8 +157,11 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   if (!fit) refuse("a material that no fit found");
   Sweep sweep;
   sweep.axes = {{"parameter", "-", {}}};
-  sweep.columns = {
-      {"true", "-", {}}, {"found", "-", {}}, {"standard_error", "-", {}}, {"lower_95", "-", {}}, {"upper_95", "-", {}}};
+  sweep.columns = {{"true", "-", {}},
+                   {"found", "-", {}},
+                   {"standard_error", "-", {}},
+                   {"lower_95", "-", {}},
+                   {"upper_95", "-", {}}};
   for (const FittedParameter& p : fit->parameters) {
     const std::array<double, 2> interval = interval_95(p);
     const double row[] = {p.truth, p.value, p.standard_error, interval[0], interval[1]};
@@ -155,22 +178,27 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const GatherConfig& config = job.config;
   if (config.rows == GatherRows::parameters) return gather_parameters(job);
   if (!config.members.empty() && config.members.size() != files.size())
-    throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
-                                      fmt::format("one for each of the {} files given", files.size()), ""});
+    throw Failure(Exit::config,
+                  Error{job.where("members"), "members",
+                        fmt::format("found {} members", config.members.size()),
+                        fmt::format("one for each of the {} files given", files.size()), ""});
   std::vector<SweepAxis> axes;
-  for (const GatherAxis& a : config.axes) axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
+  for (const GatherAxis& a : config.axes)
+    axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   std::vector<GatherInput> inputs;
   Members members;
   const bool drawn = !config.figures.empty() || !config.maps.empty();
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {}, read_summary(files[i])};
     if (member.summary.empty())
-      throw Failure(Exit::input, Error{{files[i], 0, 0},
-                                       "/summary",
-                                       "nothing to gather",
-                                       "a file with a summary",
-                                       "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
-    if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
+      throw Failure(Exit::input,
+                    Error{{files[i], 0, 0},
+                          "/summary",
+                          "nothing to gather",
+                          "a file with a summary",
+                          "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
+    if (!config.members.empty())
+      member.path = config.members[i].path, member.at = config.members[i].at;
     if (drawn) members.push_back({member.at, member.summary, curves_in(files[i])});
     inputs.push_back(std::move(member));
   }
@@ -178,7 +206,8 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
 
   Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style);
   std::vector<QuantityEffects> effects;
-  const Design* design = config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
+  const Design* design =
+      config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
   if (design) effects = effects_over(job, *design, sweep, pictures);
   std::vector<Spread> spreads;
   std::vector<Band> bands;
@@ -187,24 +216,31 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     const auto maps = maps_of(job, sweep, members, name);
     if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
     std::vector<MapPanel> panels;
-    for (std::size_t i = 0; i < maps.size(); ++i) panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
+    for (std::size_t i = 0; i < maps.size(); ++i)
+      panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
     pictures.draw(name, map_drawing(panels, map.style, map.columns, pictures.look()));
   }
   for (const auto& [name, figure] : config.figures) {
-    const auto where = [&, at = "figures." + name + "."](const std::string& key) { return job.where(at + key); };
+    const auto where = [&, at = "figures." + name + "."](const std::string& key) {
+      return job.where(at + key);
+    };
     const FigureData data = figure_over(figure, name, axes, members, where);
     write_text_file(job.beside(name + ".csv"), data.csv);
     pictures.draw(name, data.plot);
     bands.insert(bands.end(), data.bands.begin(), data.bands.end());
   }
-  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
-  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity, spreads, bands);
-  job.say("{} rows, {} columns, {} figures", sweep.members.size(), sweep.axes.size() + sweep.columns.size(),
-          config.figures.size() + config.maps.size());
+  for (const auto& [reason, names] : pictures.failed())
+    job.say("not drawn: {} ({})", names, reason);
+  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity, spreads,
+              bands);
+  job.say("{} rows, {} columns, {} figures", sweep.members.size(),
+          sweep.axes.size() + sweep.columns.size(), config.figures.size() + config.maps.size());
   return {};
 }
 
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::GatherConfig>(argc, argv, "gather", langer::gather_sweep); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::GatherConfig>(argc, argv, "gather", langer::gather_sweep);
+}

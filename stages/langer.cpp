@@ -1,12 +1,8 @@
-// langer show | new | check | describe | schema | explain | times | crate | doctor | man | completion: what one wants to know beside the stages.
+// langer show | new | check | describe | schema | explain | times | crate | doctor | man |
+// completion: what one wants to know beside the stages.
 #include <algorithm>
 
 #include "arguments.hpp"
-#include "core/base/say.hpp"
-#include "pipeline/plan/effective.hpp"
-#include "pipeline/plan/run_files.hpp"
-#include "results/post/describe_columns.hpp"
-#include "program.hpp"
 #include "cli/check.hpp"
 #include "cli/crate.hpp"
 #include "cli/doctor.hpp"
@@ -14,6 +10,11 @@
 #include "cli/schemas.hpp"
 #include "cli/show.hpp"
 #include "cli/starter.hpp"
+#include "core/base/say.hpp"
+#include "pipeline/plan/effective.hpp"
+#include "pipeline/plan/run_files.hpp"
+#include "program.hpp"
+#include "results/post/describe_columns.hpp"
 
 namespace langer {
 namespace {
@@ -55,7 +56,8 @@ int check_files(const Given& given) {
 int describe_kind(const Given& given) {
   if (given.places[0] == "columns") return put_out(columns_text()), 0;
   const ConfigKind* kind = find_config_kind(given.places[0]);
-  if (!kind) schema_text(given.places[0] == "pipeline" ? "" : given.places[0]);  // says which there are
+  if (!kind)
+    schema_text(given.places[0] == "pipeline" ? "" : given.places[0]);  // says which there are
   put_out(kind->reference());
   return 0;
 }
@@ -66,23 +68,28 @@ int manual(const Given& given) {
     if (u.program == given.places[0]) return put_out(man_text(u)), 0;
     known.push_back(u.program);
   }
-  throw Failure(Exit::config,
-                Error{{}, "", fmt::format("there is no program \"{}\"", given.places[0]), "one of " + list_words(known), ""});
+  throw Failure(Exit::config, Error{{},
+                                    "",
+                                    fmt::format("there is no program \"{}\"", given.places[0]),
+                                    "one of " + list_words(known),
+                                    ""});
 }
 
 int crate(const Given& given) {
   const std::string& folder = given.places[0];
   if (!given.same_as.empty()) return put_out(same_results(folder, given.same_as) + "\n"), 0;
   const CrateReport report = write_crate(folder, given.crate);
-  say_line("langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: sh {}/reproduce", folder,
-           report.files, report.actions, report.inputs, folder);
+  say_line(
+      "langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: sh {}/reproduce",
+      folder, report.files, report.actions, report.inputs, folder);
   return 0;
 }
 
 int doctor() {
   const std::vector<Finding> findings = examine();
   put_out(doctor_text(findings));
-  const bool runs = std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.needed && !f.there; });
+  const bool runs = std::none_of(findings.begin(), findings.end(),
+                                 [](const Finding& f) { return f.needed && !f.there; });
   return static_cast<int>(runs ? Exit::ok : Exit::input);
 }
 
@@ -90,7 +97,8 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
   Given given;
   const bool places = std::any_of(usage.options.begin(), usage.options.end(), is_place);
   const std::size_t required = static_cast<std::size_t>(
-      std::count_if(usage.options.begin(), usage.options.end(), [](const UsageOption& o) { return is_place(o) && o.required; }));
+      std::count_if(usage.options.begin(), usage.options.end(),
+                    [](const UsageOption& o) { return is_place(o) && o.required; }));
   Arguments options(usage.program);
   if (places) options.texts("places", given.places);
   for (const auto& [name, text] : {std::pair{"--as", &given.as},
@@ -99,8 +107,10 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
                                    {"--author", &given.crate.author},
                                    {"--license", &given.crate.license}})
     if (usage.find(name)) options.text(name, *text);
-  for (const auto& [name, flag] :
-       {std::pair{"--config", &given.config}, {"--failed", &given.failed}, {"--list", &given.list}, {"--json", &given.json}})
+  for (const auto& [name, flag] : {std::pair{"--config", &given.config},
+                                   {"--failed", &given.failed},
+                                   {"--list", &given.list},
+                                   {"--json", &given.json}})
     if (usage.find(name)) options.flag(name, *flag);
   int code = 0;
   if (!options.read(usage, argc, argv, code)) return code;
@@ -109,7 +119,9 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
     std::string missing;
     for (const UsageOption& o : usage.options)
       if (is_place(o) && o.required) missing = o.flags;
-    throw Failure(Exit::config, Error{{usage.program}, "", missing + " is required", "", usage.program + " --help"});
+    throw Failure(
+        Exit::config,
+        Error{{usage.program}, "", missing + " is required", "", usage.program + " --help"});
   }
   const bool several = name == "show" || name == "check";
   if (const std::size_t most = name == "new" ? 2 : required; !several && given.places.size() > most)
@@ -133,7 +145,8 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
 
 int langer_program(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "--help";
-  if (word == "--help" || word == "-h" || word == "help") return put_out(help_text(langer_usage())), 0;
+  if (word == "--help" || word == "-h" || word == "help")
+    return put_out(help_text(langer_usage())), 0;
   if (word == "--version") return put_out(version_line("langer") + "\n"), 0;
   std::vector<std::string> names;
   for (const Usage& usage : langer_commands()) {
@@ -141,11 +154,12 @@ int langer_program(int argc, char** argv) {
     if (word == names.back()) return command(usage, word, argc - 1, argv + 1);
   }
   const std::string near = nearest(word, names);
-  throw Failure(Exit::config, Error{{"langer"},
-                                    "",
-                                    fmt::format("there is no command \"{}\"", word),
-                                    "one of " + list_words(names),
-                                    near.empty() ? "langer --help" : fmt::format("did you mean \"{}\"?", near)});
+  throw Failure(Exit::config,
+                Error{{"langer"},
+                      "",
+                      fmt::format("there is no command \"{}\"", word),
+                      "one of " + list_words(names),
+                      near.empty() ? "langer --help" : fmt::format("did you mean \"{}\"?", near)});
 }
 
 }  // namespace

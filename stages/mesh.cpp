@@ -3,16 +3,18 @@
 #include <filesystem>
 
 #include "core/hdf5/seal.hpp"
-#include "scene/model/solve_config_io.hpp"
-#include "scene/model/make_mesh.hpp"
-#include "stage.hpp"
 #include "results/store/mesh_file.hpp"
+#include "scene/model/make_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
 
 std::string beside(const std::string& output, MeshFormat format) {
-  return std::filesystem::path(output).replace_extension(names(format)[static_cast<int>(format)]).string();
+  return std::filesystem::path(output)
+      .replace_extension(names(format)[static_cast<int>(format)])
+      .string();
 }
 
 // an exported file may not stand where the mesh comes from
@@ -20,22 +22,26 @@ void spare_input(const Job<MeshConfig>& job) {
   const auto* from = std::get_if<FromFile>(&job.config.geometry);
   std::error_code unreadable;
   for (const MeshFormat format : job.config.exports)
-    if (const std::string path = beside(job.output, format); from && std::filesystem::equivalent(path, from->file.path, unreadable))
-      throw Failure(Exit::config, Error{job.where("export"), "export", path + " is the file that geometry names",
-                                        "another name of the output", ""});
+    if (const std::string path = beside(job.output, format);
+        from && std::filesystem::equivalent(path, from->file.path, unreadable))
+      throw Failure(Exit::config,
+                    Error{job.where("export"), "export", path + " is the file that geometry names",
+                          "another name of the output", ""});
 }
 
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
   spare_input(job);
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
   for (const std::string& note : notes) job.say("{}", note);
-  job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(), names(mesh.type)[static_cast<int>(mesh.type)],
-          quality.volume);
-  job.say("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}", quality.shortest_edge,
-          quality.longest_edge, quality.largest_aspect, quality.least_scaled_jacobian);
+  job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(),
+          names(mesh.type)[static_cast<int>(mesh.type)], quality.volume);
+  job.say("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}",
+          quality.shortest_edge, quality.longest_edge, quality.largest_aspect,
+          quality.least_scaled_jacobian);
   for (const auto& [name, nodes] : mesh.node_sets) {
     const auto facets = mesh.facet_sets.find(name);
-    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(), facets == mesh.facet_sets.end() ? 0 : facets->second.size());
+    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(),
+            facets == mesh.facet_sets.end() ? 0 : facets->second.size());
   }
   const std::vector<Summary> summary{{"nodes", static_cast<double>(mesh.n_nodes()), "-"},
                                      {"cells", static_cast<double>(mesh.n_cells()), "-"},
@@ -55,4 +61,6 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::MeshConfig>(argc, argv, "mesh", langer::mesh); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::MeshConfig>(argc, argv, "mesh", langer::mesh);
+}

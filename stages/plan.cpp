@@ -1,4 +1,5 @@
-// langer-plan pipelines/x.yaml [-o runs/x]: checks everything that a pipeline names, then writes its Makefile and configs.
+// langer-plan pipelines/x.yaml [-o runs/x]: checks everything that a pipeline names, then writes
+// its Makefile and configs.
 #include "pipeline/plan/plan.hpp"
 
 #include <filesystem>
@@ -29,18 +30,22 @@ int main(int argc, char** argv) {
     if (!options.read(plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
     const PlanReport report =
-        dry_run ? check_pipeline(file, folder, overrides) : plan(file, folder, bin, command_line(argc, argv), others, overrides);
+        dry_run ? check_pipeline(file, folder, overrides)
+                : plan(file, folder, bin, command_line(argc, argv), others, overrides);
     if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
     for (const std::string& doubt : report.doubts) say_line("plan: warning: {}", doubt);
     if (quiet) return 0;
     if (dry_run)
-      say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder, report.nodes, report.steps);
+      say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder,
+               report.nodes, report.steps);
     else
-      say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder, report.nodes, report.steps,
-               report.changed);
+      say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder,
+               report.nodes, report.steps, report.changed);
     if (others.snakemake && !dry_run)
-      say_line("plan: to run it by Snakemake: snakemake -d {0} -s {0}/Snakefile --cores 4", report.folder);
-    if (others.slurm && !dry_run) say_line("plan: to send it to Slurm: {}/slurm/submit [options of sbatch]", report.folder);
+      say_line("plan: to run it by Snakemake: snakemake -d {0} -s {0}/Snakefile --cores 4",
+               report.folder);
+    if (others.slurm && !dry_run)
+      say_line("plan: to send it to Slurm: {}/slurm/submit [options of sbatch]", report.folder);
     return 0;
   });
 }

@@ -5,19 +5,19 @@
 
 #include "arguments.hpp"
 #include "core/base/counted.hpp"
-#include "export/write_decks.hpp"
 #include "core/hdf5/seal.hpp"
+#include "export/write_decks.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "results/plot/pictures.hpp"
-#include "scene/run/recorded_contact.hpp"
-#include "scene/run/post_config.hpp"
-#include "scene/run/post_files.hpp"
-#include "stage.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/snapshot.hpp"
 #include "results/store/solution_file.hpp"
 #include "results/store/vtu.hpp"
+#include "scene/run/post_config.hpp"
+#include "scene/run/post_files.hpp"
+#include "scene/run/recorded_contact.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -26,7 +26,8 @@ namespace {
 struct Solution {
   explicit Solution(const std::string& path)
       : reader(path),
-        body(reader.header().mesh, reader.header().laws(), reader.header().directions, formulation_of(reader.header(), path)),
+        body(reader.header().mesh, reader.header().laws(), reader.header().directions,
+             formulation_of(reader.header(), path)),
         branches_(body, reader) {}
   SolutionReader reader;
   mutable Body body;  // told of the branch stresses of the row that was read last
@@ -40,7 +41,9 @@ struct Solution {
     std::set<int> seen;  // bodies: at rest the direction of the fibres does not matter
     for (int e = 0; e < body.mesh().n_cells(); ++e)
       if (seen.insert(body.mesh().body.empty() ? 0 : body.mesh().body[e]).second)
-        stiffness = std::min(stiffness, smallest_shear_stiffness(body.material(e), Mat3::Identity(), body.fibres(e)).value);
+        stiffness = std::min(
+            stiffness,
+            smallest_shear_stiffness(body.material(e), Mat3::Identity(), body.fibres(e)).value);
     rest.scalars["shear_stiffness_min"] = stiffness;
     return rest;
   }
@@ -53,7 +56,8 @@ using Columns = std::vector<Column>;
 
 [[noreturn]] void refuse(const Job<PostConfig>& job, const std::vector<Complaint>& complaints) {
   std::vector<Error> errors;
-  for (const Complaint& c : complaints) errors.push_back({job.where(c.key), c.key, c.found, c.expected, c.hint});
+  for (const Complaint& c : complaints)
+    errors.push_back({job.where(c.key), c.key, c.found, c.expected, c.hint});
   throw Failure(Exit::config, std::move(errors));
 }
 
@@ -66,35 +70,44 @@ struct Table {
     const int row = row_of(*parse_step(step), t, u_ind);
     if (row >= 0) return row;
     const double furthest = *std::max_element(u_ind.begin(), u_ind.end());
-    refuse(job,
-           {{key, step, fmt::format("a row from 0 to {}, or t=0 to t={}, or u_ind=0 to u_ind={}", t.size() - 1, t.back(), furthest),
-             ""}});
+    refuse(job, {{key, step,
+                  fmt::format("a row from 0 to {}, or t=0 to t={}, or u_ind=0 to u_ind={}",
+                              t.size() - 1, t.back(), furthest),
+                  ""}});
   }
   int exact_row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
     const int found = row(job, key, step);
     if (!is_exact(*parse_step(step), found, t, u_ind))
-      refuse(job, {{key, step, "a state of the solution",
-                    fmt::format("the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
-                                "where it is wanted",
-                                t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
+      refuse(
+          job,
+          {{key, step, "a state of the solution",
+            fmt::format(
+                "the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
+                "where it is wanted",
+                t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
     return found;
   }
 };
 
 bool asked(const std::vector<Measure>& measures, auto&& of) {
-  return std::any_of(measures.begin(), measures.end(), [&](const Measure& m) { return m.quantity && of(line_of(*m.quantity)); });
+  return std::any_of(measures.begin(), measures.end(),
+                     [&](const Measure& m) { return m.quantity && of(line_of(*m.quantity)); });
 }
 
-Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::vector<RigidContact>& indenters,
-               const ContactStates& contacts, const std::vector<Measure>& measures) {
+Table table_of(const Job<PostConfig>& job, const Solution& solution,
+               const std::vector<RigidContact>& indenters, const ContactStates& contacts,
+               const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
   const Loads loads = loads_of(solution.reader.header());
   EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
-  for (int row = 0; row <= n_steps; ++row) path.add(energy_state(solution.record(row), indenters, loads));
+  for (int row = 0; row <= n_steps; ++row)
+    path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
-  const bool areas = asked(measures, [](const QuantityLine& line) { return is_of_contact_surface(line.word); });
+  const bool areas =
+      asked(measures, [](const QuantityLine& line) { return is_of_contact_surface(line.word); });
   const bool touched = asked(measures, is<OfContact>);
-  const bool slips = asked(measures, [](const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; });
+  const bool slips = asked(
+      measures, [](const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; });
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
@@ -104,7 +117,8 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
     if (touched) state.contact = contacts.nodes(row, record, slips);
     state.sums = sums[row];
     GaussValues gauss;
-    const std::vector<double> values = measured(solution.body, measures, job.config.stress, state, gauss);
+    const std::vector<double> values =
+        measured(solution.body, measures, job.config.stress, state, gauss);
     for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
     table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
     if (const auto time = state.histories.find("time"); time != state.histories.end())
@@ -115,7 +129,8 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
   for (std::size_t c = 0; c < measures.size(); ++c) {
     if (!measures[c].zero_at) continue;
     std::vector<double>& values = table.columns[c].values;
-    const double zero = values[static_cast<std::size_t>(table.exact_row(job, measures[c].key + ".zero_at", *measures[c].zero_at))];
+    const double zero = values[static_cast<std::size_t>(
+        table.exact_row(job, measures[c].key + ".zero_at", *measures[c].zero_at))];
     for (double& value : values) value -= zero;
   }
   return table;
@@ -123,31 +138,39 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution, const std::
 
 void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summary>& summary) {
   const auto column = [&](const std::string& name) -> const Column& {
-    return *std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == name; });
+    return *std::find_if(table.columns.begin(), table.columns.end(),
+                         [&](const Column& c) { return c.name == name; });
   };
   for (const auto& [name, choice] : job.config.cycles) {
     const double lasts = table.seconds.size() == table.t.size() ? table.seconds.back() : 0;
     if (!(lasts >= choice.period * (1 - 1e-9)))
-      refuse(job, {{"cycles." + name + ".period", fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
-                    "a cycle that the path has gone through, in seconds", "path.seconds of the solve says how long it takes"}});
+      refuse(job, {{"cycles." + name + ".period",
+                    fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
+                    "a cycle that the path has gone through, in seconds",
+                    "path.seconds of the solve says how long it takes"}});
     const Column &of = column(choice.of), &over = column(choice.over);
     const Cycle cycle = last_cycle(table.seconds, over.values, of.values, choice.period);
-    const std::string unit = of.unit == over.unit ? "-" : over.unit == "-" ? of.unit : of.unit + "/" + over.unit;
+    const std::string unit = of.unit == over.unit ? "-"
+                             : over.unit == "-"   ? of.unit
+                                                  : of.unit + "/" + over.unit;
     summary.push_back({"storage_" + name, cycle.storage, unit});
     summary.push_back({"loss_" + name, cycle.loss, unit});
     summary.push_back({"tan_delta_" + name, cycle.tan_delta(), "-"});
     if (cycle.change > 0.01)
-      job.say("warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not yet those of many cycles",
-              name, 100 * cycle.change);
+      job.say(
+          "warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not yet those of many cycles",
+          name, 100 * cycle.change);
   }
 }
 
-std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, const std::vector<SurfaceMap>& maps) {
+std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table,
+                                const std::vector<SurfaceMap>& maps) {
   std::vector<Summary> summary;
   for (const Column& c : table.columns) summary.push_back({c.name, c.values.back(), c.unit});
   for (const auto& [name, step] : job.config.summary_at) {
     const int row = table.exact_row(job, "summary_at." + name, step);
-    for (const Column& c : table.columns) summary.push_back({c.name + "_" + name, c.values[row], c.unit});
+    for (const Column& c : table.columns)
+      summary.push_back({c.name + "_" + name, c.values[row], c.unit});
   }
   add_cycles(job, table, summary);
   for (const SurfaceMap& map : maps) {
@@ -158,7 +181,8 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table, 
   return summary;
 }
 
-using Renders = std::map<std::string, std::pair<std::string, RenderChoice>>;  // name -> its key, how
+using Renders =
+    std::map<std::string, std::pair<std::string, RenderChoice>>;  // name -> its key, how
 
 Renders renders_of(const PostConfig& config) {
   Renders renders;
@@ -167,17 +191,19 @@ Renders renders_of(const PostConfig& config) {
   return renders;
 }
 
-std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders, const Body& body,
-                                     const Available& available) {
+std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders,
+                                     const Body& body, const Available& available) {
   std::vector<Complaint> complaints;
   const auto needs_contact = [&](const std::string& key, const std::optional<Quantity>& field) {
     if (!field || !is<OfContact>(line_of(*field))) return;
     const QuantityLine& line = line_of(*field);
     if (!available.contact)
-      complaints.push_back(
-          {key + ".field", fmt::format("{} of a solution without contact", line.word), "a field that needs no indenter", ""});
+      complaints.push_back({key + ".field",
+                            fmt::format("{} of a solution without contact", line.word),
+                            "a field that needs no indenter", ""});
     else if (line.needs.shapes && !available.energy)
-      complaints.push_back({key + ".field", fmt::format("{} needs the shapes of the indenters", line.word),
+      complaints.push_back({key + ".field",
+                            fmt::format("{} needs the shapes of the indenters", line.word),
                             "a solution whose config this version can read", ""});
   };
   for (const auto& [name, map] : config.maps) needs_contact("maps." + name, map.field);
@@ -189,48 +215,59 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
   for (const auto& [name, keyed] : renders) {
     const auto& [key, choice] = keyed;
     if (choice.field && line_of(*choice.field).needs.fibres && choice.family > body.n_families())
-      complaints.push_back({key + ".family", "a fibre family that the material lacks", "another field", ""});
+      complaints.push_back(
+          {key + ".family", "a fibre family that the material lacks", "another field", ""});
     for (std::size_t i = 0; i < choice.points.size(); ++i)
-      if (const auto set = sets.find(choice.points[i]); set == sets.end() || set->second.size() != 1)
-        complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i], "an observation point of the mesh", ""});
+      if (const auto set = sets.find(choice.points[i]);
+          set == sets.end() || set->second.size() != 1)
+        complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i],
+                              "an observation point of the mesh", ""});
   }
   return complaints;
 }
 
 // a row with what the indenters do to the nodes, where the picture shows that
-StepState pictured_state(const Solution& solution, const ContactStates& contacts, int row, const std::optional<Quantity>& field) {
+StepState pictured_state(const Solution& solution, const ContactStates& contacts, int row,
+                         const std::optional<Quantity>& field) {
   const StepRecord record = solution.record(row);
   StepState state = state_of(record);
-  if (field && is<OfContact>(line_of(*field))) state.contact = contacts.nodes(row, record, line_of(*field).needs.shapes);
+  if (field && is<OfContact>(line_of(*field)))
+    state.contact = contacts.nodes(row, record, line_of(*field).needs.shapes);
   return state;
 }
 
-Curves curves_of(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts, const Table& table,
-                 std::size_t n_shown) {
+Curves curves_of(const Job<PostConfig>& job, const Solution& solution,
+                 const ContactStates& contacts, const Table& table, std::size_t n_shown) {
   Curves curves;
-  curves.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(n_shown));
+  curves.columns.assign(table.columns.begin(),
+                        table.columns.begin() + static_cast<std::ptrdiff_t>(n_shown));
   const Column& x = table.columns.front();
   for (std::size_t c = 1; c < table.columns.size(); ++c) {
     const Column& y = table.columns[c];
     curves.curves.push_back({y.name, x.name, x.unit, y.name, y.unit, x.values, y.values});
   }
   for (const auto& [name, map] : job.config.maps) {
-    const StepState state = pictured_state(solution, contacts, table.row(job, "maps." + name + ".step", map.step), map.field);
-    const auto values = picture_values(solution.body, state, map.field, map.family, job.config.stress);
+    const StepState state = pictured_state(
+        solution, contacts, table.row(job, "maps." + name + ".step", map.step), map.field);
+    const auto values =
+        picture_values(solution.body, state, map.field, map.family, job.config.stress);
     curves.maps.push_back(surface_map(solution.body, map, name, values, state.t));
   }
   curves.summary = summary_of(job, table, curves.maps);
   return curves;
 }
 
-Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& indenters, const StepState& state,
-                   const RenderChoice& choice, StressAt stress, const Look& look) {
+Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& indenters,
+                   const StepState& state, const RenderChoice& choice, StressAt stress,
+                   const Look& look) {
   const SolutionHeader& header = solution.reader.header();
   RenderScene scene{header.mesh, header.mesh.X, {}, "", {}};
-  for (const RigidContact& indenter : indenters) scene.indenters.push_back(outline_at(indenter, state.t, shown_of(header.mesh)));
+  for (const RigidContact& indenter : indenters)
+    scene.indenters.push_back(outline_at(indenter, state.t, shown_of(header.mesh)));
   for (std::size_t i = 0; i < scene.x.size(); ++i) scene.x[i] += state.u[i];
   for (const std::string& point : choice.points)
-    scene.points.push_back({point, scene.x[static_cast<std::size_t>(header.mesh.node_sets.at(point)[0])]});
+    scene.points.push_back(
+        {point, scene.x[static_cast<std::size_t>(header.mesh.node_sets.at(point)[0])]});
   if (choice.actions) scene.actions = actions_of(header, state.u);
   if (choice.field) {
     const QuantityLine& field = line_of(*choice.field);
@@ -240,34 +277,43 @@ Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& in
   return render(scene, choice, look);
 }
 
-void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts, int row, double t) {
+void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution,
+                       const ContactStates& contacts, int row, double t) {
   const SolutionHeader& header = solution.reader.header();
-  const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), row, contacts, job.config.stress);
-  write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points, fields.cells, job.identity, t);
+  const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), row,
+                                                contacts, job.config.stress);
+  write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points,
+                 fields.cells, job.identity, t);
 }
 
-void write_series(const Job<PostConfig>& job, const Solution& solution, const ContactStates& contacts) {
+void write_series(const Job<PostConfig>& job, const Solution& solution,
+                  const ContactStates& contacts) {
   const SolutionHeader& header = solution.reader.header();
   const std::string folder = job.beside("series");
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (!std::filesystem::is_directory(folder)) throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made", "", ""});
+  if (!std::filesystem::is_directory(folder))
+    throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made", "", ""});
   std::vector<std::pair<double, std::string>> files;
   for (int row = 0; row <= solution.reader.n_steps(); ++row) {
     StepRecord record = solution.record(row);
     if (row == 0)  // every state has the same fields; the gap at rest is not recorded
       for (const auto& [name, nodes] : header.contact_nodes)
-        record.contacts[name] = {std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
-                                 std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
-    const SnapshotFields fields = snapshot_fields(solution.body, header, record, row, contacts, job.config.stress);
+        record.contacts[name] = {
+            std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
+            std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
+    const SnapshotFields fields =
+        snapshot_fields(solution.body, header, record, row, contacts, job.config.stress);
     files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
     write_vtu(job.beside(files.back().second), header.mesh, record.t, fields.points, fields.cells);
   }
   write_pvd(job.beside("series.pvd"), files);
 }
 
-void add_points(const Job<PostConfig>& job, const std::string& name, const FigurePoints& points, Plot& plot) {
-  const PointColumns read = read_points(points, [&](const std::string& key) { return job.where("figures." + name + "." + key); });
+void add_points(const Job<PostConfig>& job, const std::string& name, const FigurePoints& points,
+                Plot& plot) {
+  const PointColumns read = read_points(
+      points, [&](const std::string& key) { return job.where("figures." + name + "." + key); });
   const std::string file = name + "_points.csv";
   write_text_file(job.beside(file), csv({{points.x, "-", read.x}, {points.y, "-", read.y}}));
   PlotLine line{file, points.x, points.y, points.legend};
@@ -275,8 +321,8 @@ void add_points(const Job<PostConfig>& job, const std::string& name, const Figur
   plot.lines.insert(plot.lines.begin(), line);
 }
 
-void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& columns, const std::string& csv_file, int rows,
-                 Pictures& pictures) {
+void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& columns,
+                 const std::string& csv_file, int rows, Pictures& pictures) {
   for (const auto& [name, figure] : job.config.figures) {
     Plot plot = plot_of(figure, columns, csv_file, csv_name);
     plot.rows = rows;
@@ -285,17 +331,20 @@ void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& co
   }
 }
 
-void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps, Pictures& pictures) {
+void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps,
+               Pictures& pictures) {
   for (const SurfaceMap& map : maps) {
     write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
-    pictures.draw(map.name, map_drawing({{"", &map}}, job.config.maps.at(map.name).style, 1, pictures.look()));
+    pictures.draw(map.name, map_drawing({{"", &map}}, job.config.maps.at(map.name).style, 1,
+                                        pictures.look()));
   }
 }
 
 // of the solution; those that are columns stand there already
 void add_errors_of(const SolutionReader& reader, std::vector<Summary>& summary) {
   for (const Summary& s : reader.summary())
-    if (std::none_of(summary.begin(), summary.end(), [&](const Summary& other) { return other.name == s.name; }))
+    if (std::none_of(summary.begin(), summary.end(),
+                     [&](const Summary& other) { return other.name == s.name; }))
       summary.push_back(s);
 }
 
@@ -309,13 +358,15 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
 
   Available available{!header.contact_nodes.empty(), missing.empty(), {}};
   if (solution.reader.n_steps() > 0)
-    for (const auto& [name, value] : solution.reader.step(0).scalars) available.histories.push_back(name);
+    for (const auto& [name, value] : solution.reader.step(0).scalars)
+      available.histories.push_back(name);
   config.columns = with_errors(config.columns, available.histories);
   const Measures shown = look_up(config.columns, "columns", solution.body, available);
   const Measures further = look_up(config.further, "further", solution.body, available);
   const Renders renders = renders_of(config);
   std::vector<Complaint> complaints = shown.complaints;
-  for (const auto& more : {further.complaints, complaints_of(config, renders, solution.body, available)})
+  for (const auto& more :
+       {further.complaints, complaints_of(config, renders, solution.body, available)})
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
 
@@ -327,29 +378,38 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (std::size_t i = 0; i < config.snapshots.size(); ++i)
     snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
   std::map<std::string, int> pictured;
-  for (const auto& [name, keyed] : renders) pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
+  for (const auto& [name, keyed] : renders)
+    pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
   Curves curves = curves_of(job, solution, contacts, table, shown.measures.size());
 
   // the main output comes last: once it is there, everything is
-  const std::filesystem::path csv_file = std::filesystem::path(job.output).replace_extension(".csv");
+  const std::filesystem::path csv_file =
+      std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
-  for (int row : snapshots) write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
+  for (int row : snapshots)
+    write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
   if (config.series) write_series(job, solution, contacts);
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style, config.draw == Draw::always);
-  draw_curves(job, config.columns, csv_file.filename().string(), static_cast<int>(table.t.size()), pictures);
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style,
+                    config.draw == Draw::always);
+  draw_curves(job, config.columns, csv_file.filename().string(), static_cast<int>(table.t.size()),
+              pictures);
   draw_maps(job, curves.maps, pictures);
   for (const auto& [name, keyed] : renders)
-    pictures.draw(name, drawing_of(solution, indenters, pictured_state(solution, contacts, pictured.at(name), keyed.second.field),
-                                   keyed.second, config.stress, pictures.look()));
+    pictures.draw(
+        name, drawing_of(solution, indenters,
+                         pictured_state(solution, contacts, pictured.at(name), keyed.second.field),
+                         keyed.second, config.stress, pictures.look()));
   for (const std::string& name : renders.empty() ? std::vector<std::string>{} : missing)
     job.say("not drawn: the indenter \"{}\", whose triangles the solution does not hold", name);
-  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
+  for (const auto& [reason, names] : pictures.failed())
+    job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
   add_errors_of(solution.reader, curves.summary);
   write_curves(job.output, curves, identity);
-  job.say("{}, {} in {}; {}, {}{}", counted(table.t.size(), "row"), counted(curves.columns.size(), "column"),
-          csv_file.filename().string(), counted(snapshots.size(), "snapshot"),
+  job.say("{}, {} in {}; {}, {}{}", counted(table.t.size(), "row"),
+          counted(curves.columns.size(), "column"), csv_file.filename().string(),
+          counted(snapshots.size(), "snapshot"),
           counted(config.figures.size() + config.maps.size() + renders.size(), "figure"),
           config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
   return curves.summary;
@@ -386,7 +446,9 @@ int export_scene(int argc, char** argv) {
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  const auto exports = [](const char* a) { return std::string_view(a).starts_with("--export"); };
+  const auto exports = [](const char* a) {
+    return std::string_view(a).starts_with("--export");
+  };
   if (std::any_of(argv + 1, argv + argc, exports)) return langer::export_scene(argc, argv);
   return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post);
 }

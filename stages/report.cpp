@@ -21,8 +21,11 @@ std::string folder_title(const std::string& output) {
 std::vector<Summary> report_on(const Job<ReportConfig>& job) {
   using namespace report;
   if (job.inputs.empty())
-    throw Failure(Exit::config,
-                  Error{{"the command line"}, "", "no file to report on", "--solution, --curves, --table, --material, ...", ""});
+    throw Failure(Exit::config, Error{{"the command line"},
+                                      "",
+                                      "no file to report on",
+                                      "--solution, --curves, --table, --material, ...",
+                                      ""});
   ReportPage page;
   page.title = job.config.title.empty() ? folder_title(job.output) : job.config.title;
   std::map<std::string, std::vector<Source>> of;
@@ -32,23 +35,29 @@ std::vector<Summary> report_on(const Job<ReportConfig>& job) {
   add_curves(page, of["curves"]);
   add_sweeps(page, of["table"]);
   add_sensitivities(page, of["sensitivity"]);
-  for (const auto& [port, title] :
-       {std::pair{"curves", "Curves: last state"}, {"material", "Fits"}, {"sensitivity", "Sensitivity"}, {"mesh", "Meshes"}})
+  for (const auto& [port, title] : {std::pair{"curves", "Curves: last state"},
+                                    {"material", "Fits"},
+                                    {"sensitivity", "Sensitivity"},
+                                    {"mesh", "Meshes"}})
     if (!of[port].empty()) add_summaries(page, title, of[port]);
   for (const char* port : {"mesh", "material", "sensitivity", "solution", "curves", "table"})
     for (const Source& source : of[port]) add_origin(page, source);
   const std::string text = html(page);
   write_text_file(job.output, text);
   const auto warnings = static_cast<std::size_t>(
-      std::count_if(page.verdicts.begin(), page.verdicts.end(), [](const Verdict& v) { return v.level == Level::warning; }));
+      std::count_if(page.verdicts.begin(), page.verdicts.end(),
+                    [](const Verdict& v) { return v.level == Level::warning; }));
   job.say("{}: {:.1f} MB, {}, {}, {}, {}{}", std::filesystem::path(job.output).filename().string(),
           static_cast<double>(text.size()) * 1e-6, counted(warnings, "warning"),
-          counted(page.charts.size() + page.polars.size(), "chart"), counted(page.tables.size(), "table"),
-          counted(page.bodies.size(), "body"), has_three() ? "" : " (built without three.js)");
+          counted(page.charts.size() + page.polars.size(), "chart"),
+          counted(page.tables.size(), "table"), counted(page.bodies.size(), "body"),
+          has_three() ? "" : " (built without three.js)");
   return {{"warnings", static_cast<double>(warnings), "-"}};
 }
 
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::ReportConfig>(argc, argv, "report", langer::report_on); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::ReportConfig>(argc, argv, "report", langer::report_on);
+}

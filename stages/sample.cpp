@@ -4,8 +4,8 @@
 #include "identification/inverse/parameter_sample.hpp"
 #include "identification/inverse/sample_config.hpp"
 #include "mechanics/material/at_rest.hpp"
-#include "stage.hpp"
 #include "results/store/material_file.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -15,16 +15,18 @@ std::vector<Summary> sample(const Job<SampleConfig>& job) {
   const MaterialFile fitted = read_material(file);
   const int number = job.config.number;
   if (const std::string lacks = why_no_samples(fitted, number); !lacks.empty())
-    throw Failure(Exit::config, Error{job.where("number"), "number", fmt::format("{}, and {} has {}", number, file, lacks),
+    throw Failure(Exit::config, Error{job.where("number"), "number",
+                                      fmt::format("{}, and {} has {}", number, file, lacks),
                                       "a set of a fit that tells how well its parameters are known",
                                       "study: {bootstrap: 200} in the fit's config makes as many"});
   const ParameterSample set = sample_of(fitted, number);
   if (at_rest(set.law) == AtRest::without_stiffness)
-    throw Failure(Exit::input, Error{{file},
-                                     "",
-                                     fmt::format("set {}: a law with {}", number, at_rest_in_words(set.law)),
-                                     stiffness_at_rest_cure(set.law),
-                                     "a lower bound above 0 in the fit"});
+    throw Failure(Exit::input,
+                  Error{{file},
+                        "",
+                        fmt::format("set {}: a law with {}", number, at_rest_in_words(set.law)),
+                        stiffness_at_rest_cure(set.law),
+                        "a lower bound above 0 in the fit"});
   job.say("{}", set.words);
   write_material(job.output, set.law, std::nullopt, job.identity);
   return set.values;
@@ -33,4 +35,6 @@ std::vector<Summary> sample(const Job<SampleConfig>& job) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::SampleConfig>(argc, argv, "sample", langer::sample); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::SampleConfig>(argc, argv, "sample", langer::sample);
+}

@@ -1,14 +1,15 @@
-// langer-sensitivity: which parameters of a material decide its stress in a test, and at which strains.
+// langer-sensitivity: which parameters of a material decide its stress in a test, and at which
+// strains.
 //   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
 #include <memory>
 
 #include "core/hdf5/seal.hpp"
-#include "scene/run/step_record.hpp"
-#include "stage.hpp"
 #include "identification/sensitivity/long_work.hpp"
 #include "identification/sensitivity/ranking.hpp"
 #include "identification/sensitivity/sensitivity_tables.hpp"
 #include "identification/statistics/study_files.hpp"
+#include "scene/run/step_record.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -19,21 +20,26 @@ std::optional<FitRecord> fit_of(const std::string& path) {
   return read_material(path).fit;
 }
 
-// The fit's ties that hold here: in a sheet that is turned, and not of numbers that are ranked themselves.
-std::vector<Tie> ties_in(const FitRecord& fit, Material& material, const std::vector<std::string>& keys, double turn) {
+// The fit's ties that hold here: in a sheet that is turned, and not of numbers that are ranked
+// themselves.
+std::vector<Tie> ties_in(const FitRecord& fit, Material& material,
+                         const std::vector<std::string>& keys, double turn) {
   std::vector<Tie> ties;
   for (Tie tie : fit.ties) {
     if (std::find(keys.begin(), keys.end(), tie.key) != keys.end()) continue;
     for (const MaterialParameter& p : parameters(material))
-      if (p.key == tie.key && p.unit == std::string(unit::deg)) tie.offset += turn * (1 - tie.factor);
+      if (p.key == tie.key && p.unit == std::string(unit::deg))
+        tie.offset += turn * (1 - tie.factor);
     ties.push_back(tie);
   }
   return ties;
 }
 
-// The stress over the strains as a function of the ranked numbers; every copy has a material of its own.
-CurveMaker stress_of(const SensitivityConfig& config, const Material& material, const std::vector<std::string>& keys,
-                     const std::vector<Tie>& ties, const std::vector<double>& strain) {
+// The stress over the strains as a function of the ranked numbers; every copy has a material of its
+// own.
+CurveMaker stress_of(const SensitivityConfig& config, const Material& material,
+                     const std::vector<std::string>& keys, const std::vector<Tie>& ties,
+                     const std::vector<double>& strain) {
   return [=, &strain]() -> ParametricCurve {
     const auto own = std::make_shared<Material>(material);
     const auto tied = std::make_shared<TiedNumbers>(*own, ties);
@@ -42,24 +48,31 @@ CurveMaker stress_of(const SensitivityConfig& config, const Material& material, 
       for (const MaterialParameter& p : parameters(*own))
         if (p.key == key) numbers.push_back(p.value);
     return [=, &strain](const VecX& p, VecX& y) {
-      for (std::size_t j = 0; j < numbers.size(); ++j) *numbers[j] = p[static_cast<Eigen::Index>(j)];
+      for (std::size_t j = 0; j < numbers.size(); ++j)
+        *numbers[j] = p[static_cast<Eigen::Index>(j)];
       tied->follow();
       const auto sigma = config.dilatation == Dilatation::compressible
                              ? uniaxial_curve(*own, strain, config.stress, config.dilatation)
                              : path_curve(*own, config.test, strain, config.stress);
-      if (sigma) y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
+      if (sigma)
+        y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
       return sigma.has_value();
     };
   };
 }
 
-// Samples where the law has no state are left out: a few change little, many make the numbers those of another box.
-void need_samples(const Job<SensitivityConfig>& job, const std::string& method, long used, long without, long least) {
+// Samples where the law has no state are left out: a few change little, many make the numbers those
+// of another box.
+void need_samples(const Job<SensitivityConfig>& job, const std::string& method, long used,
+                  long without, long least) {
   if (used < least)
     throw Failure(Exit::not_converged,
-                  {job.where(method), method, fmt::format("no state exists in {} of {} samples", without, used + without), "",
+                  {job.where(method), method,
+                   fmt::format("no state exists in {} of {} samples", without, used + without), "",
                    "narrower bounds or a smaller strain.to"});
-  if (without > 0) job.warn("{}: {} of {} samples have no state at some strain and are left out", method, without, used + without);
+  if (without > 0)
+    job.warn("{}: {} of {} samples have no state at some strain and are left out", method, without,
+             used + without);
 }
 
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
@@ -70,7 +83,8 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   SensitivityRecord record;
   record.parameters = chosen.numbers;
   for (int i = 0; i < config.strain.points; ++i)
-    record.strain.push_back(config.strain.from + i * (config.strain.to - config.strain.from) / (config.strain.points - 1));
+    record.strain.push_back(config.strain.from + i * (config.strain.to - config.strain.from) /
+                                                     (config.strain.points - 1));
   record.strain.back() = config.strain.to;
   for (const auto& [from, to] : config.zones) record.zones.push_back({from, to});
 
@@ -80,8 +94,9 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
     value[j] = n.value, lower[j] = n.lower, upper[j] = n.upper;
   }
-  const CurveMaker stress = stress_of(config, material, chosen.keys,
-                                      fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(), record.strain);
+  const CurveMaker stress = stress_of(
+      config, material, chosen.keys,
+      fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(), record.strain);
   VecX curve;
   if (stress()(value, curve)) {
     record.curve.assign(curve.data(), curve.data() + curve.size());
@@ -91,19 +106,23 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   if (!record.effects.complete) {
     std::string at;
     for (Eigen::Index j = 0; j < k; ++j)
-      at += fmt::format("{}{} = {:.6g}", j ? ", " : "", record.parameters[static_cast<std::size_t>(j)].name,
+      at += fmt::format("{}{} = {:.6g}", j ? ", " : "",
+                        record.parameters[static_cast<std::size_t>(j)].name,
                         record.effects.missing[j]);
-    throw Failure(Exit::not_converged, {job.where("parameters"), "parameters", "no state exists at " + at, "",
-                                        "narrower bounds or a smaller strain.to"});
+    throw Failure(Exit::not_converged,
+                  {job.where("parameters"), "parameters", "no state exists at " + at, "",
+                   "narrower bounds or a smaller strain.to"});
   }
-  job.say("one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen", config.steps, k,
-          config.strain.points);
+  job.say(
+      "one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen",
+      config.steps, k, config.strain.points);
   SamplingOptions options;
   options.seed = static_cast<std::uint64_t>(config.seed), options.threads = config.threads;
   options.resamples = config.resamples, options.groups = points_in(record.strain, record.zones);
   if (config.morris) {
     options.progress = progress_of("sensitivity", "Morris", job.quiet);
-    record.morris = morris(stress, lower, upper, config.morris->trajectories, config.morris->levels, options);
+    record.morris =
+        morris(stress, lower, upper, config.morris->trajectories, config.morris->levels, options);
     need_samples(job, "morris", record.morris->trajectories, record.morris->without_curve, 2);
   }
   if (config.sobol) {
@@ -118,7 +137,8 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   if (record.morris) write_text_file(job.beside("sensitivity_morris.csv"), morris_csv(record));
   if (record.sobol) write_text_file(job.beside("sensitivity_sobol.csv"), sobol_csv(record));
   if (config.figures)
-    for (const std::string& line : draw_sensitivity(record, config.figure_style, job.beside(""))) job.say("{}", line);
+    for (const std::string& line : draw_sensitivity(record, config.figure_style, job.beside("")))
+      job.say("{}", line);
   write_sensitivity(job.output, record, job.identity);
   return summary_of(record);
 }
@@ -127,5 +147,6 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  return langer::run_stage<langer::SensitivityConfig>(argc, argv, "sensitivity", langer::sensitivity);
+  return langer::run_stage<langer::SensitivityConfig>(argc, argv, "sensitivity",
+                                                      langer::sensitivity);
 }

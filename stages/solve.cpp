@@ -2,17 +2,17 @@
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
 #include <csignal>
 
-#include "accuracy/refinement/model_choice.hpp"
 #include "accuracy/estimate/say_errors.hpp"
+#include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
 #include "identification/inverse/uncertainty.hpp"
-#include "scene/run/mirrored_solution.hpp"
+#include "results/store/step_journal.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "scene/run/dry_run.hpp"
+#include "scene/run/mirrored_solution.hpp"
 #include "scene/run/run_words.hpp"
 #include "scene/run/step_record.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "stage.hpp"
-#include "results/store/step_journal.hpp"
 
 namespace langer {
 namespace {
@@ -41,15 +41,16 @@ std::vector<Summary> beside_first(Run& run, bool dry_run, const SolveConfig& con
 }
 
 // Nothing where another model is to be solved now.
-std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material, const ParameterKnowledge& known,
-                                             ModelChoice& model) {
+std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material,
+                                             const ParameterKnowledge& known, ModelChoice& model) {
   SolveConfig config = model.config();
   Run run(model.mesh(), config, material, job.where, model.at_a_point(), one_rank(job).empty());
   if (ranks() && !ranks()->first()) return beside_first(run, job.dry_run, config);
   if (!run.why_alone.empty()) say_alone(job, run.why_alone);
   const double jump = say_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, material, job.where, run);
-  RunWatch watch(run, config, job.where, job.has("material") ? study_from(job.input("material")) : StudyRecord{});
+  RunWatch watch(run, config, job.where,
+                 job.has("material") ? study_from(job.input("material")) : StudyRecord{});
   if (job.dry_run) return say_forecast(job.voice(), config, material, job.where, run, watch);
   RecoveredPath recovered(run, config, config.estimate == EstimateBy::recovery);
   std::string loose;
@@ -61,7 +62,8 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
     loose = held_by_contact(run, job.where);
     sensitivity.emplace(run, config, job.where);
     uncertainty.emplace(known, run, *sensitivity);
-    kept.emplace(run, watch, config, job.identity, job.output, recovered.beside(uncertainty->beside(sensitivity->companion())));
+    kept.emplace(run, watch, config, job.identity, job.output,
+                 recovered.beside(uncertainty->beside(sensitivity->companion())));
     return true;
   });
   Recording& recording = *kept;
@@ -76,21 +78,23 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
     return {};
   }
   std::optional<EndsSoon> all_is_kept(std::in_place);
-  const PathErrors estimate =
-      say_errors(job.voice(), config, material, job.where, run, end.last, recording, recovered, watch.contact_warnings().empty());
+  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last,
+                                         recording, recovered, watch.contact_warnings().empty());
   const bool again = model.another(estimate, run.mesh);
   if (again && interrupted()) recording.stopped_in_estimate();
   if (again) return {};
   all_is_kept.reset();
   const auto forces = uncertainty->of(end.last);
   say_forces(job.voice(), known, forces, estimate.at_end);
-  const auto said = joined({sensitivity->summary(end.last), summary_of(forces), summary_of(estimate.at_end),
-                            model.summary(estimate.at_end), watch.contact_summary()});
+  const auto said =
+      joined({sensitivity->summary(end.last), summary_of(forces), summary_of(estimate.at_end),
+              model.summary(estimate.at_end), watch.contact_summary()});
   recording.finish(said, histories_of(estimate));
   progress.finished(end.path, run.statics, recording.seconds());
   model.need(estimate.at_end, job.output);
   const std::vector<Summary> of_fibres{{"fibre_jump", jump, "deg"}};
-  return joined({summary_of(run, end, recording.n_steps()), said, of_fibres, watch.stability_summary()});
+  return joined(
+      {summary_of(run, end, recording.n_steps()), said, of_fibres, watch.stability_summary()});
 }
 
 std::vector<Summary> solve(const Job<SolveConfig>& given) {
@@ -101,13 +105,16 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
     if (!ranks()->first()) return {};
     say_alone(job, why);
   }
-  const std::string file = job.has("material") ? job.input("material") : "", mesh = job.has("mesh") ? job.input("mesh") : "";
+  const std::string file = job.has("material") ? job.input("material") : "",
+                    mesh = job.has("mesh") ? job.input("mesh") : "";
   const Law material = job.has("material") ? Law(material_of_body(file)) : job.config.material;
   const ParameterKnowledge known = take_uncertain(job.config, file, job.where);
-  if (job.has("mirror") && !job.dry_run && job.config.sensitivity.empty()) {  // a number of one is another of its image
+  if (job.has("mirror") && !job.dry_run &&
+      job.config.sensitivity.empty()) {  // a number of one is another of its image
     SolveConfig own = job.config;
     if (!mesh.empty()) own.mesh.reset();  // another mesh is solved
-    const MirrorTask task{own, material, job.where, job.identity, mesh, job.input("mirror"), job.output};
+    const MirrorTask task{own,       material, job.where, job.identity, mesh, job.input("mirror"),
+                          job.output};
     if (const auto image = take_image(job.voice(), task)) return *image;
   }
   ModelChoice model(job.voice(), job.config, mesh, material, job.where, job.dry_run);
@@ -118,7 +125,8 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
     } catch (const Failure& failure) {
       if (!model.another(failure)) throw;
     }
-    const bool goes_on = at_a_point && !model.at_a_point();  // the mesh, from the steps of the point
+    const bool goes_on =
+        at_a_point && !model.at_a_point();  // the mesh, from the steps of the point
     if (!goes_on) forget_steps(job.output);
   }
 }
@@ -126,4 +134,6 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::SolveConfig>(argc, argv, "solve", langer::solve); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::SolveConfig>(argc, argv, "solve", langer::solve);
+}

@@ -1,4 +1,5 @@
-// What the program of a stage does around its work: arguments, config, input files, identity, exit code.
+// What the program of a stage does around its work: arguments, config, input files, identity, exit
+// code.
 //
 //   std::vector<Summary> mesh(const Job<MeshConfig>& job);   // reads, computes, writes job.output; returns what --json prints
 //   int main(int argc, char** argv) { return langer::run_stage<MeshConfig>(argc, argv, "mesh", mesh); }
@@ -32,7 +33,9 @@ struct Task {
 
   bool has(const std::string& port) const { return inputs.count(port) > 0; }
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
-  std::string beside(const std::string& name) const { return (std::filesystem::path(output).parent_path() / name).string(); }
+  std::string beside(const std::string& name) const {
+    return (std::filesystem::path(output).parent_path() / name).string();
+  }
 
   Voice voice() const { return {identity.stage, quiet, verbose}; }
   template <class... Parts>
@@ -59,10 +62,15 @@ struct StageWork {
 int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own);
 
 template <class Config>
-int run_stage(int argc, char** argv, const std::string& name, std::vector<Summary> (*work)(const Job<Config>&)) {
+int run_stage(int argc, char** argv, const std::string& name,
+              std::vector<Summary> (*work)(const Job<Config>&)) {
   Job<Config> job;
-  const auto read = [&job](Tree tree) { return read_stage_config(std::move(tree), job.config); };
-  return run_stage(argc, argv, name, job, {read, [&] { return work(job); }});
+  const auto read = [&job](Tree tree) {
+    return read_stage_config(std::move(tree), job.config);
+  };
+  return run_stage(argc, argv, name, job, {read, [&] {
+                                             return work(job);
+                                           }});
 }
 
 }  // namespace langer

@@ -1,16 +1,17 @@
-// langer-tune tune.yaml --curves a/curves.h5 --curves b/curves.h5 -o levels.h5: errors against CPU seconds and memory of every
-// level, also as levels.csv; the front of each quantity as picture and CSV, with bars as long as the reference is uncertain; the cheapest
-// level for each error wanted that is not below that.
+// langer-tune tune.yaml --curves a/curves.h5 --curves b/curves.h5 -o levels.h5: errors against CPU
+// seconds and memory of every level, also as levels.csv; the front of each quantity as picture and
+// CSV, with bars as long as the reference is uncertain; the cheapest level for each error wanted
+// that is not below that.
 #include <cmath>
 
 #include "core/hdf5/seal.hpp"
-#include "results/plot/gnuplot.hpp"
-#include "results/plot/pictures.hpp"
-#include "stage.hpp"
 #include "pipeline/sweep/gather.hpp"
 #include "pipeline/sweep/sweep_file.hpp"
 #include "pipeline/sweep/tune_config.hpp"
 #include "pipeline/sweep/work_precision.hpp"
+#include "results/plot/gnuplot.hpp"
+#include "results/plot/pictures.hpp"
+#include "stage.hpp"
 
 namespace langer {
 namespace {
@@ -19,14 +20,16 @@ struct Levels {
   std::vector<GatherInput> members;
   std::vector<Cost> cost;
 
-  std::size_t at(const Job<TuneConfig>& job, const std::string& key, const std::vector<std::string>& at) const {
+  std::size_t at(const Job<TuneConfig>& job, const std::string& key,
+                 const std::vector<std::string>& at) const {
     std::vector<std::string> known;
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (members[i].at == at) return i;
       known.push_back(fmt::format("[{}]", fmt::join(members[i].at, ", ")));
     }
-    throw Failure(Exit::config, Error{job.where(key), key, fmt::format("no level is [{}]", fmt::join(at, ", ")),
-                                      fmt::format("one of {}", fmt::join(known, ", ")), ""});
+    throw Failure(Exit::config,
+                  Error{job.where(key), key, fmt::format("no level is [{}]", fmt::join(at, ", ")),
+                        fmt::format("one of {}", fmt::join(known, ", ")), ""});
   }
 };
 
@@ -34,14 +37,20 @@ Levels levels_of(const Job<TuneConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const TuneConfig& config = job.config;
   if (!config.members.empty() && config.members.size() != files.size())
-    throw Failure(Exit::config, Error{job.where("members"), "members", fmt::format("found {} members", config.members.size()),
-                                      fmt::format("one for each of the {} files given", files.size()), ""});
+    throw Failure(Exit::config,
+                  Error{job.where("members"), "members",
+                        fmt::format("found {} members", config.members.size()),
+                        fmt::format("one for each of the {} files given", files.size()), ""});
   Levels levels;
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {files[i]}, read_summary(files[i])};
-    if (!config.members.empty()) member.path = config.members[i].path, member.at = config.members[i].at;
+    if (!config.members.empty())
+      member.path = config.members[i].path, member.at = config.members[i].at;
     const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
-    if (!cost) job.say("{}: its solution was made in several runs, or by an older version: what it took is not known", member.path);
+    if (!cost)
+      job.say(
+          "{}: its solution was made in several runs, or by an older version: what it took is not known",
+          member.path);
     levels.members.push_back(std::move(member));
     levels.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
   }
@@ -53,14 +62,16 @@ struct Reference {
   std::vector<std::size_t> of_truth;  // members that stand for the truth
 };
 
-Reference reference_of(const Job<TuneConfig>& job, const Levels& levels, const std::vector<double>& values) {
+Reference reference_of(const Job<TuneConfig>& job, const Levels& levels,
+                       const std::vector<double>& values) {
   const TuneReference& wanted = job.config.reference;
   if (wanted.fitted) {
     std::vector<double> lengths, of_members;
     for (std::size_t i = 0; i < wanted.fitted->members.size(); ++i) {
       const MemberOfLength& m = wanted.fitted->members[i];
       lengths.push_back(m.length);
-      of_members.push_back(values[levels.at(job, fmt::format("reference.fitted.members[{}].member", i), m.member)]);
+      of_members.push_back(
+          values[levels.at(job, fmt::format("reference.fitted.members[{}].member", i), m.member)]);
     }
     return {fitted_limit(lengths, of_members, wanted.fitted->order), {}};
   }
@@ -75,7 +86,9 @@ Reference reference_of(const Job<TuneConfig>& job, const Levels& levels, const s
   return {richardson(values[coarse], values[middle], values[fine], r.ratio), {fine}};
 }
 
-std::string name_of(const GatherInput& member) { return fmt::format("{}", fmt::join(member.at, " ")); }
+std::string name_of(const GatherInput& member) {
+  return fmt::format("{}", fmt::join(member.at, " "));
+}
 
 // errors of one quantity, in percent of its reference
 struct LevelErrors {
@@ -90,17 +103,19 @@ struct LevelErrors {
   }
 };
 
-void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity, const Levels& levels,
-          const std::vector<double>& cpu, const LevelErrors& errors) {
+void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity,
+          const Levels& levels, const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
   const std::string head = "level,cpu_s,error_percent,error_low,error_high";
   std::string all = head + "\n", best = head + ",number\n";
-  std::vector<std::string> notes;  // names as long as these would stand on each other beside the points
+  std::vector<std::string>
+      notes;  // names as long as these would stand on each other beside the points
   const auto line = [&](std::size_t i) {
     const double e = errors.found[i],
-                 low = std::max(e - errors.uncertain, 0.1 * e);  // an end of 0 has no place on a logarithmic axis
-    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", csv_cell(name_of(levels.members[i])), cpu[i], e, low,
-                       e + errors.uncertain);
+                 low = std::max(e - errors.uncertain,
+                                0.1 * e);  // an end of 0 has no place on a logarithmic axis
+    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", csv_cell(name_of(levels.members[i])),
+                       cpu[i], e, low, e + errors.uncertain);
   };
   for (std::size_t i = 0; i < cpu.size(); ++i)
     if (std::isfinite(cpu[i]) && errors.found[i] > 0) all += line(i) + "\n";
@@ -115,21 +130,24 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   plot.title = job.config.title;
   plot.x_label = "CPU time (s)", plot.y_label = "error of " + literal(quantity) + " (%)";
   plot.scale = AxisScale::log;
-  plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"}, {name + ".csv", "cpu_s", "error_percent", "levels"}};
+  plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"},
+                {name + ".csv", "cpu_s", "error_percent", "levels"}};
   plot.lines[0].names = "number", plot.notes = std::move(notes), plot.lines[1].points = true;
   if (errors.uncertain > 0) plot.lines[1].low = "error_low", plot.lines[1].high = "error_high";
   pictures.draw(name, plot);
 }
 
 // lines of cheapest.csv
-std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Levels& levels, const std::vector<double>& cpu,
-                   const std::vector<double>& memory, const LevelErrors& errors) {
+std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Levels& levels,
+                   const std::vector<double>& cpu, const std::vector<double>& memory,
+                   const LevelErrors& errors) {
   std::string choice;
   for (double wanted : job.config.wanted) {
     const int i = cheapest(cpu, errors.known(), wanted);
     if (i < 0) {
       const bool unknown = wanted < errors.uncertain;
-      job.say("  {:g} %: {}", wanted, unknown ? "not told, the reference itself is not known to that" : "no level");
+      job.say("  {:g} %: {}", wanted,
+              unknown ? "not told, the reference itself is not known to that" : "no level");
       choice += fmt::format("{},{:g},,,,\n", quantity, wanted);
       continue;
     }
@@ -137,13 +155,14 @@ std::string choose(const Job<TuneConfig>& job, const std::string& quantity, cons
     const double error = errors.known()[k];
     job.say("  {:g} %: {} ({}{:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(levels.members[k]),
             errors.found[k] < errors.uncertain ? "at most " : "", error, cpu[k], memory[k]);
-    choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted, csv_cell(name_of(levels.members[k])),
-                          error, cpu[k], memory[k]);
+    choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted,
+                          csv_cell(name_of(levels.members[k])), error, cpu[k], memory[k]);
   }
   return choice;
 }
 
-LevelErrors errors_of(const std::vector<double>& values, const std::vector<double>& cpu, const Reference& reference) {
+LevelErrors errors_of(const std::vector<double>& values, const std::vector<double>& cpu,
+                      const Reference& reference) {
   const double right = reference.limit.value;
   LevelErrors errors{.uncertain = 100 * reference.limit.uncertainty / std::abs(right)};
   for (double v : values) errors.all.push_back(100 * std::abs(v - right) / std::abs(right));
@@ -160,11 +179,13 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   const Sweep values = gather(job.config.quantities, axes, levels.members, job.where("quantities"));
   Sweep sweep = values;
   std::vector<double> cpu, wall, memory;
-  for (const Cost& c : levels.cost) cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
+  for (const Cost& c : levels.cost)
+    cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
   sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), job.config.figure_style);
+  Pictures pictures(std::filesystem::path(job.output).parent_path().string(),
+                    job.config.figure_style);
   std::string choice = "quantity,wanted_percent,level,error_percent,cpu_s,memory_MB\n";
   std::vector<Summary> summary;
   for (const SweepColumn& column : values.columns) {
@@ -174,7 +195,9 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
             job.config.reference.member.empty()
                 ? fmt::format(" +- {:.2g} %{}", errors.uncertain,
-                              reference.limit.order > 0 ? fmt::format(", order {:.2g}", reference.limit.order) : ", no order seen")
+                              reference.limit.order > 0
+                                  ? fmt::format(", order {:.2g}", reference.limit.order)
+                                  : ", no order seen")
                 : "");
     std::vector<double> on_front(cpu.size(), 0);
     for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
@@ -183,9 +206,11 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     choice += choose(job, column.name, levels, cpu, memory, errors);
     draw(job, pictures, column.name, levels, cpu, errors);
     summary.push_back({column.name + "_reference", right, column.unit});
-    summary.push_back({column.name + "_reference_uncertainty", reference.limit.uncertainty, column.unit});
+    summary.push_back(
+        {column.name + "_reference_uncertainty", reference.limit.uncertainty, column.unit});
   }
-  for (const auto& [reason, names] : pictures.failed()) job.say("not drawn: {} ({})", names, reason);
+  for (const auto& [reason, names] : pictures.failed())
+    job.say("not drawn: {} ({})", names, reason);
   write_text_file(job.beside("cheapest.csv"), choice);
   write_sweep(job.output, job.beside("levels.csv"), sweep, nullptr, {}, job.identity);
   return summary;
@@ -194,4 +219,6 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
 }  // namespace
 }  // namespace langer
 
-int main(int argc, char** argv) { return langer::run_stage<langer::TuneConfig>(argc, argv, "tune", langer::tune); }
+int main(int argc, char** argv) {
+  return langer::run_stage<langer::TuneConfig>(argc, argv, "tune", langer::tune);
+}

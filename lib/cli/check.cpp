@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/schemas.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/plan.hpp"
 #include "pipeline/plan/run_files.hpp"
-#include "cli/schemas.hpp"
 
 namespace langer {
 
@@ -82,12 +82,13 @@ std::string check_file(const std::string& path, std::string kind) {
   if (!has_schema(kind)) schema_text(kind);  // says which there are
   if (kind == "pipeline") {
     const PlanReport report = check_pipeline(path);
-    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes, report.steps,
-                       warnings(report.doubts));
+    return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes,
+                       report.steps, warnings(report.doubts));
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
-  if (const std::vector<Error> lost = lost_names(effective.names); !lost.empty()) throw Failure(Exit::config, lost);
+  if (const std::vector<Error> lost = lost_names(effective.names); !lost.empty())
+    throw Failure(Exit::config, lost);
   std::vector<std::string> doubts = effective.notices;
   if (effective.look_at_data)
     for (const std::string& doubt : effective.look_at_data()) doubts.push_back(doubt);

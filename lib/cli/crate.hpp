@@ -1,5 +1,6 @@
-// A finished run as an RO-Crate 1.1 (https://w3id.org/ro/crate/1.1): what each file is, by which command of which program it was made from
-// what, with SHA-256 of every file. The run's folder becomes the crate:
+// A finished run as an RO-Crate 1.1 (https://w3id.org/ro/crate/1.1): what each file is, by which
+// command of which program it was made from what, with SHA-256 of every file. The run's folder
+// becomes the crate:
 //   ro-crate-metadata.json   the description, JSON-LD
 //   inputs.d/upN/            copies of the files that configs name outside of the folder, N folders above it
 //   reproduce                makes all results again, in a new folder, from what lies in the crate alone, and compares
@@ -10,17 +11,20 @@
 namespace langer {
 
 struct CrateWords {
-  std::string title, author, license;  // empty: from the pipeline; nobody; left to whoever publishes it
+  std::string title, author,
+      license;  // empty: from the pipeline; nobody; left to whoever publishes it
 };
 
 struct CrateReport {
   std::size_t files = 0, actions = 0, inputs = 0;  // inputs: copied from outside
 };
 
-// throws Failure(input) where a step is not up to date, or an input is no longer what a result was made from
+// throws Failure(input) where a step is not up to date, or an input is no longer what a result was
+// made from
 CrateReport write_crate(const std::string& folder, const CrateWords& words);
 
-// One line; throws Failure(input) with what differs: content ids of all HDF5 files, and tables (CSV) byte by byte
+// One line; throws Failure(input) with what differs: content ids of all HDF5 files, and tables
+// (CSV) byte by byte
 std::string same_results(const std::string& folder, const std::string& other);
 
 }  // namespace langer

@@ -26,18 +26,21 @@ namespace {
 
 // first line of what a command of ours says; "" where it fails
 std::string said_by(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>/dev/null").c_str(), "r"), pclose);
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>/dev/null").c_str(), "r"),
+                                                   pclose);
   std::array<char, 400> line{};
   if (!pipe || !std::fgets(line.data(), static_cast<int>(line.size()), pipe.get())) return "";
   std::string text = line.data();
-  text.erase(std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }), text.end());
+  text.erase(std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }),
+             text.end());
   return text;
 }
 
 std::string on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
   for (const std::string& folder : split(path ? path : "", ':'))
-    if (const fs::path file = fs::path(folder) / program; access(file.c_str(), X_OK) == 0 && !fs::is_directory(file))
+    if (const fs::path file = fs::path(folder) / program;
+        access(file.c_str(), X_OK) == 0 && !fs::is_directory(file))
       return file.string();
   return "";
 }
@@ -48,10 +51,13 @@ struct Tool {
 };
 constexpr Tool tools[]{
     {"make", "make --version", "pipelines cannot run", "make", true},
-    {"gnuplot", "gnuplot --version", "figures are not drawn; their scripts and tables are there all the same", "gnuplot-nox"},
+    {"gnuplot", "gnuplot --version",
+     "figures are not drawn; their scripts and tables are there all the same", "gnuplot-nox"},
     {"python3", "python3 --version", "no Python package; all programs run without it", "python3"},
-    {"sbatch", "sbatch --version", "langer-plan --slurm writes arrays for a machine that has Slurm", ""},
-    {"snakemake", "", "langer-plan --snakemake writes a Snakefile for a machine that has it", "snakemake"},
+    {"sbatch", "sbatch --version", "langer-plan --slurm writes arrays for a machine that has Slurm",
+     ""},
+    {"snakemake", "", "langer-plan --snakemake writes a Snakefile for a machine that has it",
+     "snakemake"},
     {"ccx", "ccx -v | grep -i version", "exported decks cannot be checked here", "calculix-ccx"},
     {"paraview", "", "snapshot_*.hdf and series.pvd open in ParaView on any machine", "paraview"},
 };
@@ -61,7 +67,8 @@ Finding tool(const Tool& t) {
   const std::string install = *t.install ? fmt::format("; apt install {}", t.install) : "";
   if (where.empty()) return {t.program, false, t.needed, t.without + install};
   const std::string version = *t.ask ? said_by(t.ask) : "";
-  return {t.program, true, t.needed, version.empty() ? where : fmt::format("{} ({})", where, version)};
+  return {t.program, true, t.needed,
+          version.empty() ? where : fmt::format("{} ({})", where, version)};
 }
 
 Finding programs(const fs::path& bin) {
@@ -70,9 +77,13 @@ Finding programs(const fs::path& bin) {
   std::vector<std::string> names = stage_names();
   names.push_back("plan");
   for (const std::string& name : names)
-    access((bin / ("langer-" + name)).c_str(), X_OK) == 0 ? void(++there) : void(missing += " langer-" + name);
-  if (missing.empty()) return {"programs", true, true, fmt::format("{} in {}", there + 1, bin.string())};
-  return {"programs", false, true, fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
+    access((bin / ("langer-" + name)).c_str(), X_OK) == 0 ? void(++there)
+                                                          : void(missing += " langer-" + name);
+  if (missing.empty())
+    return {"programs", true, true, fmt::format("{} in {}", there + 1, bin.string())};
+  return {
+      "programs", false, true,
+      fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
 }
 
 // what is loaded by a module of its own, whose libraries the loader has to find
@@ -81,7 +92,8 @@ Finding module(const std::string& name, const std::string& without, const std::s
   if (!fs::exists(path)) return {name, false, false, without + "; there is no " + path};
   if (const std::string lost = said_by("ldd '" + path + "' | grep 'not found'"); !lost.empty())
     return {name, false, false,
-            fmt::format("{}; {}: apt install {} (Debian 12)", without, lost.substr(lost.find_first_not_of(" \t")), package)};
+            fmt::format("{}; {}: apt install {} (Debian 12)", without,
+                        lost.substr(lost.find_first_not_of(" \t")), package)};
   return {name, true, false, path};
 }
 
@@ -92,18 +104,24 @@ Finding python_package(const char* name, const char* debian, const char* without
   const std::string version = ask("python3");
   if (version.empty() && !ask("/usr/bin/python3").empty())
     return {name, false, false,
-            fmt::format("{}: it is there for /usr/bin/python3, and `python3` is another; pip install {}", without, name)};
-  if (version.empty()) return {name, false, false, fmt::format("{}; apt install {}", without, debian)};
+            fmt::format(
+                "{}: it is there for /usr/bin/python3, and `python3` is another; pip install {}",
+                without, name)};
+  if (version.empty())
+    return {name, false, false, fmt::format("{}; apt install {}", without, debian)};
   return {name, true, false, version};
 }
 
 Finding machine() {
   struct statvfs disk {};
-  const double free = statvfs(".", &disk) == 0 ? 1e-9 * static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) : 0;
-  const double memory = 1e-9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double free = statvfs(".", &disk) == 0 ? 1e-9 * static_cast<double>(disk.f_bavail) *
+                                                     static_cast<double>(disk.f_frsize)
+                                               : 0;
+  const double memory = 1e-9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<double>(sysconf(_SC_PAGESIZE));
   return {"machine", true, false,
-          fmt::format("{} processors, {:.3g} GB of memory, {:.3g} GB free on this disk", std::thread::hardware_concurrency(),
-                      memory, free)};
+          fmt::format("{} processors, {:.3g} GB of memory, {:.3g} GB free on this disk",
+                      std::thread::hardware_concurrency(), memory, free)};
 }
 
 }  // namespace
@@ -114,11 +132,16 @@ std::vector<Finding> examine() {
       {"langer", true, true, fmt::format("{} ({})", version, revision)},
       machine(),
       programs(bin),
-      module("gmsh", "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh", "libgmsh4.8"),
-      module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time", "libpetsc-real3.18")};
-  findings.push_back(report::has_three() ? Finding{"three.js", true, false, "in langer-report"}
-                                         : Finding{"three.js", false, false,
-                                                   "reports have no body to turn; apt install libjs-three before building"});
+      module("gmsh",
+             "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh",
+             "libgmsh4.8"),
+      module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time",
+             "libpetsc-real3.18")};
+  findings.push_back(
+      report::has_three()
+          ? Finding{"three.js", true, false, "in langer-report"}
+          : Finding{"three.js", false, false,
+                    "reports have no body to turn; apt install libjs-three before building"});
   for (const Tool& t : tools) findings.push_back(tool(t));
   if (!on_path("python3").empty()) {
     findings.push_back(python_package("h5py", "python3-h5py", "langer.read() reads no HDF5 files"));
@@ -133,9 +156,15 @@ std::string doctor_text(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) width = std::max(width, f.what.size());
   std::string text;
   for (const Finding& f : findings)
-    text += fmt::format("{}  {:<{}}  {}\n", f.there ? "yes" : f.needed ? "NO " : "no ", f.what, width, f.says);
-  const auto lost = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.needed && !f.there; });
-  return text + (lost == 0 ? "Langer runs here; what is missing is optional\n" : "Langer does not run here: see NO\n");
+    text += fmt::format("{}  {:<{}}  {}\n",
+                        f.there    ? "yes"
+                        : f.needed ? "NO "
+                                   : "no ",
+                        f.what, width, f.says);
+  const auto lost = std::count_if(findings.begin(), findings.end(),
+                                  [](const Finding& f) { return f.needed && !f.there; });
+  return text + (lost == 0 ? "Langer runs here; what is missing is optional\n"
+                           : "Langer does not run here: see NO\n");
 }
 
 }  // namespace langer

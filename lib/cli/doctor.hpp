@@ -9,7 +9,8 @@ namespace langer {
 struct Finding {
   std::string what;                    // "gnuplot"
   bool there = false, needed = false;  // needed: without it nothing runs
-  std::string says;                    // version and place, or what is missing without it and the command that installs it
+  std::string
+      says;  // version and place, or what is missing without it and the command that installs it
 };
 
 std::vector<Finding> examine();  // starts `gnuplot --version` and the like

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "cli/starter.hpp"
+#include "cli/usage.hpp"
 #include "core/base/split.hpp"
 #include "core/base/version.hpp"
 #include "core/config/member.hpp"
 #include "pipeline/plan/effective.hpp"
-#include "cli/starter.hpp"
-#include "cli/usage.hpp"
 
 namespace langer {
 
@@ -39,7 +39,8 @@ Usage usage_of(const StageSpec& stage) {
 
 namespace {
 
-Usage command(const char* program, const char* sentence, std::vector<UsageOption> options, const char* example) {
+Usage command(const char* program, const char* sentence, std::vector<UsageOption> options,
+              const char* example) {
   for (UsageOption& o : common_options())
     if (o.flags == "-h,--help") options.push_back(std::move(o));
   return {program, sentence, std::move(options), {}, "", example, ""};
@@ -49,32 +50,45 @@ std::vector<Usage> table_of_commands() {
   std::vector<std::string> kinds = config_kind_names(), described = kinds;
   kinds.push_back("pipeline"), described.push_back("columns");
   return {
-      command(
-          "langer show", "Prints what is in a file that Langer made.",
-          {{"FILE", "", "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated", "h5 hdf", {}, true},
-           {"--config", "", "print the config that it was made with instead", "", {}},
-           {"--json", "", "print the summary as one JSON object a file", "", {}}},
-          "langer show runs/indentation/solve/solution.h5"),
+      command("langer show", "Prints what is in a file that Langer made.",
+              {{"FILE",
+                "",
+                "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated",
+                "h5 hdf",
+                {},
+                true},
+               {"--config", "", "print the config that it was made with instead", "", {}},
+               {"--json", "", "print the summary as one JSON object a file", "", {}}},
+              "langer show runs/indentation/solve/solution.h5"),
       command("langer new", "Writes a starter project that runs, with comments.",
-              {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "", starter_names(), true},
+              {{"SCENE", "", fmt::format("one of {}", list_words(starter_names())), "",
+                starter_names(), true},
                {"FOLDER", "", "a new folder; the scene's name by default", "/", {}}},
               "langer new indentation skin && make -C skin"),
       command("langer check", "Checks configs and pipelines without running anything.",
-              {{"FILE", "", "YAML; may be repeated. Its kind is found from its keys, or given", "yaml yml", {}, true},
+              {{"FILE",
+                "",
+                "YAML; may be repeated. Its kind is found from its keys, or given",
+                "yaml yml",
+                {},
+                true},
                {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
               "langer check pipelines/indentation.yaml configs/*/*.yaml"),
-      command("langer describe",
-              "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
-              {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "", described, true}},
-              "langer describe solve"),
+      command(
+          "langer describe",
+          "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
+          {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "",
+            described, true}},
+          "langer describe solve"),
       command("langer schema", "Prints the JSON Schema of a config, for editors.",
               {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
                {"--list", "", "print the kinds instead", "", {}}},
               "langer schema solve > solve.schema.json"),
-      command("langer explain", "Says why make would run a step of a run again.", {{"RUN", "", "folder of a run", "/", {}, true}},
-              "langer explain runs/indentation"),
+      command("langer explain", "Says why make would run a step of a run again.",
+              {{"RUN", "", "folder of a run", "/", {}, true}}, "langer explain runs/indentation"),
       command("langer times", "Says what each step of a run took, and which failed.",
-              {{"RUN", "", "folder of a run", "/", {}, true}, {"--failed", "", "only those that failed, with their logs", "", {}}},
+              {{"RUN", "", "folder of a run", "/", {}, true},
+               {"--failed", "", "only those that failed, with their logs", "", {}}},
               "langer times runs/indentation"),
       command(
           "langer crate",
@@ -83,13 +97,20 @@ std::vector<Usage> table_of_commands() {
            {"--title", "TEXT", "what it is called; the pipeline's name by default", "", {}},
            {"--author", "NAME", "who made it", "", {}},
            {"--license", "TEXT", "under which others may use it, best as a URL", "", {}},
-           {"--same-as", "RUN", "instead: say whether another folder of the same run has the same results", "/", {}}},
+           {"--same-as",
+            "RUN",
+            "instead: say whether another folder of the same run has the same results",
+            "/",
+            {}}},
           "langer crate runs/indentation --license https://creativecommons.org/licenses/by/4.0/"),
-      command("langer doctor", "Says what is installed here of what Langer can use, and what is missing without it.", {},
-              "langer doctor"),
-      command("langer man", "Prints the man page of a program.", {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
+      command("langer doctor",
+              "Says what is installed here of what Langer can use, and what is missing without it.",
+              {}, "langer doctor"),
+      command("langer man", "Prints the man page of a program.",
+              {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
               "langer man langer-solve | man -l -"),
-      command("langer completion", "Prints the completion of all programs for bash.", {}, "source <(langer completion)"),
+      command("langer completion", "Prints the completion of all programs for bash.", {},
+              "source <(langer completion)"),
   };
 }
 
@@ -101,10 +122,14 @@ const std::vector<Usage>& langer_commands() {
 }
 
 Usage langer_usage() {
-  Usage u{"langer", "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...",
-          {},       {},
-          "",       "",
-          ""};
+  Usage u{
+      "langer",
+      "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...",
+      {},
+      {},
+      "",
+      "",
+      ""};
   for (const Usage& c : langer_commands()) {
     const std::string name = c.program.substr(7);
     u.options.push_back({name, "", c.sentence, "", {}});
@@ -112,7 +137,8 @@ Usage langer_usage() {
   u.options.push_back({"-h,--help", "", "this page; langer COMMAND --help says more", "", {}});
   u.options.push_back({"--version", "", "version of this build", "", {}});
   for (const Usage& c : langer_commands())
-    if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" || c.program == "langer explain")
+    if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" ||
+        c.program == "langer explain")
       u.examples += (u.examples.empty() ? "" : "\n") + c.examples;
   u.more = "The stages: ";
   for (const StageSpec& s : stages()) u.more += std::string("langer-") + s.name + ", ";
@@ -133,11 +159,13 @@ std::string man_text(const Usage& u) {
   std::replace(name.begin(), name.end(), ' ', '-');
   std::string upper = name;
   for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-  std::string s =
-      fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n", upper, version, roff(name), roff(u.sentence));
-  s += ".SH SYNOPSIS\n.B " + roff(u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n";
+  std::string s = fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n",
+                              upper, version, roff(name), roff(u.sentence));
+  s += ".SH SYNOPSIS\n.B " +
+       roff(u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n";
   const auto options = [&s](const Usage& of) {
-    for (const UsageOption& o : of.options) s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
+    for (const UsageOption& o : of.options)
+      s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
   };
   s += u.program == "langer" ? ".SH COMMANDS\n" : ".SH OPTIONS\n";
   options(u);
@@ -151,15 +179,18 @@ std::string man_text(const Usage& u) {
     for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
     s += ".fi\n";
   };
-  if (!u.reference.empty()) s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n", as_it_is(u.reference);
+  if (!u.reference.empty())
+    s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n", as_it_is(u.reference);
   s += ".SH EXAMPLES\n", as_it_is(u.examples);
   s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
-  s += ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
+  s +=
+      ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
   if (!u.more.empty()) s += ".SH NOTES\n" + roff(u.more) + "\n";
   s += ".SH SEE ALSO\n";
   std::string others;
   for (const Usage& other : all_usages())
-    if (other.program != u.program) others += (others.empty() ? ".BR " : ",\n.BR ") + roff(other.program) + " (1)";
+    if (other.program != u.program)
+      others += (others.empty() ? ".BR " : ",\n.BR ") + roff(other.program) + " (1)";
   return s + others + "\n";
 }
 
@@ -177,7 +208,9 @@ std::string completion_text() {
     s += function + "() {\n  case $prev in\n";
     for (const UsageOption& o : u.options) {
       if (is_place(o)) {
-        if (!o.words.empty()) places += fmt::format("  COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n", fmt::join(o.words, " "));
+        if (!o.words.empty())
+          places += fmt::format("  COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n",
+                                fmt::join(o.words, " "));
         if (!o.files.empty()) places += fmt::format("  _langer_files {}\n", o.files);
         continue;
       }
@@ -193,18 +226,21 @@ std::string completion_text() {
       s += " return ;;\n";
     }
     s += "  esac\n";
-    s += fmt::format("  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}",
-                     flags.empty() ? "" : flags.substr(1), places);
+    s += fmt::format(
+        "  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}",
+        flags.empty() ? "" : flags.substr(1), places);
     s += "}\n";
   };
-  const auto words = "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
+  const auto words =
+      "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
   std::vector<std::string> programs;
   for (const Usage& u : all_usages()) {
     if (u.program == "langer") continue;
     std::string function = "_" + u.program;
     std::replace(function.begin(), function.end(), '-', '_');
     cases(u, function + "_options");
-    s += fmt::format("{}() {{\n{}  {}_options\n}}\ncomplete -F {} {}\n", function, words, function, function, u.program);
+    s += fmt::format("{}() {{\n{}  {}_options\n}}\ncomplete -F {} {}\n", function, words, function,
+                     function, u.program);
   }
   std::string names, branches;
   for (const Usage& c : langer_commands()) {

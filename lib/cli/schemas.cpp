@@ -24,7 +24,8 @@ bool has_schema(const std::string& kind) {
 
 std::string schema_text(const std::string& kind) {
   if (kind == "pipeline") return pipeline::pipeline_schema();
-  if (const ConfigKind* known = find_config_kind(kind)) return known->schema(fmt::format("Langer: {}", kind));
+  if (const ConfigKind* known = find_config_kind(kind))
+    return known->schema(fmt::format("Langer: {}", kind));
   const std::string near = nearest(kind, schema_kinds());
   throw Failure(Exit::config, Error{{},
                                     "",

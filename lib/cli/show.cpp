@@ -10,12 +10,12 @@
 
 #include "core/base/split.hpp"
 #include "mechanics/material/material.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 namespace langer {
 
@@ -32,11 +32,14 @@ std::string size_words(std::uintmax_t bytes) {
 class Page {
  public:
   std::string text;
-  void line(const std::string& key, const std::string& says) { text += fmt::format("{:<14}{}\n", key, says); }
+  void line(const std::string& key, const std::string& says) {
+    text += fmt::format("{:<14}{}\n", key, says);
+  }
   void list(const std::string& key, const std::vector<std::string>& items) {
     std::string row, heading = key;
     for (const std::string& item : items) {
-      if (!row.empty() && row.size() + 2 + item.size() > 90) line(heading, row + ","), heading.clear(), row.clear();
+      if (!row.empty() && row.size() + 2 + item.size() > 90)
+        line(heading, row + ","), heading.clear(), row.clear();
       row += (row.empty() ? "" : ", ") + item;
     }
     line(heading, row.empty() ? "none" : row);
@@ -68,26 +71,32 @@ void show_mesh(Page& page, const Mesh& mesh) {
   std::vector<int> cells(std::max<std::size_t>(1, mesh.bodies.size()));
   for (int b : mesh.body) ++cells.at(static_cast<std::size_t>(b));
   std::vector<std::string> bodies;
-  for (std::size_t i = 0; i < mesh.bodies.size(); ++i) bodies.push_back(fmt::format("{} ({} cells)", mesh.bodies[i], cells[i]));
+  for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
+    bodies.push_back(fmt::format("{} ({} cells)", mesh.bodies[i], cells[i]));
   page.line("size", fmt::format("{} cells, {} nodes", mesh.n_cells(), mesh.n_nodes()));
   page.list("bodies", bodies);
   if (mesh.section)
     page.line("section",
-              fmt::format("{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)], number(mesh.section->depth),
-                          mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
+              fmt::format(
+                  "{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)],
+                  number(mesh.section->depth),
+                  mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  page.line("box", fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]), number(low[1]),
-                               number(high[1]), number(low[2]), number(high[2])));
+  page.line("box",
+            fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]),
+                        number(low[1]), number(high[1]), number(low[2]), number(high[2])));
   std::vector<std::string> nodes, points, facets;
   for (const auto& [name, set] : mesh.node_sets) {
     if (set.size() == 1) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(set[0])];
-      points.push_back(fmt::format("{} ({}, {}, {})", name, number(X[0]), number(X[1]), number(X[2])));
+      points.push_back(
+          fmt::format("{} ({}, {}, {})", name, number(X[0]), number(X[1]), number(X[2])));
     } else
       nodes.push_back(fmt::format("{} {}", name, set.size()));
   }
-  for (const auto& [name, set] : mesh.facet_sets) facets.push_back(fmt::format("{} {}", name, set.size()));
+  for (const auto& [name, set] : mesh.facet_sets)
+    facets.push_back(fmt::format("{} {}", name, set.size()));
   page.list("node sets", nodes);
   page.list("points", points);
   page.list("facet sets", facets);
@@ -102,15 +111,18 @@ void show_material(Page& page, const std::string& path) {
   const MaterialFile file = read_material(path);
   show_law(page, file.material);
   if (!file.fit) return;
-  std::vector<std::vector<std::string>> rows{{"parameter", "value", "standard error", "bounds", "unit"}};
+  std::vector<std::vector<std::string>> rows{
+      {"parameter", "value", "standard error", "bounds", "unit"}};
   for (const FittedParameter& p : file.fit->parameters)
-    rows.push_back({p.name, number(p.value), std::isfinite(p.standard_error) ? number(p.standard_error) : "not determined",
+    rows.push_back({p.name, number(p.value),
+                    std::isfinite(p.standard_error) ? number(p.standard_error) : "not determined",
                     fmt::format("{} to {}", number(p.lower), number(p.upper)), p.unit});
   page.table("fitted", rows);
   rows = {{"test", "kind", "points", "r2", "mean error %", "largest error %"}};
   for (const FittedTest& t : file.fit->tests)
     rows.push_back({t.name, t.kind, std::to_string(t.first.size()), fmt::format("{:.5f}", t.r2),
-                    fmt::format("{:.3g}", t.mean_error_percent), fmt::format("{:.3g}", t.max_error_percent)});
+                    fmt::format("{:.3g}", t.mean_error_percent),
+                    fmt::format("{:.3g}", t.max_error_percent)});
   page.table("tests", rows);
 }
 
@@ -120,7 +132,8 @@ void show_solution(Page& page, const std::string& path) {
   show_mesh(page, header.mesh);
   page.line("formulation", header.formulation);
   std::vector<std::string> contacts;
-  for (const auto& [name, nodes] : header.contact_nodes) contacts.push_back(fmt::format("{} ({} candidates)", name, nodes.size()));
+  for (const auto& [name, nodes] : header.contact_nodes)
+    contacts.push_back(fmt::format("{} ({} candidates)", name, nodes.size()));
   page.list("contacts", contacts);
   if (header.materials.empty())
     show_law(page, header.material);
@@ -132,7 +145,8 @@ void show_solution(Page& page, const std::string& path) {
   page.list("cell fields", fields);
   const bool contact = !header.contact_nodes.empty();
   std::vector<std::vector<std::string>> rows{{"step", "t", "iterations", "residual"}};
-  std::vector<std::string> several;  // indenters: the sum of their forces may be that of a pinch, nothing
+  std::vector<std::string>
+      several;  // indenters: the sum of their forces may be that of a pinch, nothing
   if (header.contact_nodes.size() > 1)
     for (const auto& [name, nodes] : header.contact_nodes) several.push_back("force_" + name);
   if (contact) rows[0].push_back("u_ind mm");
@@ -145,7 +159,8 @@ void show_solution(Page& page, const std::string& path) {
     const StepRecord step = file.step(i);
     double u = 0;
     for (const Vec3& v : step.u) u = std::max(u, v.norm());
-    rows.push_back({std::to_string(i + 1), number(step.t), std::to_string(step.iterations), fmt::format("{:.1e}", step.residual)});
+    rows.push_back({std::to_string(i + 1), number(step.t), std::to_string(step.iterations),
+                    fmt::format("{:.1e}", step.residual)});
     if (contact) rows.back().push_back(number(step.u_ind.norm()));
     if (contact && several.empty()) rows.back().push_back(number(step.force_ind.norm()));
     for (const std::string& force : several) {
@@ -159,22 +174,27 @@ void show_solution(Page& page, const std::string& path) {
 
 void show_curves(Page& page, const std::string& path) {
   const Curves curves = read_curves(path).curves;
-  std::vector<std::vector<std::string>> rows{{"column", "rows", "first", "last", "least", "largest"}};
+  std::vector<std::vector<std::string>> rows{
+      {"column", "rows", "first", "last", "least", "largest"}};
   for (const Column& c : curves.columns) {
     std::vector<double> finite;
-    std::copy_if(c.values.begin(), c.values.end(), std::back_inserter(finite), [](double x) { return std::isfinite(x); });
+    std::copy_if(c.values.begin(), c.values.end(), std::back_inserter(finite),
+                 [](double x) { return std::isfinite(x); });
     const auto extreme = [&](bool low) {
-      return finite.empty()
-                 ? std::string("-")
-                 : number(low ? *std::min_element(finite.begin(), finite.end()) : *std::max_element(finite.begin(), finite.end()));
+      return finite.empty() ? std::string("-")
+                            : number(low ? *std::min_element(finite.begin(), finite.end())
+                                         : *std::max_element(finite.begin(), finite.end()));
     };
-    rows.push_back({with_unit(c.name, c.unit), std::to_string(c.values.size()), c.values.empty() ? "-" : number(c.values.front()),
-                    c.values.empty() ? "-" : number(c.values.back()), extreme(true), extreme(false)});
+    rows.push_back({with_unit(c.name, c.unit), std::to_string(c.values.size()),
+                    c.values.empty() ? "-" : number(c.values.front()),
+                    c.values.empty() ? "-" : number(c.values.back()), extreme(true),
+                    extreme(false)});
   }
   page.table("columns", rows);
   std::vector<std::string> maps, names;
   for (const SurfaceMap& m : curves.maps)
-    maps.push_back(fmt::format("{} of {} at t = {} ({} nodes)", m.name, with_unit(m.label, m.unit), number(m.t), m.values.size()));
+    maps.push_back(fmt::format("{} of {} at t = {} ({} nodes)", m.name, with_unit(m.label, m.unit),
+                               number(m.t), m.values.size()));
   for (const NamedCurve& c : curves.curves) names.push_back(c.name);
   page.list("curves", names);
   page.list("maps", maps);
@@ -184,11 +204,13 @@ void show_curves(Page& page, const std::string& path) {
 void show_tree(Page& page, const h5::Group& group, const std::string& prefix) {
   for (const std::string& name : group.datasets()) {
     std::string shape;
-    for (std::size_t n : group.shape(name)) shape += (shape.empty() ? "" : ", ") + std::to_string(n);
+    for (std::size_t n : group.shape(name))
+      shape += (shape.empty() ? "" : ", ") + std::to_string(n);
     page.line("", fmt::format("{}{} ({}) {}", prefix, name, shape, group.unit(name)));
   }
   for (const std::string& name : group.groups())
-    if (!(prefix == "/" && (name == "provenance" || name == "summary"))) show_tree(page, group.group(name), prefix + name + "/");
+    if (!(prefix == "/" && (name == "provenance" || name == "summary")))
+      show_tree(page, group.group(name), prefix + name + "/");
 }
 
 void show_sweep(Page& page, const h5::Group& root) {
@@ -202,7 +224,8 @@ void show_sweep(Page& page, const h5::Group& root) {
       std::vector<std::string> column{with_unit(name, group.unit(name))};
       const std::vector<std::string> words = split(group.annotation(name, "words"), ' ');
       if (words.empty())
-        for (double x : group.read<double>(name, {h5::any}).values) column.push_back(std::isfinite(x) ? number(x) : "-");
+        for (double x : group.read<double>(name, {h5::any}).values)
+          column.push_back(std::isfinite(x) ? number(x) : "-");
       else
         for (std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values)
           column.push_back(words.at(static_cast<std::size_t>(i)));
@@ -212,7 +235,9 @@ void show_sweep(Page& page, const h5::Group& root) {
   rows.assign(columns.empty() ? 0 : columns[0].size(), {});
   for (const auto& column : columns)
     for (std::size_t i = 0; i < column.size() && i < rows.size(); ++i) rows[i].push_back(column[i]);
-  page.table(fmt::format("{} members", std::count(members.begin(), members.end(), '\n') + !members.empty()), rows);
+  page.table(fmt::format("{} members",
+                         std::count(members.begin(), members.end(), '\n') + !members.empty()),
+             rows);
   if (root.has("effects")) page.list("effects of", root.group("effects").groups());
 }
 
@@ -221,13 +246,14 @@ void show_sensitivity(Page& page, const h5::Group& root) {
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "lower", "upper", "unit"}};
   for (const std::string& name : parameters.groups()) {
     const h5::Group p = parameters.group(name);
-    rows.push_back(
-        {name, number(p.read_scalar("value")), number(p.read_scalar("lower")), number(p.read_scalar("upper")), p.unit("value")});
+    rows.push_back({name, number(p.read_scalar("value")), number(p.read_scalar("lower")),
+                    number(p.read_scalar("upper")), p.unit("value")});
   }
   page.table("parameters", rows);
   const std::vector<double> strain = root.read<double>("strain", {h5::any}).values;
   if (!strain.empty())
-    page.line("strains", fmt::format("{}, {} to {}", strain.size(), number(strain.front()), number(strain.back())));
+    page.line("strains", fmt::format("{}, {} to {}", strain.size(), number(strain.front()),
+                                     number(strain.back())));
   std::vector<std::string> methods{"one at a time"};
   for (const char* method : {"morris", "sobol"})
     if (root.has(method)) methods.push_back(method);
@@ -239,17 +265,20 @@ void show_sensitivity(Page& page, const h5::Group& root) {
 std::string show(const std::string& path) {
   const Origin origin = read_origin(path);
   Page page;
-  page.text =
-      fmt::format("{}: {}, schema {}, {}\n", path, origin.schema, origin.version, size_words(std::filesystem::file_size(path)));
+  page.text = fmt::format("{}: {}, schema {}, {}\n", path, origin.schema, origin.version,
+                          size_words(std::filesystem::file_size(path)));
   const h5::File file = h5::File::open(path);
   const h5::Group root = file.root();
   std::string when;
   if (root.has("provenance"))
     for (const char* name : {"created_utc", "host", "code_version"})
-      if (root.group("provenance").has(name)) when += (when.empty() ? "" : ", ") + root.group("provenance").read_text(name);
-  page.line("made by", origin.identity.command.empty() ? "langer-" + origin.identity.stage : origin.identity.command);
+      if (root.group("provenance").has(name))
+        when += (when.empty() ? "" : ", ") + root.group("provenance").read_text(name);
+  page.line("made by", origin.identity.command.empty() ? "langer-" + origin.identity.stage
+                                                       : origin.identity.command);
   if (!when.empty()) page.line("", when);
-  page.line("content", fmt::format("{} (config {})", origin.content_id, origin.identity.config_hash));
+  page.line("content",
+            fmt::format("{} (config {})", origin.content_id, origin.identity.config_hash));
   std::vector<std::string> inputs;
   for (const auto& [port, id] : origin.identity.inputs) inputs.push_back(port + " " + id);
   page.list("inputs", inputs);
@@ -276,15 +305,19 @@ std::string show(const std::string& path) {
 std::string show_config(const std::string& path) {
   const Origin origin = read_origin(path);
   if (origin.identity.config.empty())
-    throw Failure(Exit::input, Error{{path, 0, 0}, "/provenance/config", "missing", "a file as a stage wrote it", ""});
+    throw Failure(
+        Exit::input,
+        Error{{path, 0, 0}, "/provenance/config", "missing", "a file as a stage wrote it", ""});
   return origin.identity.config;
 }
 
 std::string show_summary(const std::string& path) {
   const Origin origin = read_origin(path);
-  std::string s = fmt::format("{{\"schema\": \"{}\", \"content_id\": \"{}\"", origin.schema, origin.content_id);
+  std::string s =
+      fmt::format("{{\"schema\": \"{}\", \"content_id\": \"{}\"", origin.schema, origin.content_id);
   for (const Summary& r : read_summary(path))
-    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), std::isfinite(r.value) ? number_text(r.value) : "null");
+    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit),
+                     std::isfinite(r.value) ? number_text(r.value) : "null");
   return s + "}\n";
 }
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/schemas.hpp"
+#include "cli/starter_files.hpp"
 #include "core/base/error.hpp"
 #include "core/config/member.hpp"
 #include "core/hdf5/seal.hpp"
-#include "cli/schemas.hpp"
-#include "cli/starter_files.hpp"
 
 namespace langer {
 
@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 std::vector<std::string> starter_names() {
   std::vector<std::string> names;
   for (const StarterFile& f : starter_files)
-    if (std::string(f.scene) != "common" && (names.empty() || names.back() != f.scene)) names.push_back(f.scene);
+    if (std::string(f.scene) != "common" && (names.empty() || names.back() != f.scene))
+      names.push_back(f.scene);
   return names;
 }
 
@@ -26,19 +27,28 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
   const std::vector<std::string> known = starter_names();
   if (std::find(known.begin(), known.end(), scene) == known.end()) {
     const std::string near = nearest(scene, known);
-    throw Failure(Exit::config, Error{{},
-                                      "",
-                                      fmt::format("found the scene \"{}\"", scene),
-                                      "one of " + list_words(known),
-                                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    throw Failure(Exit::config,
+                  Error{{},
+                        "",
+                        fmt::format("found the scene \"{}\"", scene),
+                        "one of " + list_words(known),
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   std::error_code ec;
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder, ec)))
-    throw Failure(Exit::input, Error{{folder}, "", "this is there already", "a new or an empty folder", "langer new SCENE FOLDER"});
+    throw Failure(Exit::input, Error{{folder},
+                                     "",
+                                     "this is there already",
+                                     "a new or an empty folder",
+                                     "langer new SCENE FOLDER"});
   fs::create_directories(fs::path(folder) / "schema", ec);
   if (!fs::is_directory(fs::path(folder) / "schema"))
     throw Failure(Exit::input,
-                  Error{{folder}, "", "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()), "", ""});
+                  Error{{folder},
+                        "",
+                        "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()),
+                        "",
+                        ""});
   std::vector<std::string> written;
   for (const StarterFile& f : starter_files) {
     if (f.scene != scene && std::string(f.scene) != "common") continue;
@@ -46,7 +56,9 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
     const bool yaml = fs::path(f.name).extension() == ".yaml" && has_schema(kind);
     const std::string text = yaml ? schema_line(kind, "schema") + f.text : std::string(f.text);
     write_text_file((fs::path(folder) / f.name).string(), text);
-    if (yaml) write_text_file((fs::path(folder) / "schema" / schema_file(kind)).string(), schema_text(kind));
+    if (yaml)
+      write_text_file((fs::path(folder) / "schema" / schema_file(kind)).string(),
+                      schema_text(kind));
     written.push_back(f.name);
   }
   return written;

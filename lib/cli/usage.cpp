@@ -18,7 +18,8 @@ constexpr std::size_t width = 108;
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   std::vector<std::string> lines(1);
   for (const std::string& word : split(text, ' ')) {
-    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > columns) lines.emplace_back();
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > columns)
+      lines.emplace_back();
     lines.back() += (lines.back().empty() ? "" : " ") + word;
   }
   return lines;
@@ -57,7 +58,9 @@ std::vector<UsageOption> common_options() {
 
 namespace {
 
-std::string dots(const DescribedKey& k) { return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise; }
+std::string dots(const DescribedKey& k) {
+  return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise;
+}
 
 // one line, cut at a word
 std::string cut(const std::string& text, std::size_t columns) {
@@ -65,14 +68,16 @@ std::string cut(const std::string& text, std::size_t columns) {
   if (columns < 8) return "";
   const std::size_t space = text.rfind(' ', columns - 4);
   std::string s = text.substr(0, space == std::string::npos ? columns - 4 : space);
-  while (!s.empty() && (s.back() == ' ' || s.back() == ',' || s.back() == ';' || s.back() == ':')) s.pop_back();
+  while (!s.empty() && (s.back() == ' ' || s.back() == ',' || s.back() == ';' || s.back() == ':'))
+    s.pop_back();
   return s + " ...";
 }
 
 std::string stage_example(const StageSpec& stage) {
   const std::string name = stage.name;
   std::string s = "langer-" + name + " " + name + ".yaml";
-  const bool asks = std::any_of(stage.inputs.begin(), stage.inputs.end(), [](const Port& p) { return p.required; });
+  const bool asks = std::any_of(stage.inputs.begin(), stage.inputs.end(),
+                                [](const Port& p) { return p.required; });
   std::size_t shown = 0;
   for (const Port& p : stage.inputs) {
     if (asks ? !p.required && !p.or_key : ++shown > 2) continue;
@@ -95,57 +100,79 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   Usage u{std::string("langer-") + stage.name, stage.sentence, {}, {}, "", "", ""};
   u.options.push_back({"CONFIG", "", "YAML file with the keys below", "yaml yml", {}, true});
   for (const Port& p : stage.inputs)
-    u.options.push_back(
-        {std::string("--") + p.name,
-         "FILE",
-         fmt::format("{}{}{}", p.says, p.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)", p.several ? "; may be repeated" : ""),
-         p.takes_yaml ? "h5 yaml yml" : "h5",
-         {},
-         p.required});
-  u.options.push_back({"-o,--output",
-                       "FILE",
-                       fmt::format("main output, for example {}; side files stand beside it", stage.output),
-                       std::string(stage.output).substr(std::string(stage.output).rfind('.') + 1),
-                       {},
-                       true});
-  u.options.push_back({"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
+    u.options.push_back({std::string("--") + p.name,
+                         "FILE",
+                         fmt::format("{}{}{}", p.says, p.takes_yaml ? " (HDF5 or YAML)" : " (HDF5)",
+                                     p.several ? "; may be repeated" : ""),
+                         p.takes_yaml ? "h5 yaml yml" : "h5",
+                         {},
+                         p.required});
+  u.options.push_back(
+      {"-o,--output",
+       "FILE",
+       fmt::format("main output, for example {}; side files stand beside it", stage.output),
+       std::string(stage.output).substr(std::string(stage.output).rfind('.') + 1),
+       {},
+       true});
+  u.options.push_back(
+      {"--set", "KEY=VALUE", "replace a value of the config; may be repeated", "", {}});
   u.options.push_back({"--dry-run",
                        "",
-                       stage.forecasts ? "check everything and forecast memory and time; write nothing"
-                                       : "check config and inputs, say what would be made; write nothing",
+                       stage.forecasts
+                           ? "check everything and forecast memory and time; write nothing"
+                           : "check config and inputs, say what would be made; write nothing",
                        "",
                        {}});
   if (*stage.exports) u.options.push_back({"--export", "FILE", stage.exports, "inp feb", {}});
   u.options.push_back({"--json", "", "print the results as one JSON object on stdout", "", {}});
-  u.options.push_back({"--log", "FILE", "write what is said to this file, too; its folder is made", "log", {}});
-  u.options.push_back({"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
+  u.options.push_back(
+      {"--log", "FILE", "write what is said to this file, too; its folder is made", "log", {}});
+  u.options.push_back(
+      {"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
   u.keys = std::move(keys), u.reference = std::move(reference);
   u.examples = stage_example(stage);
-  if (*stage.exports) u.examples += fmt::format("\n{} --solution solution.h5 --export scene.inp --export scene.feb", u.program);
+  if (*stage.exports)
+    u.examples +=
+        fmt::format("\n{} --solution solution.h5 --export scene.inp --export scene.feb", u.program);
   return u;
 }
 
 Usage plan_usage() {
   Usage u{"langer-plan", "Turns a pipeline into a Makefile.", {}, {}, "", "", ""};
-  u.options = {{"PIPELINE", "", "YAML file with nodes", "yaml yml", {}, true},
-               {"-o,--output", "FOLDER", "folder of the run; runs/<name of the pipeline> by default", "/", {}},
-               {"--set", "NODE.KEY=VALUE", "replace a value of a node's config; may be repeated", "", {}},
-               {"--sweep",
-                "NODE.KEY=[VALUES]",
-                "vary a key of a node's config as a sweep does; AXIS:NODE.KEY=[VALUES] names the axis; may be repeated",
-                "",
-                {}},
-               {"--slurm", "", "also write slurm/submit, which sends the run to Slurm as arrays of jobs", "", {}},
-               {"--snakemake", "", "also write a Snakefile, by which Snakemake makes the same files", "", {}},
-               {"--dry-run", "", "check everything that the pipeline names; write nothing", "", {}}};
+  u.options = {
+      {"PIPELINE", "", "YAML file with nodes", "yaml yml", {}, true},
+      {"-o,--output",
+       "FOLDER",
+       "folder of the run; runs/<name of the pipeline> by default",
+       "/",
+       {}},
+      {"--set", "NODE.KEY=VALUE", "replace a value of a node's config; may be repeated", "", {}},
+      {"--sweep",
+       "NODE.KEY=[VALUES]",
+       "vary a key of a node's config as a sweep does; AXIS:NODE.KEY=[VALUES] names the axis; may be repeated",
+       "",
+       {}},
+      {"--slurm",
+       "",
+       "also write slurm/submit, which sends the run to Slurm as arrays of jobs",
+       "",
+       {}},
+      {"--snakemake",
+       "",
+       "also write a Snakefile, by which Snakemake makes the same files",
+       "",
+       {}},
+      {"--dry-run", "", "check everything that the pipeline names; write nothing", "", {}}};
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
-  u.examples = "langer-plan pipelines/indentation.yaml -o runs/indentation && make -C runs/indentation -j2";
+  u.examples =
+      "langer-plan pipelines/indentation.yaml -o runs/indentation && make -C runs/indentation -j2";
   return u;
 }
 
 std::string help_text(const Usage& u) {
-  std::string s = u.sentence + "\n\nUsage: " + (u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n\n";
+  std::string s = u.sentence + "\n\nUsage: " +
+                  (u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n\n";
   std::size_t left = 0;
   for (const UsageOption& o : u.options) left = std::max(left, option_text(o).size());
   for (const UsageOption& o : u.options) {
@@ -158,7 +185,8 @@ std::string help_text(const Usage& u) {
   if (!u.keys.empty()) {
     std::size_t key = 0, kind = 0;
     for (const DescribedKey& k : u.keys)
-      key = std::max(key, k.key.size()), kind = std::max(kind, std::min<std::size_t>(44, dots(k).size()));
+      key = std::max(key, k.key.size()),
+      kind = std::max(kind, std::min<std::size_t>(44, dots(k).size()));
     s += "\nKeys of the config, in mm, N, MPa, s and degrees (those below them: --describe):\n";
     for (const DescribedKey& k : u.keys) {
       std::string line = fmt::format("  {:<{}}  {:<{}}  ", k.key, key, dots(k), kind);
@@ -170,7 +198,8 @@ std::string help_text(const Usage& u) {
   s += std::string("\nExample:\n");
   for (const std::string& line : split(u.examples, '\n')) s += "  " + line + "\n";
   if (!u.more.empty())
-    for (const std::string& line : wrapped(u.more, width)) s += (line == wrapped(u.more, width).front() ? "\n" : "") + line + "\n";
+    for (const std::string& line : wrapped(u.more, width))
+      s += (line == wrapped(u.more, width).front() ? "\n" : "") + line + "\n";
   return s + "\nExit codes: " + exit_codes + "\n";
 }
 

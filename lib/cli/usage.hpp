@@ -1,5 +1,6 @@
-// What every program takes and gives, as one table: its --help, its man page and the shell's completion come from it, and the
-// argument parser refuses to know an option that the table lacks (stages/common/arguments.cpp).
+// What every program takes and gives, as one table: its --help, its man page and the shell's
+// completion come from it, and the argument parser refuses to know an option that the table lacks
+// (stages/common/arguments.cpp).
 #pragma once
 
 #include <string>
@@ -14,7 +15,8 @@ struct UsageOption {
   std::string flags;  // "-o,--output", "--mesh", "CONFIG" (a place in the line)
   std::string value;  // "FILE", "" for a switch
   std::string says;
-  std::string files;               // endings of the files it takes, separated by spaces: "h5 yaml"; for completion
+  std::string
+      files;  // endings of the files it takes, separated by spaces: "h5 yaml"; for completion
   std::vector<std::string> words;  // or the words it takes
   bool required = false;
 };

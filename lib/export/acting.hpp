@@ -1,4 +1,5 @@
-// Families that do nothing are left out of what other programs get: some divide by their modulus, some refuse it.
+// Families that do nothing are left out of what other programs get: some divide by their modulus,
+// some refuse it.
 #pragma once
 
 #include <span>

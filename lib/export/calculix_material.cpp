@@ -14,7 +14,10 @@ namespace {
 std::string lines(const std::vector<double>& numbers) {
   std::string s;
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    s += fmt::format("{:.12g}{}", numbers[i], i + 1 == numbers.size() ? "\n" : i % 8 == 7 ? ",\n" : ", ");
+    s += fmt::format("{:.12g}{}", numbers[i],
+                     i + 1 == numbers.size() ? "\n"
+                     : i % 8 == 7            ? ",\n"
+                                             : ", ");
   return s;
 }
 
@@ -25,16 +28,20 @@ std::string of_polynomial(const Polynomial& p, double d) {
   if (p.neo_hookean()) return "*HYPERELASTIC, NEO HOOKE\n" + lines({a[0], d});
   if (p.of_I1()) return "*HYPERELASTIC, YEOH\n" + lines({a[0], a[1], a[2], d, 0, 0});
   if (p.linear()) return "*HYPERELASTIC, MOONEY-RIVLIN\n" + lines({a[0], b[0], d});
-  if (a[2] == 0 && b[2] == 0) return "*HYPERELASTIC, POLYNOMIAL, N=2\n" + lines({a[0], b[0], a[1], 0, b[1], d, 0});
-  return "*HYPERELASTIC, POLYNOMIAL, N=3\n" + lines({a[0], b[0], a[1], 0, b[1], a[2], 0, 0, b[2], d, 0, 0});
+  if (a[2] == 0 && b[2] == 0)
+    return "*HYPERELASTIC, POLYNOMIAL, N=2\n" + lines({a[0], b[0], a[1], 0, b[1], d, 0});
+  return "*HYPERELASTIC, POLYNOMIAL, N=3\n" +
+         lines({a[0], b[0], a[1], 0, b[1], a[2], 0, 0, b[2], d, 0, 0});
 }
 
-ForeignLaw with_fibres(const Material& m, const std::vector<Vec3>& fibres, const std::string& name) {
+ForeignLaw with_fibres(const Material& m, const std::vector<Vec3>& fibres,
+                       const std::string& name) {
   const auto p = polynomial(m);
   if (!p || !p->neo_hookean())
     return {"", "fibres in a matrix other than neo-Hookean",
             "a neo-Hookean matrix, or no fibres: its ELASTIC_FIBER knows no other"};
-  if (fibres.size() > 4) return {"", fmt::format("{} families of fibres", fibres.size()), "four at most"};
+  if (fibres.size() > 4)
+    return {"", fmt::format("{} families of fibres", fibres.size()), "four at most"};
   if (const auto law = beyond_hgo(m); !law.first.empty()) return {"", law.first, law.second};
   if (const auto volume = beyond_volume(m.volume, VolumeTerm::quadratic); !volume.first.empty())
     return {"", volume.first, volume.second};
@@ -42,15 +49,21 @@ ForeignLaw with_fibres(const Material& m, const std::vector<Vec3>& fibres, const
   for (std::size_t k = 0; k < fibres.size(); ++k) {
     const Fibre& f = m.fibres[k];
     if (f.kappa != 0) return {"", "dispersed fibres", "kappa: 0"};
-    if (f.tension_switch != FibreSwitch::I4_bar) return {"", "fibres with another switch", "switch: I4_bar, which is its own"};
+    if (f.tension_switch != FibreSwitch::I4_bar)
+      return {"", "fibres with another switch", "switch: I4_bar, which is its own"};
     const HgoFibre law = *as_hgo(f);
-    if (law.c2 == 0) return {"", "fibres with c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+    if (law.c2 == 0)
+      return {"", "fibres with c2 = 0, by which it divides",
+              "c2: 1e-6, which differs in the seventh digit"};
     Vec3 a = fibres[k];
-    if (a[2] < 0) a = -a;  // it takes the third component as positive, and refuses what rounding makes longer than 1
+    if (a[2] < 0)
+      a = -a;  // it takes the third component as positive, and refuses what rounding makes longer
+               // than 1
     if (const double x = written(a[0]), y = written(a[1]); 1 - x * x - y * y < 0) a *= 1 - 2e-12;
     for (double c : {a[0], a[1], law.c1, law.c2}) constants.push_back(c);
   }
-  return {fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}\n", calculix_name(m, name), constants.size()) +
+  return {fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}\n", calculix_name(m, name),
+                      constants.size()) +
               lines(constants),
           "", ""};
 }
@@ -66,7 +79,8 @@ std::string hyperelastic(const Material& m) {
     return "*HYPERELASTIC, ARRUDA-BOYCE\n" + lines({t->mu, t->locking_stretch, d});
   const auto* t = std::get_if<Ogden>(&m.matrix[0]);
   if (!t) return "";
-  std::vector<double> numbers;  // mu there is mu alpha/2 here; alpha = 0 is no energy, since l_1 l_2 l_3 = 1
+  std::vector<double>
+      numbers;  // mu there is mu alpha/2 here; alpha = 0 is no energy, since l_1 l_2 l_3 = 1
   for (const auto& [mu, alpha] : t->parts())
     if (mu != 0 && alpha != 0) numbers.push_back(mu * alpha / 2), numbers.push_back(alpha);
   const std::size_t n = numbers.size() / 2;
@@ -76,15 +90,19 @@ std::string hyperelastic(const Material& m) {
   return fmt::format("*HYPERELASTIC, OGDEN, N={}\n", n) + lines(numbers);
 }
 
-ForeignLaw calculix_material(const Material& material, const std::vector<Vec3>& directions, const std::string& name) {
+ForeignLaw calculix_material(const Material& material, const std::vector<Vec3>& directions,
+                             const std::string& name) {
   const Material m = acting(material);
   if (!m.fibres.empty()) return with_fibres(m, acting(material, directions), name);
   const std::string law = hyperelastic(m);
   if (law.empty())
-    return {"", matrix_words(m),
-            "one of its laws: neo-Hooke, Mooney-Rivlin, Yeoh, polynomials up to the third power, Ogden, Arruda-Boyce"};
+    return {
+        "", matrix_words(m),
+        "one of its laws: neo-Hooke, Mooney-Rivlin, Yeoh, polynomials up to the third power, Ogden, Arruda-Boyce"};
   const bool chains = std::holds_alternative<ArrudaBoyce>(m.matrix.front());
-  if (const auto volume = beyond_volume(m.volume, chains ? VolumeTerm::simo_taylor : VolumeTerm::quadratic); !volume.first.empty())
+  if (const auto volume =
+          beyond_volume(m.volume, chains ? VolumeTerm::simo_taylor : VolumeTerm::quadratic);
+      !volume.first.empty())
     return {"", volume.first, volume.second};
   return {fmt::format("*MATERIAL, NAME={}\n", name) + law, "", ""};
 }

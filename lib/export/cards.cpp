@@ -30,7 +30,8 @@ int ogden_parts(const Ogden& law) {
   return n;
 }
 
-constexpr const char* other_volume = "volume term here (1/D)((J^2-1)/2 - ln J) instead of (J-1)^2/d; same bulk modulus 2/d";
+constexpr const char* other_volume =
+    "volume term here (1/D)((J^2-1)/2 - ln J) instead of (J-1)^2/d; same bulk modulus 2/d";
 constexpr const char* units = "mm, N, MPa";
 
 // what a program lacks, and the nearest that it has
@@ -42,7 +43,8 @@ std::string note(const std::string& program, const std::string& lacks, const std
 std::string isotropic(const Material& m) {
   std::string law = hyperelastic(m);
   if (law.empty()) return "";
-  if (only<ArrudaBoyce>(m) && of_other_form(m.volume)) law = fmt::format("** {}\n", other_volume) + law;
+  if (only<ArrudaBoyce>(m) && of_other_form(m.volume))
+    law = fmt::format("** {}\n", other_volume) + law;
   if (only<Ogden>(m)) law = "** Ogden: mu here is mu alpha/2 of Langer\n" + law;
   return law;
 }
@@ -51,23 +53,33 @@ std::string isotropic(const Material& m) {
 bool alike(const std::vector<Fibre>& fibres) {
   const HgoFibre first = *as_hgo(fibres[0]);
   for (const Fibre& f : fibres)
-    if (const HgoFibre law = *as_hgo(f); law.c1 != first.c1 || law.c2 != first.c2 || f.kappa != fibres[0].kappa) return false;
+    if (const HgoFibre law = *as_hgo(f);
+        law.c1 != first.c1 || law.c2 != first.c2 || f.kappa != fibres[0].kappa)
+      return false;
   return true;
 }
 
-VolumeTerm volume_of_keywords(const Material& m) { return only<ArrudaBoyce>(m) ? VolumeTerm::simo_taylor : VolumeTerm::quadratic; }
+VolumeTerm volume_of_keywords(const Material& m) {
+  return only<ArrudaBoyce>(m) ? VolumeTerm::simo_taylor : VolumeTerm::quadratic;
+}
 
-// Holzapfel, Gasser and Ogden's law: what of a material it cannot hold, and the nearest; empty where it can
+// Holzapfel, Gasser and Ogden's law: what of a material it cannot hold, and the nearest; empty
+// where it can
 LacksAndNearest beyond_holzapfel(const Material& m) {
   const auto p = polynomial(m);
   const std::string user = ", or UANISOHYPER_INV";
-  if (!p || !p->neo_hookean()) return {"fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix" + user};
+  if (!p || !p->neo_hookean())
+    return {"fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix" + user};
   if (const auto law = beyond_hgo(m); !law.first.empty()) return {law.first, law.second + user};
-  if (m.fibres.size() > 3) return {fmt::format("{} families of fibres", m.fibres.size()), "three at most" + user};
-  if (!alike(m.fibres)) return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
-  if (as_hgo(m.fibres[0])->c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+  if (m.fibres.size() > 3)
+    return {fmt::format("{} families of fibres", m.fibres.size()), "three at most" + user};
+  if (!alike(m.fibres))
+    return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
+  if (as_hgo(m.fibres[0])->c2 == 0)
+    return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
   for (const Fibre& f : m.fibres)
-    if (f.tension_switch != FibreSwitch::I4_bar) return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
+    if (f.tension_switch != FibreSwitch::I4_bar)
+      return {"fibres with another switch", "switch: I4_bar, which is its own" + user};
   return beyond_volume(m.volume, VolumeTerm::simo_taylor);
 }
 
@@ -77,10 +89,12 @@ std::string holzapfel(const Material& m) {
       "{}** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
       "**  *ORIENTATION, NAME=FIBRES, LOCAL DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n**  3, 0.\n",
       of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", m.fibres.size());
-  for (const Vec3& a : fibre_directions(m)) s += fmt::format("**  {}, 0., {}\n", number(a.x()), number(a.z()));
-  return s + fmt::format("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n", m.fibres.size(),
-                         number(polynomial(m)->I1[0]), number(compressibility(m.volume)), number(law.c1), number(law.c2),
-                         number(m.fibres[0].kappa));
+  for (const Vec3& a : fibre_directions(m))
+    s += fmt::format("**  {}, 0., {}\n", number(a.x()), number(a.z()));
+  return s + fmt::format(
+                 "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS={}\n{}, {}, {}, {}, {}\n",
+                 m.fibres.size(), number(polynomial(m)->I1[0]), number(compressibility(m.volume)),
+                 number(law.c1), number(law.c2), number(m.fibres[0].kappa));
 }
 
 Card abaqus(const Material& m) {
@@ -92,7 +106,8 @@ Card abaqus(const Material& m) {
     if (!law.empty() && (beyond = beyond_volume(m.volume, volume_of_keywords(m))).first.size())
       law.clear();
     else if (law.empty())
-      beyond = {matrix_words(m), "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
+      beyond = {matrix_words(m),
+                "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
   } else if (beyond = beyond_holzapfel(m); beyond.first.empty()) {
     law = holzapfel(m);
   }
@@ -111,7 +126,8 @@ Card calculix(const Material& m) {
     section = fmt::format(
         "** the section names the frame of the fibres: *SOLID SECTION, ..., MATERIAL={}, ORIENTATION=FIBRES\n"
         "*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
-        calculix_name(m, "LANGER"), frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+        calculix_name(m, "LANGER"), frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1],
+        frame.e2[2]);
   }
   const ForeignLaw law = calculix_material(m, in_frame, "LANGER");
   Card card{"CalculiX", "calculix.inp", "", !law.text.empty()};
@@ -119,9 +135,10 @@ Card calculix(const Material& m) {
     card.text = "** " + note("CalculiX", law.lacks, law.nearest) + "\n";
     return card;
   }
-  card.text =
-      fmt::format("** {}\n{}{}{}", units,
-                  only<ArrudaBoyce>(m) && of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", law.text, section);
+  card.text = fmt::format(
+      "** {}\n{}{}{}", units,
+      only<ArrudaBoyce>(m) && of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "",
+      law.text, section);
   return card;
 }
 
@@ -129,12 +146,15 @@ Card calculix(const Material& m) {
 std::string ansys_isotropic(const Material& m) {
   const double d = compressibility(m.volume);
   const char* other =
-      of_other_form(m.volume) ? "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n" : "";
+      of_other_form(m.volume)
+          ? "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n"
+          : "";
   const auto table = [](const char* option, int n, const std::vector<double>& constants) {
     std::string s = fmt::format("TB,HYPER,1,1,{},{}\n", n, option);
     for (std::size_t i = 0; i < constants.size(); i += 6) {
       s += fmt::format("TBDATA,{}", i + 1);
-      for (std::size_t k = i; k < std::min(i + 6, constants.size()); ++k) s += "," + number(constants[k]);
+      for (std::size_t k = i; k < std::min(i + 6, constants.size()); ++k)
+        s += "," + number(constants[k]);
       s += "\n";
     }
     return s;
@@ -154,17 +174,20 @@ std::string ansys_isotropic(const Material& m) {
     constants.push_back(d);
     return table("OGDEN", ogden_parts(*t), constants);
   }
-  if (const auto* t = only<ArrudaBoyce>(m)) return other + table("BOYCE", 3, {t->mu, t->locking_stretch, d});
+  if (const auto* t = only<ArrudaBoyce>(m))
+    return other + table("BOYCE", 3, {t->mu, t->locking_stretch, d});
   if (const auto* t = only<Gent>(m)) return other + table("GENT", 3, {t->mu, t->Jm, d});
   return "";
 }
 
-// the law (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2 (I4-1)^2)-1) + E1/(2 E2)(...) + (J-1)^2/d
+// the law (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2 (I4-1)^2)-1) + E1/(2
+// E2)(...) + (J-1)^2/d
 std::string ansys_fibres(const Material& m, const Polynomial& p) {
   std::string s = fmt::format(
       "! no switch is documented for its fibres: where they are shortened they may push, which Langer's do not\n"
       "TB,AHYPER,1,1,10,EXPO\nTBDATA,1,{},{},{}\nTBDATA,4,{},{},{}\n",
-      number(p.I1[0]), number(p.I1[1]), number(p.I1[2]), number(p.I2[0]), number(p.I2[1]), number(p.I2[2]));
+      number(p.I1[0]), number(p.I1[1]), number(p.I1[2]), number(p.I2[0]), number(p.I2[1]),
+      number(p.I2[2]));
   for (std::size_t k = 0; k < 2; ++k) {
     const bool here = k < m.fibres.size();  // C1 = 0 with an exponent by which it may divide
     s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(as_hgo(m.fibres[k])->c1) : "0",
@@ -172,18 +195,23 @@ std::string ansys_fibres(const Material& m, const Polynomial& p) {
   }
   const std::vector<Vec3> a = fibre_directions(m);
   for (std::size_t k = 0; k < a.size(); ++k)
-    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC", number(a[k].x()), number(a[k].z()));
+    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC",
+                     number(a[k].x()), number(a[k].z()));
   return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(compressibility(m.volume)));
 }
 
 // what TB,AHYPER cannot hold
 LacksAndNearest beyond_ansys(const Material& m) {
-  if (!polynomial(m)) return {"fibres in " + matrix_words(m), "a polynomial matrix (yeoh), or UserMat"};
-  if (const auto law = beyond_hgo(m); !law.first.empty()) return {law.first, law.second + ", or UserMat"};
-  if (m.fibres.size() > 2) return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
+  if (!polynomial(m))
+    return {"fibres in " + matrix_words(m), "a polynomial matrix (yeoh), or UserMat"};
+  if (const auto law = beyond_hgo(m); !law.first.empty())
+    return {law.first, law.second + ", or UserMat"};
+  if (m.fibres.size() > 2)
+    return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
   for (const Fibre& f : m.fibres) {
     if (f.kappa != 0) return {"dispersed fibres", "kappa: 0, or UserMat"};
-    if (as_hgo(f)->c2 == 0) return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
+    if (as_hgo(f)->c2 == 0)
+      return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
   }
   return beyond_volume(m.volume, VolumeTerm::quadratic);
 }
@@ -195,7 +223,9 @@ Card ansys(const Material& m) {
   if (m.fibres.empty()) {
     law = ansys_isotropic(m);
     const bool other = only<ArrudaBoyce>(m) || only<Gent>(m);
-    if (!law.empty() && (beyond = beyond_volume(m.volume, other ? VolumeTerm::simo_taylor : VolumeTerm::quadratic)).first.size())
+    if (!law.empty() &&
+        (beyond = beyond_volume(m.volume, other ? VolumeTerm::simo_taylor : VolumeTerm::quadratic))
+            .first.size())
       law.clear();
     else if (law.empty())
       beyond = {matrix_words(m), "one of its terms alone, or UserHyper"};
@@ -203,13 +233,16 @@ Card ansys(const Material& m) {
     law = ansys_fibres(m, *polynomial(m));
   }
   card.exists = !law.empty();
-  card.text = card.exists ? fmt::format("! {}\n{}", units, law) : "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
+  card.text = card.exists ? fmt::format("! {}\n{}", units, law)
+                          : "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
   return card;
 }
 
 Card febio(const Material& m) {
   const ForeignLaw law = febio_material(m, fibre_directions(m), 1, "langer");
-  if (law.text.empty()) return {"FEBio", "febio.xml", fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
+  if (law.text.empty())
+    return {"FEBio", "febio.xml",
+            fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
   return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
 }
 
@@ -221,8 +254,10 @@ Material instantaneous(const Material& m, double amplified) {
   return stiff;
 }
 
-// with branches: TIME=PRONY and TB,PRONY give their strengths as shares of the instantaneous modulus
-void add_branches(const Material& m, const std::vector<ViscousBranch>& branches, Card& abaqus, Card& ansys) {
+// with branches: TIME=PRONY and TB,PRONY give their strengths as shares of the instantaneous
+// modulus
+void add_branches(const Material& m, const std::vector<ViscousBranch>& branches, Card& abaqus,
+                  Card& ansys) {
   double amplified = 1;
   for (const ViscousBranch& branch : branches) amplified += branch.gamma;
   const char* transport =
@@ -232,14 +267,17 @@ void add_branches(const Material& m, const std::vector<ViscousBranch>& branches,
     const std::string word = "*HYPERELASTIC,";
     abaqus.text.insert(abaqus.text.find(word) + word.size(), " MODULI=LONG TERM,");
     abaqus.text += fmt::format("** {}\n*VISCOELASTIC, TIME=PRONY\n", transport);
-    for (const ViscousBranch& b : branches) abaqus.text += fmt::format("{}, 0, {}\n", number(b.gamma / amplified), number(b.tau));
+    for (const ViscousBranch& b : branches)
+      abaqus.text += fmt::format("{}, 0, {}\n", number(b.gamma / amplified), number(b.tau));
   }
   ansys = langer::ansys(instantaneous(m, amplified));
   if (!ansys.exists) return;
   ansys.text +=
-      fmt::format("! moduli above are those at once after a step; {}\nTB,PRONY,1,1,{},SHEAR\n", transport, branches.size());
+      fmt::format("! moduli above are those at once after a step; {}\nTB,PRONY,1,1,{},SHEAR\n",
+                  transport, branches.size());
   for (std::size_t i = 0; i < branches.size(); ++i)
-    ansys.text += fmt::format("TBDATA,{},{},{}\n", 2 * i + 1, number(branches[i].gamma / amplified), number(branches[i].tau));
+    ansys.text += fmt::format("TBDATA,{},{},{}\n", 2 * i + 1, number(branches[i].gamma / amplified),
+                              number(branches[i].tau));
 }
 
 std::vector<Card> viscous_cards(const Material& m) {
@@ -249,9 +287,13 @@ std::vector<Card> viscous_cards(const Material& m) {
   std::vector<Card> all{abaqus(law), ansys(law), febio(law), calculix(law)};
   std::string pairs;
   for (std::size_t i = 0; i < branches.size(); ++i)
-    pairs += fmt::format(" t{} = {} s, g{} = {};", i + 1, number(branches[i].tau), i + 1, number(branches[i].gamma));
-  const auto refuse = [&](Card& card, const std::string& begin, const std::string& end, const std::string& nearest) {
-    card.exists = false, card.text = begin + note(card.program, "viscous branches as they are here", nearest) + end + "\n";
+    pairs += fmt::format(" t{} = {} s, g{} = {};", i + 1, number(branches[i].tau), i + 1,
+                         number(branches[i].gamma));
+  const auto refuse = [&](Card& card, const std::string& begin, const std::string& end,
+                          const std::string& nearest) {
+    card.exists = false,
+    card.text =
+        begin + note(card.program, "viscous branches as they are here", nearest) + end + "\n";
   };
   const std::string relaxed = "the law without `viscous`, what is left after all has relaxed";
   if (m.fibres.empty()) {
@@ -261,7 +303,8 @@ std::vector<Card> viscous_cards(const Material& m) {
     refuse(all[1], "! ", "", relaxed + "; its viscous laws with fibres were not tried");
   }
   refuse(all[2], "<!-- ", " -->",
-         "<material type=\"uncoupled viscoelastic\"> around the law without them, with" + pairs + " it was not tried");
+         "<material type=\"uncoupled viscoelastic\"> around the law without them, with" + pairs +
+             " it was not tried");
   refuse(all[3], "** ", "", relaxed);
   return all;
 }

@@ -1,6 +1,7 @@
-// A fitted law as input of other programs, ready to paste, in mm, N, MPa, and a note where it does not exist there.
-// Laws are matched energy by energy: parameters are converted where a program counts differently (Abaqus' Ogden: mu alpha/2),
-// and a volume term of another form is told; its bulk modulus is 2/d in any case.
+// A fitted law as input of other programs, ready to paste, in mm, N, MPa, and a note where it does
+// not exist there. Laws are matched energy by energy: parameters are converted where a program
+// counts differently (Abaqus' Ogden: mu alpha/2), and a volume term of another form is told; its
+// bulk modulus is 2/d in any case.
 #pragma once
 
 #include <string>

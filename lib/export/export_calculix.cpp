@@ -1,6 +1,7 @@
-// CalculiX; laws: calculix_material. Cells are C3D20R, those of hex8 with a node in the middle of each edge: its own eight-node
-// cells lock near incompressibility (C3D8) or carry errors of their own of a quarter and more (C3D8R, C3D8I). hex27 lose the middles of facets and
-// cells. The sphere is a layer of hexahedra all of whose nodes are led along the path.
+// CalculiX; laws: calculix_material. Cells are C3D20R, those of hex8 with a node in the middle of
+// each edge: its own eight-node cells lock near incompressibility (C3D8) or carry errors of their
+// own of a quarter and more (C3D8R, C3D8I). hex27 lose the middles of facets and cells. The sphere
+// is a layer of hexahedra all of whose nodes are led along the path.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -17,8 +18,9 @@ namespace langer {
 namespace {
 
 constexpr int side_of_facet[6] = {6, 4, 3, 5, 1, 2};  // S1 ... S6 by our local facet
-constexpr double usual_stiffness = 1000;              // of contact, in units of the softest law's 2 a1 per mm
-constexpr double increment_with_fibres = 0.05;        // longest increment of a scene with contact and fibres
+constexpr double usual_stiffness = 1000;  // of contact, in units of the softest law's 2 a1 per mm
+constexpr double increment_with_fibres =
+    0.05;  // longest increment of a scene with contact and fibres
 
 std::string name_of(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
@@ -37,17 +39,20 @@ std::string list(const std::vector<int>& numbers) {
   return s;
 }
 
-// hex8 with the middles of edges (and others, which C3D20R do not use); a set that has both ends of an edge has its middle
+// hex8 with the middles of edges (and others, which C3D20R do not use); a set that has both ends of
+// an edge has its middle
 Mesh with_middles(const Mesh& mesh) {
   if (mesh.cell().second_order()) return mesh;
-  constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                               {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   Mesh out = raised(mesh, CellType::hex27);
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::vector<char> in(out.X.size(), 0);
     for (int n : nodes) in[n] = 1;
     for (int e = 0; e < out.n_cells(); ++e)
       for (int k = 0; k < 12; ++k)
-        if (const auto cell = out.cell(e); in[cell[ends[k][0]]] && in[cell[ends[k][1]]]) in[cell[8 + k]] = 2;
+        if (const auto cell = out.cell(e); in[cell[ends[k][0]]] && in[cell[ends[k][1]]])
+          in[cell[8 + k]] = 2;
     for (int n = 0; n < out.n_nodes(); ++n)
       if (in[n]) out.node_sets[name].push_back(n);
   }
@@ -57,10 +62,10 @@ Mesh with_middles(const Mesh& mesh) {
 std::vector<std::string> calculix_warnings(const Deck& deck) {
   std::vector<std::string> list;
   if (const auto stiff = too_stiff_for_contact(deck))
-    list.push_back(
-        fmt::format("2/d is {:.3g} times the shear modulus: CalculiX's contact was found to stall beyond 1000 times; solve "
-                    "with d: {:.2g} and export that",
-                    stiff->ratio, stiff->d));
+    list.push_back(fmt::format(
+        "2/d is {:.3g} times the shear modulus: CalculiX's contact was found to stall beyond 1000 times; solve "
+        "with d: {:.2g} and export that",
+        stiff->ratio, stiff->d));
   return list;
 }
 
@@ -86,7 +91,8 @@ class CalculixWriter {
           "cutting the increment\n",
           increment_with_fibres);
     body();
-    for (std::size_t c = 0; c < deck_.contacts.size(); ++c) contact(deck_.contacts[c], static_cast<int>(c));
+    for (std::size_t c = 0; c < deck_.contacts.size(); ++c)
+      contact(deck_.contacts[c], static_cast<int>(c));
     steps();
     return s_;
   }
@@ -97,7 +103,9 @@ class CalculixWriter {
   std::string s_;
   int next_node_ = 0, next_cell_ = 0;
 
-  void node(int number, const Vec3& X) { s_ += fmt::format("{}, {:.12g}, {:.12g}, {:.12g}\n", number, X[0], X[1], X[2]); }
+  void node(int number, const Vec3& X) {
+    s_ += fmt::format("{}, {:.12g}, {:.12g}, {:.12g}\n", number, X[0], X[1], X[2]);
+  }
 
   static constexpr int per_cell = 20;
 
@@ -118,7 +126,8 @@ class CalculixWriter {
     }
     std::string held;
     for (const HeldSet& h : deck_.held)
-      if (h.to.value == 0) held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
+      if (h.to.value == 0)
+        held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
     if (!held.empty()) s_ += "*BOUNDARY\n" + held;
   }
 
@@ -130,29 +139,34 @@ class CalculixWriter {
     for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
       const FibreGroup& group = deck_.groups[g];
       const Material& m = deck_.materials[group.body];
-      const std::string set = fmt::format("CELLS{}", g + 1), name = fmt::format("LAW{}", group.body + 1);
+      const std::string set = fmt::format("CELLS{}", g + 1),
+                        name = fmt::format("LAW{}", group.body + 1);
       s_ += fmt::format("*ELEMENT, TYPE=C3D20R, ELSET={}\n", set);
       for (int e : group.cells) {
         s_ += std::to_string(e + 1);
-        for (int a = 0; a < per_cell; ++a) s_ += fmt::format(",{}{}", a == 14 ? "\n" : " ", mesh_.cell(e)[a] + 1);
+        for (int a = 0; a < per_cell; ++a)
+          s_ += fmt::format(",{}{}", a == 14 ? "\n" : " ", mesh_.cell(e)[a] + 1);
         s_ += "\n";
       }
       std::vector<Vec3> in_frame;
-      std::string section = fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}", set, calculix_name(m, name));
+      std::string section =
+          fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}", set, calculix_name(m, name));
       if (!group.fibres.empty()) {
         const FibreFrame frame = fibre_frame(group.fibres);
         in_frame = frame.in_frame;
-        sections +=
-            fmt::format("*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
-                        g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
+        sections += fmt::format(
+            "*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+            g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
         section += fmt::format(", ORIENTATION=FIBRES{}", g + 1);
       }
       sections += section + "\n";
       if (law_of_body[group.body].empty())
-        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name)), components[group.body] = in_frame;
+        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name)),
+        components[group.body] = in_frame;
       for (std::size_t k = 0; k < in_frame.size(); ++k)
         if ((in_frame[k] - components[group.body][k]).norm() > 1e-6)
-          held_by("CalculiX", {"", "fibre families whose angle to each other varies", "the same angle everywhere"});
+          held_by("CalculiX", {"", "fibre families whose angle to each other varies",
+                               "the same angle everywhere"});
     }
     for (const std::string& law : law_of_body) s_ += law;
     s_ += sections;
@@ -162,9 +176,11 @@ class CalculixWriter {
     const std::string name = name_of(c.law.name), slave = fmt::format("SLAVE{}", number + 1),
                       master = fmt::format("MASTER{}", number + 1);
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
-    for (const Facet& f : c.facets) s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
+    for (const Facet& f : c.facets)
+      s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
     const int n = static_cast<int>(c.cap.outer.size()), first = next_node_, first_cell = next_cell_;
-    s_ += fmt::format("** {}: rigid facets of {:.3g} mm\n*NODE, NSET=RIGID_{}\n", name, c.cap.side, name);
+    s_ += fmt::format("** {}: rigid facets of {:.3g} mm\n*NODE, NSET=RIGID_{}\n", name, c.cap.side,
+                      name);
     for (int i = 0; i < n; ++i) node(first + i, c.cap.inner[i]);
     for (int i = 0; i < n; ++i) node(first + n + i, c.cap.outer[i]);
     s_ += fmt::format("*ELEMENT, TYPE=C3D8, ELSET=RIGID_{}\n", name);
@@ -179,17 +195,22 @@ class CalculixWriter {
     for (int e = first_cell; e < next_cell_; ++e) s_ += fmt::format("{}, S2\n", e);
     double mu = 1e300;
     for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
-    s_ += fmt::format("*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
-                      name, mu);
-    s_ += fmt::format("*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n", number + 1,
-                      usual_stiffness * mu);
-    if (c.law.mu > 0) s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
-    s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n", number + 1, slave, master);
+    s_ += fmt::format(
+        "*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
+        name, mu);
+    s_ += fmt::format(
+        "*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
+        number + 1, usual_stiffness * mu);
+    if (c.law.mu > 0)
+      s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
+    s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n",
+                      number + 1, slave, master);
   }
 
   bool fibres_touched() const {
     return !deck_.contacts.empty() &&
-           std::any_of(deck_.groups.begin(), deck_.groups.end(), [](const FibreGroup& g) { return !g.fibres.empty(); });
+           std::any_of(deck_.groups.begin(), deck_.groups.end(),
+                       [](const FibreGroup& g) { return !g.fibres.empty(); });
   }
 
   void steps() {
@@ -197,24 +218,29 @@ class CalculixWriter {
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
-      s_ +=
-          fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n", std::min({deck_.first, takes, most}),
-                      takes, std::min(deck_.smallest, takes), std::min({deck_.largest, takes, most}));
+      s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n",
+                        std::min({deck_.first, takes, most}), takes,
+                        std::min(deck_.smallest, takes), std::min({deck_.largest, takes, most}));
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
-        if (h.to.value != 0) moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.to.at(t));
+        if (h.to.value != 0)
+          moved += fmt::format("{}, {}, {}, {:.12g}\n", h.set, h.axis + 1, h.axis + 1, h.to.at(t));
       }
       for (const DeckContact& c : deck_.contacts) {
         const Vec3 u = indenter_displacement(c.law, t);
-        for (int k = 0; k < 3; ++k) moved += fmt::format("RIGID_{}, {}, {}, {:.12g}\n", c.law.name, k + 1, k + 1, u[k]);
-        asked += fmt::format("*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n", c.law.name,
-                             c.set);
+        for (int k = 0; k < 3; ++k)
+          moved += fmt::format("RIGID_{}, {}, {}, {:.12g}\n", c.law.name, k + 1, k + 1, u[k]);
+        asked += fmt::format(
+            "*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n",
+            c.law.name, c.set);
       }
       std::vector<std::string> printed;
       for (const HeldSet& h : deck_.held)
         if (std::find(printed.begin(), printed.end(), h.set) == printed.end())
-          printed.push_back(h.set), asked += fmt::format("*NODE PRINT, NSET={}, TOTALS=ONLY\nRF\n", h.set);
-      s_ += "*BOUNDARY\n" + moved + asked + "*NODE FILE, FREQUENCY=100000\nU\n*EL FILE, FREQUENCY=100000\nS\n*END STEP\n";
+          printed.push_back(h.set),
+              asked += fmt::format("*NODE PRINT, NSET={}, TOTALS=ONLY\nRF\n", h.set);
+      s_ += "*BOUNDARY\n" + moved + asked +
+            "*NODE FILE, FREQUENCY=100000\nU\n*EL FILE, FREQUENCY=100000\nS\n*END STEP\n";
       before = t;
     }
   }

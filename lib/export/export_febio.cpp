@@ -1,7 +1,8 @@
-// FEBio 4 (.feb, format 4.0); laws: febio_material. hex8 are three-field cells there, as mean dilatation is here; hex27 are
-// plain displacement cells. The sphere is a rigid body of hexahedra in "sliding-elastic" contact by penalty. Tolerances,
-// penalty and tangent are those with which FEBio 4.11 gave Langer's forces: with its own (dtol 1e-3, etol 1e-2) a nearly
-// incompressible law ends in errors, or far off with a normal termination.
+// FEBio 4 (.feb, format 4.0); laws: febio_material. hex8 are three-field cells there, as mean
+// dilatation is here; hex27 are plain displacement cells. The sphere is a rigid body of hexahedra
+// in "sliding-elastic" contact by penalty. Tolerances, penalty and tangent are those with which
+// FEBio 4.11 gave Langer's forces: with its own (dtol 1e-3, etol 1e-2) a nearly incompressible law
+// ends in errors, or far off with a normal termination.
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -33,10 +34,10 @@ std::vector<std::string> febio_warnings(const Deck& deck) {
         "hex27 are plain displacement cells in FEBio: its forces were 16 to 18 % too high near incompressibility; solve "
         "with hex8, which are three-field cells there as here, and export that");
   if (const auto stiff = too_stiff_for_contact(deck))
-    list.push_back(
-        fmt::format("2/d is {:.3g} times the shear modulus: FEBio's contact was found to converge up to 1000 times; solve "
-                    "with d: {:.2g} and export that",
-                    stiff->ratio, stiff->d));
+    list.push_back(fmt::format(
+        "2/d is {:.3g} times the shear modulus: FEBio's contact was found to converge up to 1000 times; solve "
+        "with d: {:.2g} and export that",
+        stiff->ratio, stiff->d));
   return list;
 }
 
@@ -52,14 +53,17 @@ class FebioWriter {
     std::string s = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     for (const std::string& line : deck_.words) s += "<!-- " + comment(line) + " -->\n";
     if (!deck_.contacts.empty())
-      s += "<!-- spheres are rigid facets with penalty contact, which lets them in a little; Langer has the exact sphere -->\n"
-           "<!-- *_force.csv: Fx;Fy;Fz of the rigid body, which is minus the force on the indenter -->\n";
+      s +=
+          "<!-- spheres are rigid facets with penalty contact, which lets them in a little; Langer has the exact sphere -->\n"
+          "<!-- *_force.csv: Fx;Fy;Fz of the rigid body, which is minus the force on the indenter -->\n";
     if (!reactions_.empty())
-      s += "<!-- *_reaction.csv: Rx;Ry;Rz of each node of the set, where it is moved; their sum is the force on the set -->\n";
+      s +=
+          "<!-- *_reaction.csv: Rx;Ry;Rz of each node of the set, where it is moved; their sum is the force on the set -->\n";
     for (const std::string& line : warnings) s += "<!-- warning: " + comment(line) + " -->\n";
     const std::string head = control();
-    s += "<febio_spec version=\"4.0\">\n  <Module type=\"solid\"/>\n" + head + "  <Material>\n" + material_ +
-         "  </Material>\n  <Mesh>\n" + nodes_ + cells_ + sets_ + "  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n";
+    s += "<febio_spec version=\"4.0\">\n  <Module type=\"solid\"/>\n" + head + "  <Material>\n" +
+         material_ + "  </Material>\n  <Mesh>\n" + nodes_ + cells_ + sets_ +
+         "  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n";
     if (!boundary_.empty()) s += "  <Boundary>\n" + boundary_ + "  </Boundary>\n";
     if (!rigid_.empty()) s += "  <Rigid>\n" + rigid_ + "  </Rigid>\n";
     if (!contact_.empty()) s += "  <Contact>\n" + contact_ + "  </Contact>\n";
@@ -70,7 +74,8 @@ class FebioWriter {
  private:
   const Deck& deck_;
   const Mesh& mesh_;
-  std::string material_, nodes_, cells_, sets_, domains_, boundary_, rigid_, contact_, curves_, logged_, reactions_;
+  std::string material_, nodes_, cells_, sets_, domains_, boundary_, rigid_, contact_, curves_,
+      logged_, reactions_;
   int next_node_ = 0, next_cell_ = 0, next_material_ = 1, next_curve_ = 1;
   std::map<std::string, int> rigid_bodies_;
 
@@ -79,7 +84,8 @@ class FebioWriter {
     return line;
   }
 
-  // Increments no longer than `largest` that end where the path turns: the points of the curve of dtmax are met exactly.
+  // Increments no longer than `largest` that end where the path turns: the points of the curve of
+  // dtmax are met exactly.
   std::string control() {
     const int steps = static_cast<int>(std::ceil(1 / deck_.first - 1e-9));
     std::string stops = fmt::format("<pt>0,{}</pt>", deck_.largest);
@@ -91,19 +97,22 @@ class FebioWriter {
         "time_stepper>\n"
         "    <solver type=\"solid\"><symmetric_stiffness>{}</symmetric_stiffness><max_refs>30</max_refs><dtol>1e-6</dtol>"
         "<etol>1e-9</etol></solver>\n  </Control>\n",
-        steps, 1.0 / steps, deck_.smallest, curve(stops, "STEP"), deck_.contacts.empty() ? "symmetric" : "non-symmetric");
+        steps, 1.0 / steps, deck_.smallest, curve(stops, "STEP"),
+        deck_.contacts.empty() ? "symmetric" : "non-symmetric");
   }
 
   void materials() {
     for (const FibreGroup& group : deck_.groups) {
       const int id = next_material_++;
-      material_ += held_by("FEBio", febio_material(deck_.materials[group.body], group.fibres, id, fmt::format("law{}", id)));
+      material_ += held_by("FEBio", febio_material(deck_.materials[group.body], group.fibres, id,
+                                                   fmt::format("law{}", id)));
     }
   }
 
   void body() {
     nodes_ += "    <Nodes name=\"body\">\n";
-    for (int n = 0; n < mesh_.n_nodes(); ++n) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
+    for (int n = 0; n < mesh_.n_nodes(); ++n)
+      nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
     nodes_ += "    </Nodes>\n";
     next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
     const CellNames& type = mesh_.cell().names;
@@ -114,7 +123,8 @@ class FebioWriter {
         cells_ += fmt::format("      <elem id=\"{}\">", e + 1);
         const auto cell = mesh_.cell(e);
         for (std::size_t a = 0; a < cell.size(); ++a)
-          cells_ += fmt::format("{}{}", a == 0 ? "" : ",", cell[static_cast<std::size_t>(type.febio_order[a])] + 1);
+          cells_ += fmt::format("{}{}", a == 0 ? "" : ",",
+                                cell[static_cast<std::size_t>(type.febio_order[a])] + 1);
         cells_ += "</elem>\n";
       }
       cells_ += "    </Elements>\n";
@@ -122,7 +132,8 @@ class FebioWriter {
     }
     for (const auto& [name, nodes] : mesh_.node_sets) {
       sets_ += fmt::format("    <NodeSet name=\"{}\">", xml_text(name));
-      for (std::size_t i = 0; i < nodes.size(); ++i) sets_ += fmt::format("{}{}", i == 0 ? "" : ",", nodes[i] + 1);
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        sets_ += fmt::format("{}{}", i == 0 ? "" : ",", nodes[i] + 1);
       sets_ += "</NodeSet>\n";
     }
   }
@@ -146,11 +157,13 @@ class FebioWriter {
         continue;
       }
       if (asked.insert(h.set).second)
-        reactions_ += fmt::format("      <node_data data=\"Rx;Ry;Rz\" delim=\",\" file=\"{}_reaction.csv\" node_set=\"{}\"/>\n",
-                                  file_name(h.set), xml_text(h.set));
+        reactions_ += fmt::format(
+            "      <node_data data=\"Rx;Ry;Rz\" delim=\",\" file=\"{}_reaction.csv\" node_set=\"{}\"/>\n",
+            file_name(h.set), xml_text(h.set));
       std::string points = "<pt>0,0</pt>";
       if (h.to.factor)
-        for (const auto& point : *h.to.factor) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", point.t, point.to);
+        for (const auto& point : *h.to.factor)
+          points += fmt::format("<pt>{:.16g},{:.16g}</pt>", point.t, point.to);
       const int path = curve(h.to.factor ? points : points + "<pt>1,1</pt>");
       boundary_ += fmt::format(
           "    <bc name=\"moved{}\" type=\"prescribed displacement\" node_set=\"{}\"><dof>{}</dof><value "
@@ -180,16 +193,20 @@ class FebioWriter {
         "</contact>\n",
         name, c.law.mu);
     motion(c, name);
-    logged_ += fmt::format("      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" file=\"{}_force.csv\">{}</rigid_body_data>\n",
-                           file_name(c.law.name), id);
+    logged_ += fmt::format(
+        "      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" file=\"{}_force.csv\">{}</rigid_body_data>\n",
+        file_name(c.law.name), id);
   }
 
   // Cells between the two layers of the indenter's cap; returns the facets of the outer one.
   std::string rigid_cells(const DeckContact& c, const std::string& name) {
     const int n = static_cast<int>(c.cap.outer.size()), first = next_node_;
     nodes_ += fmt::format("    <Nodes name=\"{}\">\n", name);
-    for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + i, triple(c.cap.inner[i]));
-    for (int i = 0; i < n; ++i) nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + n + i, triple(c.cap.outer[i]));
+    for (int i = 0; i < n; ++i)
+      nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + i, triple(c.cap.inner[i]));
+    for (int i = 0; i < n; ++i)
+      nodes_ +=
+          fmt::format("      <node id=\"{}\">{}</node>\n", first + n + i, triple(c.cap.outer[i]));
     nodes_ += "    </Nodes>\n";
     cells_ += fmt::format("    <Elements type=\"hex8\" name=\"{}\">\n", name);
     std::string facets;
@@ -197,10 +214,12 @@ class FebioWriter {
       cells_ += fmt::format("      <elem id=\"{}\">", next_cell_++);
       for (int layer : {0, n})
         for (int k = 0; k < 4; ++k)
-          cells_ += fmt::format("{}{}", layer == 0 && k == 0 ? "" : ",", first + layer + c.cap.facets[q][k]);
+          cells_ += fmt::format("{}{}", layer == 0 && k == 0 ? "" : ",",
+                                first + layer + c.cap.facets[q][k]);
       cells_ += "</elem>\n";
       facets += fmt::format("      <quad4 id=\"{}\">", q + 1);
-      for (int k = 0; k < 4; ++k) facets += fmt::format("{}{}", k == 0 ? "" : ",", first + n + c.cap.facets[q][k]);
+      for (int k = 0; k < 4; ++k)
+        facets += fmt::format("{}{}", k == 0 ? "" : ",", first + n + c.cap.facets[q][k]);
       facets += "</quad4>\n";
     }
     cells_ += "    </Elements>\n";
@@ -216,7 +235,8 @@ class FebioWriter {
     for (std::size_t f = 0; f < c.facets.size(); ++f) {
       sets_ += fmt::format("      <{} id=\"{}\">", quad, f + 1);
       const std::vector<int> nodes = facet_nodes(mesh_, c.facets[f]);
-      for (std::size_t k = 0; k < nodes.size(); ++k) sets_ += fmt::format("{}{}", k == 0 ? "" : ",", nodes[k] + 1);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        sets_ += fmt::format("{}{}", k == 0 ? "" : ",", nodes[k] + 1);
       sets_ += fmt::format("</{}>\n", quad);
     }
     sets_ += fmt::format(
@@ -235,7 +255,8 @@ class FebioWriter {
         name);
     for (int k = 0; k < 3; ++k) {
       std::string points = "<pt>0,0</pt>";
-      for (const Waypoint& w : c.law.motion) points += fmt::format("<pt>{:.16g},{:.16g}</pt>", w.t, w.to[k]);
+      for (const Waypoint& w : c.law.motion)
+        points += fmt::format("<pt>{:.16g},{:.16g}</pt>", w.t, w.to[k]);
       rigid_ += fmt::format(
           "    <rigid_bc name=\"path_{1}_of_{0}\" type=\"rigid_displacement\"><rb>{0}</rb><dof>{1}</dof><value "
           "lc=\"{2}\">1</value>"

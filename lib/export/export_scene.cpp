@@ -13,9 +13,9 @@
 #include "export/acting.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/reference.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/scene.hpp"
 #include "scene/model/scene_symmetry.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 namespace langer {
 
@@ -26,18 +26,23 @@ Vec3 plain(const Vec3& x) {
   return x.unaryExpr([](double v) { return v + 0.0; });
 }
 
-const auto nowhere = [](const std::string&) { return Place{}; };
+const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 
-[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found, const std::string& expected) {
+[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& found,
+                         const std::string& expected) {
   throw Failure(Exit::config, Error{{path}, key, found, expected, ""});
 }
 
 using Spot = std::tuple<double, double, double>;
 Spot spot(const Vec3& X) { return {X[0], X[1], X[2]}; }
 
-// The config as it was solved, with the laws that it found: what files held stands in the solution itself.
+// The config as it was solved, with the laws that it found: what files held stands in the solution
+// itself.
 SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
-  SolveConfig config = read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
+  SolveConfig config =
+      read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
   config.fibre_angles.clear(), config.fibre_field.reset(), config.materials.clear();
   for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b) {
     BodyConfig body;
@@ -46,36 +51,47 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   }
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (config.loads[i].on_surface())
-      refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure", "imposed displacements and indenters");
+      refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure",
+             "imposed displacements and indenters");
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (config.loads[i].rotation)
-      refuse(path, fmt::format("loads[{}].rotation", i), "a set that is turned", "one that is displaced");
+      refuse(path, fmt::format("loads[{}].rotation", i), "a set that is turned",
+             "one that is displaced");
   for (const auto& [name, contact] : config.contacts)
-    if (contact.rotation) refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
+    if (contact.rotation)
+      refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
   for (const auto& [name, contact] : config.contacts)
     if (contact.adhesion && contact.adhesion->work > 0)
-      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres", "one without adhesion: no deck has this law");
+      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres",
+             "one without adhesion: no deck has this law");
   for (const auto& [name, contact] : config.contacts)
-    if (contact.control) refuse(path, "contacts." + name + ".control", "an indenter under force control", "one that moves as told");
+    if (contact.control)
+      refuse(path, "contacts." + name + ".control", "an indenter under force control",
+             "one that moves as told");
   for (const auto& [name, contact] : config.contacts)
     if (!std::holds_alternative<Sphere>(contact.rigid))
-      refuse(path, "contacts." + name + ".rigid", "an indenter of another shape",
-             "a sphere, or no indenter: the nearest to an ellipsoid is the sphere of its curvature, to a plane a large one");
+      refuse(
+          path, "contacts." + name + ".rigid", "an indenter of another shape",
+          "a sphere, or no indenter: the nearest to an ellipsoid is the sphere of its curvature, to a plane a large one");
   return config;
 }
 
-// The mirrored part of a body whose cells the planes do not cut; nothing where the whole has to be written.
+// The mirrored part of a body whose cells the planes do not cut; nothing where the whole has to be
+// written.
 const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
   if (!part || part->swaps_indenters()) return nullptr;
   const auto& share = part->cell_share();
-  if (std::any_of(share.begin(), share.end(), [&](double s) { return std::abs(s - share[0]) > 1e-12; })) return nullptr;
+  if (std::any_of(share.begin(), share.end(),
+                  [&](double s) { return std::abs(s - share[0]) > 1e-12; }))
+    return nullptr;
   const auto& tie = part->scene().dofs.tie;
   for (std::size_t i = 0; i < tie.size(); ++i)
     if (tie[i].of != static_cast<int>(i)) return nullptr;
   return &*part;
 }
 
-// cells whose acting fibres are alike: no other program needs families whose modulus is 0, and FEBio refuses them
+// cells whose acting fibres are alike: no other program needs families whose modulus is 0, and
+// FEBio refuses them
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -114,21 +130,24 @@ double shortest_side(const Mesh& mesh, const std::vector<Facet>& facets) {
   double least = 1e300;
   for (const Facet& facet : facets)
     for (const auto& quad : facet_quads(mesh, facet))
-      for (int k = 0; k < 4; ++k) least = std::min(least, (mesh.X[quad[k]] - mesh.X[quad[(k + 1) % 4]]).norm());
+      for (int k = 0; k < 4; ++k)
+        least = std::min(least, (mesh.X[quad[k]] - mesh.X[quad[(k + 1) % 4]]).norm());
   return least;
 }
 
-DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set, const Vec3& towards,
-                       const std::string& path) {
+DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set,
+                       const Vec3& towards, const std::string& path) {
   DeckContact contact{law, set, outer_facets(mesh, law.nodes), {}};
   if (contact.facets.empty())
-    refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set, "a set that covers facets");
+    refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set,
+           "a set that covers facets");
   std::vector<Vec3> places;
   for (int n : law.nodes) {
     places.push_back(mesh.X[n]);
     for (const Waypoint& w : law.motion) places.push_back(mesh.X[n] - w.to);
   }
-  contact.cap = rigid_cap(std::get<Sphere>(law.shape), towards, places, 0.5 * shortest_side(mesh, contact.facets));
+  contact.cap = rigid_cap(std::get<Sphere>(law.shape), towards, places,
+                          0.5 * shortest_side(mesh, contact.facets));
   return contact;
 }
 
@@ -143,8 +162,9 @@ std::vector<std::string> answers(const SolutionReader& solution, const SolveConf
   const StepRecord last = solution.step(solution.n_steps() - 1);
   const auto answer = [&](const std::string& on, Vec3 force) {
     force = plain(force);
-    lines.push_back(fmt::format("Langer's answer at t = {:g}: force on {} of the whole body ({:.6g}, {:.6g}, {:.6g}) N", last.t, on,
-                                force[0], force[1], force[2]));
+    lines.push_back(fmt::format(
+        "Langer's answer at t = {:g}: force on {} of the whole body ({:.6g}, {:.6g}, {:.6g}) N",
+        last.t, on, force[0], force[1], force[2]));
   };
   for (const auto& [name, contact] : last.contacts) {
     Vec3 force = Vec3::Zero();
@@ -162,7 +182,8 @@ std::vector<std::string> answers(const SolutionReader& solution, const SolveConf
 }  // namespace
 
 std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
-  constexpr double borne = 1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
+  constexpr double borne =
+      1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
   TooStiff worst;
   for (const Material& m : deck.materials) {
     const double mu = shear_modulus(m), ratio = bulk_modulus(m) / mu;
@@ -174,7 +195,8 @@ std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
 
 namespace {
 
-// A deck on its way: the scene as it was solved, of which the part that decides the rest is written.
+// A deck on its way: the scene as it was solved, of which the part that decides the rest is
+// written.
 class DeckComposer {
  public:
   DeckComposer(const SolutionReader& solution, const SolveConfig& config, const std::string& path)
@@ -193,7 +215,8 @@ class DeckComposer {
     for (const Material& m : scene().materials) deck_.materials.push_back(acting(m));
     deck_.groups = groups_of(deck_.mesh, scene());
     deck_.share = static_cast<double>(header_.mesh.n_cells()) / deck_.mesh.n_cells();
-    deck_.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by, version, revision));
+    deck_.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by,
+                                      version, revision));
     hold_and_move();
     hold_mirror_planes();
     for (std::size_t c = 0; c < scene().contacts.size(); ++c) add_contact(c);
@@ -215,7 +238,8 @@ class DeckComposer {
     std::vector<int>& nodes = deck_.mesh.node_sets[set];
     if (!nodes.empty()) return true;
     for (int n : header_.mesh.node_sets.at(set))
-      if (const auto at = number_.find(spot(header_.mesh.X[n])); at != number_.end()) nodes.push_back(at->second);
+      if (const auto at = number_.find(spot(header_.mesh.X[n])); at != number_.end())
+        nodes.push_back(at->second);
     std::sort(nodes.begin(), nodes.end());
     if (nodes.empty()) deck_.mesh.node_sets.erase(set);
     return deck_.mesh.node_sets.count(set) > 0;
@@ -252,11 +276,13 @@ class DeckComposer {
     const RigidContact& law = scene().contacts[c];
     const Sphere& sphere = std::get<Sphere>(law.shape);
     const Vec3 to = plain(indenter_displacement(law, 1));
-    deck_.words.push_back(
-        fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
-                    law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1], to[2], law.mu));
+    deck_.words.push_back(fmt::format(
+        "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
+        law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1],
+        to[2], law.mu));
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
-    for (int n : whole_.contacts[c].nodes) middle += header_.mesh.X[n] / static_cast<double>(whole_.contacts[c].nodes.size());
+    for (int n : whole_.contacts[c].nodes)
+      middle += header_.mesh.X[n] / static_cast<double>(whole_.contacts[c].nodes.size());
     std::string set = config_.contacts.at(law.name).on;
     if (set.empty()) {  // what the indenter can reach
       set = free_name("contact_" + law.name);
@@ -264,7 +290,8 @@ class DeckComposer {
     } else {
       name_set(set);
     }
-    deck_.contacts.push_back(contact_of(deck_.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path_));
+    deck_.contacts.push_back(
+        contact_of(deck_.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path_));
   }
 
   void take_increments() {
@@ -278,13 +305,18 @@ class DeckComposer {
 
   void say_the_rest() {
     deck_.words.push_back(fmt::format("{} cells {}, {} nodes", deck_.mesh.n_cells(),
-                                      names(deck_.mesh.type)[static_cast<int>(deck_.mesh.type)], deck_.mesh.n_nodes()));
+                                      names(deck_.mesh.type)[static_cast<int>(deck_.mesh.type)],
+                                      deck_.mesh.n_nodes()));
     if (header_.formulation == "displacement")
-      deck_.words.push_back("solved with formulation: displacement, which locks near incompressibility: cells here do not");
-    if (part_) deck_.words.push_back(fmt::format("{}: forces here are 1/{:g} of the body's", part_->words(), deck_.share));
+      deck_.words.push_back(
+          "solved with formulation: displacement, which locks near incompressibility: cells here do not");
+    if (part_)
+      deck_.words.push_back(
+          fmt::format("{}: forces here are 1/{:g} of the body's", part_->words(), deck_.share));
     if (found_ && !part_)
-      deck_.words.push_back("solved by symmetry (" + found_->words() +
-                            "), which mirror planes between cells with one indenter on them cannot express: the whole body");
+      deck_.words.push_back(
+          "solved by symmetry (" + found_->words() +
+          "), which mirror planes between cells with one indenter on them cannot express: the whole body");
     for (const std::string& line : answers(solution_, config_)) deck_.words.push_back(line);
   }
 
@@ -304,17 +336,22 @@ class DeckComposer {
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
   if (header.mesh.section)
-    refuse(path, "", "a section",
-           "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
+    refuse(
+        path, "", "a section",
+        "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
   if (!header.mesh.hanging.empty())
-    refuse(path, "", "cells that are cut beside larger ones", "the same scene on a mesh without `cuts`: the decks have no ties");
+    refuse(path, "", "cells that are cut beside larger ones",
+           "the same scene on a mesh without `cuts`: the decks have no ties");
   for (const Material& law : header.laws())
     if (is_viscous(law))
-      refuse(path, "", "a viscous material, whose scene goes through time",
-             "the same scene without viscous and spectrum: the law that is left after all has relaxed");
+      refuse(
+          path, "", "a viscous material, whose scene goes through time",
+          "the same scene without viscous and spectrum: the law that is left after all has relaxed");
   const SolveConfig config = config_of(header, path);
   if (!header.mesh.cell().names.febio)
-    refuse(path, "", fmt::format("cells {}", names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
+    refuse(path, "",
+           fmt::format("cells {}",
+                       names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
            "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
   return DeckComposer(solution, config, path).deck();
 }

@@ -1,4 +1,5 @@
-// A solved scene as the input of another program, so that its answer can be checked there: CalculiX (.inp) and FEBio 4 (.feb).
+// A solved scene as the input of another program, so that its answer can be checked there: CalculiX
+// (.inp) and FEBio 4 (.feb).
 //   what is written  the body that was solved (its symmetric part, where mirror planes cut it between cells), cells with the
 //                    directions of their fibres, law, supports, imposed displacements, the increments, spheres as rigid facets
 //                    with penalty contact
@@ -12,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/contact/contact.hpp"
 #include "export/rigid_cap.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/mesh/mesh.hpp"
-#include "scene/model/solve_config.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/solve_config.hpp"
 
 namespace langer {
 
@@ -48,8 +49,8 @@ struct Deck {
   std::vector<DeckContact> contacts;
   double first = 0.1, largest = 0.1, smallest = 1e-4;  // increments of the path
   std::vector<double> stops;                           // ascending, the last is 1
-  double share = 1;                                    // the body is this many times what is written
-  std::vector<std::string> words;                      // where the scene comes from, what was found, line by line
+  double share = 1;                // the body is this many times what is written
+  std::vector<std::string> words;  // where the scene comes from, what was found, line by line
 };
 
 inline constexpr const char* written_by = "written by langer ";  // stands at the head of every deck
@@ -57,7 +58,8 @@ inline constexpr const char* written_by = "written by langer ";  // stands at th
 // Throws Failure(config) for what no deck holds.
 Deck deck_of(const SolutionReader& solution, const std::string& path);
 
-// warnings: where the other program's answer will differ, or may not be reached; they stand at the head of the text too
+// warnings: where the other program's answer will differ, or may not be reached; they stand at the
+// head of the text too
 struct DeckText {
   std::string text;
   std::vector<std::string> warnings;
@@ -65,8 +67,9 @@ struct DeckText {
 DeckText calculix_deck(const Deck& deck);
 DeckText febio_deck(const Deck& deck);
 
-// Contact in programs that take penalties converges up to some bulk modulus beside the shear modulus; nothing where that is
-// met. Else the largest ratio 2/d over the shear modulus, and the d that would be borne [1/MPa].
+// Contact in programs that take penalties converges up to some bulk modulus beside the shear
+// modulus; nothing where that is met. Else the largest ratio 2/d over the shear modulus, and the d
+// that would be borne [1/MPa].
 struct TooStiff {
   double ratio = 0, d = 0;
 };

@@ -10,7 +10,8 @@ FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
   frame.e1 = fibres[0];
   Vec3 other = Vec3::Zero();
   for (const Vec3& a : fibres)
-    if (const Vec3 rest = a - a.dot(frame.e1) * frame.e1; rest.norm() > 1e-6 && other.isZero()) other = rest;
+    if (const Vec3 rest = a - a.dot(frame.e1) * frame.e1; rest.norm() > 1e-6 && other.isZero())
+      other = rest;
   if (other.isZero()) {
     int axis = 0;
     for (int k = 1; k < 3; ++k)
@@ -19,8 +20,11 @@ FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
   }
   frame.e2 = other.normalized();
   const Vec3 e3 = frame.e1.cross(frame.e2);
-  const auto plain = [](double x) { return std::abs(x) < 1e-14 ? 0 : x; };
-  for (const Vec3& a : fibres) frame.in_frame.push_back(Vec3(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3)).unaryExpr(plain));
+  const auto plain = [](double x) {
+    return std::abs(x) < 1e-14 ? 0 : x;
+  };
+  for (const Vec3& a : fibres)
+    frame.in_frame.push_back(Vec3(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3)).unaryExpr(plain));
   return frame;
 }
 

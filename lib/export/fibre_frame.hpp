@@ -1,5 +1,5 @@
-// Directions of fibre families in a frame of their own: the first family is the first axis, the second lies in the plane of the
-// first two.
+// Directions of fibre families in a frame of their own: the first family is the first axis, the
+// second lies in the plane of the first two.
 #pragma once
 
 #include <vector>

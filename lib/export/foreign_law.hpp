@@ -14,7 +14,9 @@ struct ForeignLaw {
 
 // the text, or Failure(config) for what the program lacks
 inline std::string held_by(const std::string& program, const ForeignLaw& law) {
-  if (law.text.empty()) throw Failure(Exit::config, Error{{program}, "material", "it lacks " + law.lacks, law.nearest, ""});
+  if (law.text.empty())
+    throw Failure(Exit::config,
+                  Error{{program}, "material", "it lacks " + law.lacks, law.nearest, ""});
   return law.text;
 }
 

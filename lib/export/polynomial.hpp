@@ -43,7 +43,8 @@ inline std::optional<Polynomial> polynomial(const Material& material) {
 inline std::string matrix_words(const Material& material) {
   std::string words;
   for (const MatrixTerm& term : material.matrix)
-    words += (words.empty() ? "" : " + ") + std::string(std::visit([](const auto& t) { return t.key; }, term));
+    words += (words.empty() ? "" : " + ") +
+             std::string(std::visit([](const auto& t) { return t.key; }, term));
   return words;
 }
 

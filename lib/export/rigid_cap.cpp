@@ -7,7 +7,8 @@
 
 namespace langer {
 
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places, double side) {
+RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+                   double side) {
   const Vec3 centre = vec(sphere.centre);
   const double R = sphere.radius, degree = std::numbers::pi / 180;
   int axis = 0;
@@ -22,7 +23,8 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
     low = low.cwiseMin(p), high = high.cwiseMax(p), farthest = std::max(farthest, p.norm());
   }
   const double margin = 0.1 * R + side;
-  const double rim = std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);  // polar angle
+  const double rim =
+      std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);  // polar angle
   const int n = std::max(6, static_cast<int>(std::ceil(rim * R / side)));
 
   // a square grid that turns into circles towards the rim
@@ -53,11 +55,14 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
         const Eigen::Vector2d p(R * direction[c].dot(e1), R * direction[c].dot(e2));
         least = least.cwiseMin(p), most = most.cwiseMax(p);
       }
-      if ((least.array() > high.array() + margin).any() || (most.array() < low.array() - margin).any()) continue;
+      if ((least.array() > high.array() + margin).any() ||
+          (most.array() < low.array() - margin).any())
+        continue;
       for (int& c : corners) {
         if (number[c] < 0) {
           number[c] = static_cast<int>(cap.outer.size());
-          const Vec3 d = direction[c].unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0 : x; });
+          const Vec3 d =
+              direction[c].unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0 : x; });
           cap.outer.push_back(centre + raised * d);
           cap.inner.push_back(centre + 0.8 * R * d);
         }

@@ -7,18 +7,21 @@
 #include <array>
 #include <vector>
 
-#include "mechanics/contact/rigid.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/contact/rigid.hpp"
 
 namespace langer {
 
 struct RigidCap {
-  std::vector<Vec3> outer, inner;          // [mm], before the indenter moves
-  std::vector<std::array<int, 4>> facets;  // of outer points, counter-clockwise seen from outside the sphere
-  double side = 0;                         // mean side of a facet [mm]
+  std::vector<Vec3> outer, inner;  // [mm], before the indenter moves
+  std::vector<std::array<int, 4>>
+      facets;       // of outer points, counter-clockwise seen from outside the sphere
+  double side = 0;  // mean side of a facet [mm]
 };
 
-// towards: unit vector from the centre to the body. places: where, seen from the indenter's start, nodes may touch it [mm].
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places, double side);
+// towards: unit vector from the centre to the body. places: where, seen from the indenter's start,
+// nodes may touch it [mm].
+RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+                   double side);
 
 }  // namespace langer

@@ -4,17 +4,22 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "export/export_scene.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
+#include "export/export_scene.hpp"
 
 namespace langer {
 
-std::vector<WrittenDeck> write_decks(const std::string& solution, const std::vector<std::string>& files) {
+std::vector<WrittenDeck> write_decks(const std::string& solution,
+                                     const std::vector<std::string>& files) {
   for (const std::string& file : files)
-    if (const auto ending = std::filesystem::path(file).extension(); ending != ".inp" && ending != ".feb")
-      throw Failure(Exit::config,
-                    Error{{"--export"}, "", "found \"" + file + "\"", "a file ending with .inp (CalculiX) or .feb (FEBio 4)", ""});
+    if (const auto ending = std::filesystem::path(file).extension();
+        ending != ".inp" && ending != ".feb")
+      throw Failure(Exit::config, Error{{"--export"},
+                                        "",
+                                        "found \"" + file + "\"",
+                                        "a file ending with .inp (CalculiX) or .feb (FEBio 4)",
+                                        ""});
   for (const std::string& file : files) need_own_text(file, written_by);
   const Deck deck = deck_of(SolutionReader(solution), solution);
   std::vector<WrittenDeck> written;

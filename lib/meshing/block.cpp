@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "mechanics/mesh/select.hpp"
 #include "meshing/grading.hpp"
 #include "meshing/grid.hpp"
-#include "mechanics/mesh/select.hpp"
 
 namespace langer {
 
@@ -38,17 +38,20 @@ std::vector<double> around_place(const Block& b, int axis) {
 }
 
 // each layer by itself, by `share` of its cells, as nearly as their number allows
-std::vector<double> resampled_between(const std::vector<double>& lines, const std::vector<double>& borders, double share) {
+std::vector<double> resampled_between(const std::vector<double>& lines,
+                                      const std::vector<double>& borders, double share) {
   std::vector<double> found{lines.front()}, layer{lines.front()};
   const auto is_border = [&](double y) {
-    return std::any_of(borders.begin(), borders.end(),
-                       [&](double b) { return std::abs(b - y) < 1e-9 * (lines.back() - lines.front()); });
+    return std::any_of(borders.begin(), borders.end(), [&](double b) {
+      return std::abs(b - y) < 1e-9 * (lines.back() - lines.front());
+    });
   };
   for (std::size_t i = 1; i < lines.size(); ++i) {
     layer.push_back(lines[i]);
     if (i + 1 < lines.size() && !is_border(lines[i])) continue;
-    const std::vector<double> again =
-        resampled(layer, std::max(1, static_cast<int>(std::lround(share * static_cast<double>(layer.size() - 1)))));
+    const std::vector<double> again = resampled(
+        layer,
+        std::max(1, static_cast<int>(std::lround(share * static_cast<double>(layer.size() - 1)))));
     found.insert(found.end(), again.begin() + 1, again.end());
     layer = {lines[i]};
   }
@@ -65,7 +68,8 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
     else if (i == 1 && b.top)
       lines[i] = lines_to_top(low, high, n, b.top->edge, "geometry.block.top.edge");
     else if (i != 1 && b.centre)
-      lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.block.centre.edge");
+      lines[i] = lines_to_centre(low, high, n, b.centre->edge, b.centre->within,
+                                 "geometry.block.centre.edge");
     else
       lines[i] = even_lines(low, high, n);
     std::vector<Demand> demands;
@@ -80,13 +84,15 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
       for (double y : b.borders) demands.push_back({y, "bodies"});
       pass();
     }
-    if (b.instead && i == 1) lines[i] = resampled_between(lines[i], b.borders, 1.0 * (*b.instead)[1] / n);
+    if (b.instead && i == 1)
+      lines[i] = resampled_between(lines[i], b.borders, 1.0 * (*b.instead)[1] / n);
     if (b.instead && i != 1 && !b.around) lines[i] = resampled(lines[i], (*b.instead)[i]);
     for (const auto& [name, x] : points) demands.push_back({x[i], "points." + name});
     pass();
     if (moved_furthest > 1e-9 * b.size[i])
-      notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers", axis,
-                                  moved_furthest));
+      notes.push_back(fmt::format(
+          "grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers",
+          axis, moved_furthest));
   }
   return lines;
 }
@@ -100,7 +106,8 @@ Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>&
 std::vector<Complaint> Block::complaints() const {
   const long long cells = 1LL * divisions[0] * divisions[1] * divisions[2];
   if (cells <= most_cells) return {};
-  return {{"divisions", fmt::format("found {} cells", cells), fmt::format("at most {}", most_cells), ""}};
+  return {{"divisions", fmt::format("found {} cells", cells), fmt::format("at most {}", most_cells),
+           ""}};
 }
 
 std::vector<Complaint> contradictions(const Block& block, const Points& points) {
@@ -115,13 +122,16 @@ void name_points(Mesh& mesh, const Points& points) {
     const int node = select(mesh, NearestNode{{x[0], x[1], x[2]}}, all).at(0);
     const Vec3 there = mesh.X[node];
     if (!((there - x).norm() <= tolerance))
-      throw Failure(Exit::config,
-                    Error{{},
-                          "points." + name,
-                          fmt::format("no node lies there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
-                                      (there - x).norm(), there[0], there[1], there[2]),
-                          "a point that the geometry has a node at",
-                          "move the point, or a radius or side of the geometry through it"});
+      throw Failure(
+          Exit::config,
+          Error{
+              {},
+              "points." + name,
+              fmt::format(
+                  "no node lies there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
+                  (there - x).norm(), there[0], there[1], there[2]),
+              "a point that the geometry has a node at",
+              "move the point, or a radius or side of the geometry through it"});
     mesh.X[node] = x;
     mesh.node_sets[name] = {node};
   }

@@ -14,14 +14,18 @@ struct Box {
 struct TowardsCentre {
   double edge = 0, within = 0;
   static void fields(auto& v) {
-    v(&TowardsCentre::edge, "edge", unit::mm, "length of the cells around the centre", required, positive);
-    v(&TowardsCentre::within, "within", unit::mm, "distance from the centre up to which cells keep that length", at_least(0));
+    v(&TowardsCentre::edge, "edge", unit::mm, "length of the cells around the centre", required,
+      positive);
+    v(&TowardsCentre::within, "within", unit::mm,
+      "distance from the centre up to which cells keep that length", at_least(0));
   }
 };
 
 struct TowardsTop {
   double edge = 0;
-  static void fields(auto& v) { v(&TowardsTop::edge, "edge", unit::mm, "height of the uppermost cells", required, positive); }
+  static void fields(auto& v) {
+    v(&TowardsTop::edge, "edge", unit::mm, "height of the uppermost cells", required, positive);
+  }
 };
 
 }  // namespace langer

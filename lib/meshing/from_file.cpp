@@ -48,22 +48,26 @@ std::vector<Complaint> FromFile::complaints() const {
     if (!edge) return {{"edge", "none", "the length of the cells in mm", ""}};
     return {};
   }
-  return {{"path", "found \"" + file.path + "\"", "a mesh, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
+  return {{"path", "found \"" + file.path + "\"",
+           "a mesh, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
 Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
   const std::string& path = from.file.path;
   const std::string kind = kind_of(path);
-  Mesh mesh = kind == "msh"   ? read_msh(path, notes)
-              : kind == "inp" ? read_inp(path, notes)
-                              : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  Mesh mesh = kind == "msh" ? read_msh(path, notes)
+              : kind == "inp"
+                  ? read_inp(path, notes)
+                  : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
   if (mesh.type != cells)
-    throw Failure(Exit::config, Error{{},
-                                      "cells",
-                                      fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
-                                      fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path),
-                                      ""});
+    throw Failure(
+        Exit::config,
+        Error{{},
+              "cells",
+              fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
+              fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path),
+              ""});
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);
@@ -72,7 +76,9 @@ Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& not
   for (const std::string& note : said)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   if (std::set<std::string>(mesh.bodies.begin(), mesh.bodies.end()).size() != mesh.bodies.size())
-    throw Failure(Exit::input, Error{{from.file.path}, "", "two bodies of one name", "bodies of different names", ""});
+    throw Failure(
+        Exit::input,
+        Error{{from.file.path}, "", "two bodies of one name", "bodies of different names", ""});
   return mesh;
 }
 
@@ -90,7 +96,8 @@ Box box(const Geometry& geometry) {
 }
 
 bool is_section(const Geometry& geometry) {
-  return std::holds_alternative<SectionBox>(geometry) || std::holds_alternative<IndentedDisc>(geometry);
+  return std::holds_alternative<SectionBox>(geometry) ||
+         std::holds_alternative<IndentedDisc>(geometry);
 }
 
 std::vector<Complaint> contradictions(const FromFile&, const Points&) { return {}; }

@@ -1,14 +1,15 @@
-// The O-grid in the x-z plane: the core's square, circles around it, the sides of the block outside.
+// The O-grid in the x-z plane: the core's square, circles around it, the sides of the block
+// outside.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "mechanics/mesh/order.hpp"
 #include "meshing/block.hpp"
 #include "meshing/grading.hpp"
 #include "meshing/grid.hpp"
-#include "mechanics/mesh/order.hpp"
 
 namespace langer {
 
@@ -16,19 +17,25 @@ std::vector<Complaint> GradedBlock::complaints() const {
   std::vector<Complaint> found;
   long long across = outer_cells;
   for (const Ring& ring : rings) across += ring.cells;
-  if (const long long cells = layers * (1LL * core.cells * core.cells + 4LL * core.cells * across); cells > most_cells)
-    found.push_back({"layers", fmt::format("found {} cells in all", cells), fmt::format("at most {}", most_cells), ""});
-  if (core.cells % 2 != 0) found.push_back({"core.cells", fmt::format("found {}", core.cells), "an even number", ""});
+  if (const long long cells = layers * (1LL * core.cells * core.cells + 4LL * core.cells * across);
+      cells > most_cells)
+    found.push_back({"layers", fmt::format("found {} cells in all", cells),
+                     fmt::format("at most {}", most_cells), ""});
+  if (core.cells % 2 != 0)
+    found.push_back({"core.cells", fmt::format("found {}", core.cells), "an even number", ""});
   if (rings.empty()) found.push_back({"rings", "found an empty list", "at least one ring", ""});
   double inside = core.half_width * std::numbers::sqrt2;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (rings[i].radius <= inside)
       found.push_back({fmt::format("rings[{}].radius", i), fmt::format("found {}", rings[i].radius),
-                       fmt::format("more than {:.6g}, the {}", inside, i == 0 ? "core's corner" : "ring inside it"), ""});
+                       fmt::format("more than {:.6g}, the {}", inside,
+                                   i == 0 ? "core's corner" : "ring inside it"),
+                       ""});
     inside = rings[i].radius;
   }
   if (const double half = 0.5 * std::min(size[0], size[2]); inside >= half)
-    found.push_back({fmt::format("rings[{}].radius", rings.empty() ? 0 : rings.size() - 1), fmt::format("found {}", inside),
+    found.push_back({fmt::format("rings[{}].radius", rings.empty() ? 0 : rings.size() - 1),
+                     fmt::format("found {}", inside),
                      fmt::format("less than {}, half the block's width", half), ""});
   return found;
 }
@@ -41,12 +48,13 @@ double growth_of(const GradedBlock& b, double from, double to) {
   const double inside = last == 0 ? b.core.half_width : b.rings[last - 1].radius;
   const double edge = (b.rings[last].radius - inside) / b.rings[last].cells;
   if (edge * b.outer_cells >= to - from) return 1;
-  const std::vector<double> lines = refined(to - from, b.outer_cells, edge, 0, "geometry.graded_block.outer_cells");
+  const std::vector<double> lines =
+      refined(to - from, b.outer_cells, edge, 0, "geometry.graded_block.outer_cells");
   return lines.size() < 3 ? 1 : (lines[2] - lines[1]) / (lines[1] - lines[0]);
 }
 
-// Loops of 4 n points around the core: n from each of its corners, at 45 degrees before +x, +z, -x, -z, to the next; points of
-// neighbouring loops are joined by straight lines.
+// Loops of 4 n points around the core: n from each of its corners, at 45 degrees before +x, +z, -x,
+// -z, to the next; points of neighbouring loops are joined by straight lines.
 using Loop = std::vector<std::array<double, 2>>;  // from the centre
 
 Loop rectangle(int n, double dx, double dz) {
@@ -54,7 +62,8 @@ Loop rectangle(int n, double dx, double dz) {
   Loop loop;
   for (int s = 0; s < 4; ++s) {
     const auto &from = corner[s], &to = corner[(s + 1) % 4];
-    for (int i = 0; i < n; ++i) loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
+    for (int i = 0; i < n; ++i)
+      loop.push_back({from[0] + (to[0] - from[0]) * i / n, from[1] + (to[1] - from[1]) * i / n});
   }
   return loop;
 }
@@ -72,7 +81,9 @@ Loop circle(int n, double radius) {
 class PlanMaker {
  public:
   explicit PlanMaker(const GradedBlock& b)
-      : x_(b.origin[0] + 0.5 * b.size[0]), z_(b.origin[2] + 0.5 * b.size[2]), inner_(static_cast<std::size_t>(4 * b.core.cells)) {}
+      : x_(b.origin[0] + 0.5 * b.size[0]),
+        z_(b.origin[2] + 0.5 * b.size[2]),
+        inner_(static_cast<std::size_t>(4 * b.core.cells)) {}
 
   void core(int n, double h) {
     for (int k = 0; k <= n; ++k)
@@ -86,7 +97,8 @@ class PlanMaker {
       }
   }
 
-  // `cells` loops of cells between two loops of points, each longer than the one inside it by `growth`
+  // `cells` loops of cells between two loops of points, each longer than the one inside it by
+  // `growth`
   void surround(const Loop& from, const Loop& to, int cells, double growth) {
     double step = 1, whole = 0, part = 0;
     for (int c = 0; c < cells; ++c) whole += step, step *= growth;
@@ -96,7 +108,8 @@ class PlanMaker {
       const double v = c + 1 == cells ? 1 : part / whole;
       std::vector<int> outer;
       for (std::size_t p = 0; p < from.size(); ++p)
-        outer.push_back(add_point((1 - v) * from[p][0] + v * to[p][0], (1 - v) * from[p][1] + v * to[p][1]));
+        outer.push_back(
+            add_point((1 - v) * from[p][0] + v * to[p][0], (1 - v) * from[p][1] + v * to[p][1]));
       for (std::size_t p = 0; p < outer.size(); ++p) {
         const std::size_t q = (p + 1) % outer.size();
         plan.cells.push_back({inner_[p], outer[p], outer[q], inner_[q]});
@@ -128,25 +141,30 @@ Plan plan_of(const GradedBlock& b) {
     maker.surround(last, next, ring.cells, 1);
     last = next;
   }
-  maker.surround(last, rectangle(n, half_x, half_z), b.outer_cells, growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
+  maker.surround(last, rectangle(n, half_x, half_z), b.outer_cells,
+                 growth_of(b, b.rings.back().radius, std::min(half_x, half_z)));
   return std::move(maker.plan);
 }
 
 std::vector<double> layer_heights(const GradedBlock& b) {
   const double low = b.origin[1], high = low + b.size[1];
-  return b.top ? lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge") : even_lines(low, high, b.layers);
+  return b.top ? lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge")
+               : even_lines(low, high, b.layers);
 }
 
 }  // namespace
 
 std::vector<Complaint> contradictions(const GradedBlock& b, const Points& points) {
   std::vector<Complaint> found = complaints_of([&] { layer_heights(b); });
-  const auto growth = [&] { growth_of(b, b.rings.back().radius, 0.5 * std::min(b.size[0], b.size[2])); };
+  const auto growth = [&] {
+    growth_of(b, b.rings.back().radius, 0.5 * std::min(b.size[0], b.size[2]));
+  };
   for (Complaint& c : complaints_of(growth)) found.push_back(std::move(c));
   for (const auto& [name, x] : points)
     for (int i = 0; i < 3; ++i)
       if (const double low = b.origin[i], high = low + b.size[i]; x[i] < low || x[i] > high)
-        found.push_back({"points." + name, fmt::format("{} = {} is outside the block", "xyz"[i], x[i]),
+        found.push_back({"points." + name,
+                         fmt::format("{} = {} is outside the block", "xyz"[i], x[i]),
                          fmt::format("{} to {}", low, high), ""});
   return found;
 }

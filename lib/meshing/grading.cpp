@@ -10,15 +10,18 @@
 
 namespace langer {
 
-void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
+void refuse(const std::string& key, const std::string& found, const std::string& expected,
+            const std::string& hint) {
   throw Failure(Exit::config, Error{{}, key, found, expected, hint});
 }
 
 namespace {
 
-constexpr double largest_growth = 3;  // from cell to cell; beyond, elements are too unlike their neighbours to trust
+constexpr double largest_growth =
+    3;  // from cell to cell; beyond, elements are too unlike their neighbours to trust
 
-// edge (q + q^2 + ... + q^m), or infinite where that is more than `enough`; in quarters, so that nothing overflows before it is
+// edge (q + q^2 + ... + q^m), or infinite where that is more than `enough`; in quarters, so that
+// nothing overflows before it is
 double growing(double edge, double q, int m, double enough) {
   double sum = 0, term = 0.25 * edge;
   enough *= 0.25;
@@ -32,17 +35,26 @@ double growing(double edge, double q, int m, double enough) {
 
 }  // namespace
 
-std::vector<double> refined(double length, int n, double edge, double within, const std::string& key) {
-  const int fine = 0.5 * within / n < 0.5 * edge ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n) : n, m = n - fine;
-  const double left = length - fine * edge, rest = m == 0 && std::abs(left) < 1e-9 * length ? 0 : left, most = rest * (1 + 1e-9),
+std::vector<double> refined(double length, int n, double edge, double within,
+                            const std::string& key) {
+  const int fine = 0.5 * within / n < 0.5 * edge
+                       ? std::clamp(static_cast<int>(std::lround(within / edge)), 1, n)
+                       : n,
+            m = n - fine;
+  const double left = length - fine * edge,
+               rest = m == 0 && std::abs(left) < 1e-9 * length ? 0 : left, most = rest * (1 + 1e-9),
                least = rest * (1 - 1e-9);
   if (growing(edge, 1, m, most) > most)
-    refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length), "fewer divisions or a smaller edge", "");
+    refuse(key, fmt::format("{} cells of {} mm are longer than {} mm", n, edge, length),
+           "fewer divisions or a smaller edge", "");
   if (growing(edge, largest_growth, m, least) < least)
-    refuse(key, fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge, largest_growth, length),
+    refuse(key,
+           fmt::format("{} cells that grow from {} mm by up to {} each do not reach {} mm", n, edge,
+                       largest_growth, length),
            "more divisions or a larger edge", "");
   double low = 1, high = largest_growth;
-  for (int i = 0; i < 200; ++i) (growing(edge, 0.5 * (low + high), m, rest) > rest ? high : low) = 0.5 * (low + high);
+  for (int i = 0; i < 200; ++i)
+    (growing(edge, 0.5 * (low + high), m, rest) > rest ? high : low) = 0.5 * (low + high);
   std::vector<double> lines{0};
   double step = edge;
   for (int i = 0; i < n; ++i) {
@@ -55,12 +67,15 @@ std::vector<double> refined(double length, int n, double edge, double within, co
 
 std::vector<double> even_lines(double low, double high, int n) {
   std::vector<double> lines(static_cast<std::size_t>(n) + 1);
-  for (int i = 0; i <= n; ++i) lines[i] = 0.5 * (low + high) + (high - low) * (i - 0.5 * n) / n;  // exact mirror images about 0
+  for (int i = 0; i <= n; ++i)
+    lines[i] =
+        0.5 * (low + high) + (high - low) * (i - 0.5 * n) / n;  // exact mirror images about 0
   lines.front() = low, lines.back() = high;
   return lines;
 }
 
-std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within, const std::string& key) {
+std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within,
+                                    const std::string& key) {
   const double half = 0.5 * (high - low), centre = 0.5 * (low + high);
   std::vector<double> away;  // distances from the centre, ascending
   if (n % 2 == 0) {
@@ -78,9 +93,11 @@ std::vector<double> lines_to_centre(double low, double high, int n, double edge,
   return lines;
 }
 
-std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above, const std::string& key) {
+std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above,
+                                 const std::string& key) {
   const auto away = [&](const GradedSide& side) {
-    return side.n > 0 ? refined(side.length, side.n, side.edge, side.within, key) : std::vector<double>{0};
+    return side.n > 0 ? refined(side.length, side.n, side.edge, side.within, key)
+                      : std::vector<double>{0};
   };
   std::vector<double> lines;
   const std::vector<double> low = away(below), high = away(above);
@@ -89,7 +106,8 @@ std::vector<double> lines_around(double place, const GradedSide& below, const Gr
   return lines;
 }
 
-std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key) {
+std::vector<double> lines_to_top(double low, double high, int n, double edge,
+                                 const std::string& key) {
   std::vector<double> lines;
   const std::vector<double> below = refined(high - low, n, edge, 0, key);
   for (auto x = below.rbegin(); x != below.rend(); ++x) lines.push_back(high - *x);
@@ -99,24 +117,32 @@ std::vector<double> lines_to_top(double low, double high, int n, double edge, co
 
 std::vector<double> resampled(const std::vector<double>& lines, int n) {
   const int most = static_cast<int>(lines.size()) - 2;  // the last cell
-  const auto length = [&](int i) { return lines[static_cast<std::size_t>(i) + 1] - lines[static_cast<std::size_t>(i)]; };
+  const auto length = [&](int i) {
+    return lines[static_cast<std::size_t>(i) + 1] - lines[static_cast<std::size_t>(i)];
+  };
   std::vector<double> found{lines.front()};
   for (int j = 1; j < n; ++j) {
     const double s = (most + 1.0) * j / n;
-    const int cell = std::min(static_cast<int>(s), most), before = std::max(cell - 1, 0), after = std::min(cell + 1, most);
-    // within the cell lengths grow as from the one before to the one after: of cells that grow by one factor, exactly so
-    const double growth = after == before ? 0 : std::log(length(after) / length(before)) / (after - before);
-    const double part = std::abs(growth) < 1e-9 ? s - cell : std::expm1(growth * (s - cell)) / std::expm1(growth);
+    const int cell = std::min(static_cast<int>(s), most), before = std::max(cell - 1, 0),
+              after = std::min(cell + 1, most);
+    // within the cell lengths grow as from the one before to the one after: of cells that grow by
+    // one factor, exactly so
+    const double growth =
+        after == before ? 0 : std::log(length(after) / length(before)) / (after - before);
+    const double part =
+        std::abs(growth) < 1e-9 ? s - cell : std::expm1(growth * (s - cell)) / std::expm1(growth);
     found.push_back(lines[static_cast<std::size_t>(cell)] + part * length(cell));
   }
   found.push_back(lines.back());
   return found;
 }
 
-Moved through(const std::vector<double>& lines, std::vector<Demand> demands, const std::string& axis, const std::string& key) {
+Moved through(const std::vector<double>& lines, std::vector<Demand> demands,
+              const std::string& axis, const std::string& key) {
   const int n = static_cast<int>(lines.size()) - 1;
   const double tolerance = 1e-12 * (lines.back() - lines.front());
-  std::sort(demands.begin(), demands.end(), [](const Demand& a, const Demand& b) { return a.at < b.at; });
+  std::sort(demands.begin(), demands.end(),
+            [](const Demand& a, const Demand& b) { return a.at < b.at; });
   struct Pin {
     int line;
     double at;
@@ -125,18 +151,21 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands, con
   std::vector<Pin> pins{{0, lines.front(), ""}};
   for (const Demand& d : demands) {
     if (d.at < lines.front() - tolerance || d.at > lines.back() + tolerance)
-      refuse(d.by, fmt::format("{} = {} is outside the block", axis, d.at), fmt::format("{} to {}", lines.front(), lines.back()),
-             "");
-    if (std::abs(d.at - pins.back().at) <= tolerance || std::abs(d.at - lines.back()) <= tolerance) continue;
+      refuse(d.by, fmt::format("{} = {} is outside the block", axis, d.at),
+             fmt::format("{} to {}", lines.front(), lines.back()), "");
+    if (std::abs(d.at - pins.back().at) <= tolerance || std::abs(d.at - lines.back()) <= tolerance)
+      continue;
     // the nearest line inside the block; the sides stay where they are
     int nearest = 1;
     for (int i = 1; i < n; ++i)
       if (std::abs(lines[i] - d.at) < std::abs(lines[nearest] - d.at)) nearest = i;
     if (n < 2 || nearest <= pins.back().line)
-      refuse(d.by,
-             fmt::format("no grid line is left for {} = {}{}", axis, d.at,
-                         pins.back().by.empty() ? "" : ", the nearest goes through " + pins.back().by),
-             "more divisions, or points further apart", fmt::format("{} divides {} into {} cells", key, axis, n));
+      refuse(
+          d.by,
+          fmt::format("no grid line is left for {} = {}{}", axis, d.at,
+                      pins.back().by.empty() ? "" : ", the nearest goes through " + pins.back().by),
+          "more divisions, or points further apart",
+          fmt::format("{} divides {} into {} cells", key, axis, n));
     pins.push_back({nearest, d.at, d.by});
   }
   pins.push_back({n, lines.back(), ""});
@@ -144,7 +173,8 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands, con
   for (std::size_t p = 1; p < pins.size(); ++p) {
     const Pin &a = pins[p - 1], &b = pins[p];
     for (int i = a.line; i < b.line; ++i)
-      moved.lines[i] = a.at + (lines[i] - lines[a.line]) * ((b.at - a.at) / (lines[b.line] - lines[a.line]));
+      moved.lines[i] =
+          a.at + (lines[i] - lines[a.line]) * ((b.at - a.at) / (lines[b.line] - lines[a.line]));
   }
   // mirror images to the last digit, where lines and demands were so but for rounding
   const double middle = 0.5 * (lines.front() + lines.back());
@@ -152,7 +182,8 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands, con
     if (std::abs(moved.lines[i] + moved.lines[n - i] - 2 * middle) <= 10 * tolerance)
       moved.lines[i] = 2 * i == n ? middle : 2 * middle - moved.lines[n - i];
   for (const Pin& pin : pins) moved.lines[pin.line] = pin.at;
-  for (int i = 0; i <= n; ++i) moved.furthest = std::max(moved.furthest, std::abs(moved.lines[i] - lines[i]));
+  for (int i = 0; i <= n; ++i)
+    moved.furthest = std::max(moved.furthest, std::abs(moved.lines[i] - lines[i]));
   return moved;
 }
 

@@ -15,7 +15,8 @@
 namespace langer {
 
 // throws Failure(config) at the key of a mesh
-[[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint);
+[[noreturn]] void refuse(const std::string& key, const std::string& found,
+                         const std::string& expected, const std::string& hint);
 
 // a demanded coordinate and who demands it, for messages
 struct Demand {
@@ -24,12 +25,15 @@ struct Demand {
 };
 
 // 0 ... length in n cells, the first ones `edge` long up to `within`
-std::vector<double> refined(double length, int n, double edge, double within, const std::string& key);
+std::vector<double> refined(double length, int n, double edge, double within,
+                            const std::string& key);
 
 std::vector<double> even_lines(double low, double high, int n);
 
-// mirrored about the middle, exactly where the middle is 0; `edge` is the length of the cells around it
-std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within, const std::string& key);
+// mirrored about the middle, exactly where the middle is 0; `edge` is the length of the cells
+// around it
+std::vector<double> lines_to_centre(double low, double high, int n, double edge, double within,
+                                    const std::string& key);
 
 // One side of a place at which cells have the length `edge` up to `within` and grow from there.
 struct GradedSide {
@@ -37,22 +41,27 @@ struct GradedSide {
   int n = 0;  // cells; 0: the place lies on this end
 };
 // a line through `place`, with a side below and one above it
-std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above, const std::string& key);
+std::vector<double> lines_around(double place, const GradedSide& below, const GradedSide& above,
+                                 const std::string& key);
 
 // the uppermost cell is `edge` long
-std::vector<double> lines_to_top(double low, double high, int n, double edge, const std::string& key);
+std::vector<double> lines_to_top(double low, double high, int n, double edge,
+                                 const std::string& key);
 
-// n other cells over the same length, whose lengths change with the place as those of `lines` do, all by one factor
+// n other cells over the same length, whose lengths change with the place as those of `lines` do,
+// all by one factor
 std::vector<double> resampled(const std::vector<double>& lines, int n);
 
-// n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at least one. What is 0 stays 0.
+// n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at
+// least one. What is 0 stays 0.
 std::vector<int> divided(const std::vector<int>& n, double wanted);
 
 struct Moved {
   std::vector<double> lines;
   double furthest = 0;  // largest way of a line
 };
-Moved through(const std::vector<double>& lines, std::vector<Demand> demands, const std::string& axis, const std::string& key);
+Moved through(const std::vector<double>& lines, std::vector<Demand> demands,
+              const std::string& axis, const std::string& key);
 
 // what `act` refuses, as complaints
 std::vector<Complaint> complaints_of(auto act) {

@@ -1,4 +1,5 @@
-// Structured hexahedra without a mesher. Nodes and cells in order: by (y, z, x), x fastest; xi, eta, zeta along x, y, z.
+// Structured hexahedra without a mesher. Nodes and cells in order: by (y, z, x), x fastest; xi,
+// eta, zeta along x, y, z.
 #pragma once
 
 #include <array>
@@ -18,7 +19,8 @@ struct Plan {
   std::vector<std::array<int, 4>> cells;
 };
 
-// Hexahedra above the plan, a layer between neighbouring heights; in the plan's order within each layer.
+// Hexahedra above the plan, a layer between neighbouring heights; in the plan's order within each
+// layer.
 Mesh extruded(const Plan& plan, const std::vector<double>& heights);
 
 }  // namespace langer

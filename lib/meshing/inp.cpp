@@ -1,5 +1,5 @@
-// Abaqus and CalculiX input: the cards that describe a mesh. Keywords and set names of other cards are skipped, those that make nodes
-// or elements by rule are refused.
+// Abaqus and CalculiX input: the cards that describe a mesh. Keywords and set names of other cards
+// are skipped, those that make nodes or elements by rule are refused.
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -12,10 +12,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/split.hpp"
-#include "meshing/exchange.hpp"
-#include "meshing/inp_cells.hpp"
 #include "mechanics/mesh/raise.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "meshing/exchange.hpp"
+#include "meshing/inp_cells.hpp"
 
 namespace langer {
 
@@ -57,7 +57,8 @@ class Reader {
         data(line);
     }
     end_element();
-    if (cells_.empty()) refuse(0, "no hexahedra or tetrahedra", "*ELEMENT, TYPE=, " + known_inp_cells());
+    if (cells_.empty())
+      refuse(0, "no hexahedra or tetrahedra", "*ELEMENT, TYPE=, " + known_inp_cells());
     return mesh();
   }
 
@@ -68,10 +69,11 @@ class Reader {
   int line_ = 0;
   Card card_;
   std::map<long long, Vec3> nodes_;
-  InpCell kind_;                                                       // of all cells
-  std::string type_;                                                   // as the file calls it first
-  std::map<long long, std::pair<std::vector<long long>, int>> cells_;  // nodes in their order, with the line
-  std::vector<long long> element_;                                     // as far as it is read
+  InpCell kind_;      // of all cells
+  std::string type_;  // as the file calls it first
+  std::map<long long, std::pair<std::vector<long long>, int>>
+      cells_;                       // nodes in their order, with the line
+  std::vector<long long> element_;  // as far as it is read
   int element_line_ = 0;
   struct Range {
     long long first, last, step;
@@ -109,7 +111,8 @@ class Reader {
   long long whole(const std::string& text) const {
     long long n = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc() || end != text.data() + text.size()) refuse(line_, "found \"" + text + "\"", "a whole number");
+    if (error != std::errc() || end != text.data() + text.size())
+      refuse(line_, "found \"" + text + "\"", "a whole number");
     return n;
   }
   double real(std::string text) const {
@@ -124,7 +127,8 @@ class Reader {
     return x;
   }
   static bool is_number(const std::string& text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+    return !text.empty() &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
   }
 
   void begin(std::string line) {
@@ -143,14 +147,18 @@ class Reader {
       card_.parameters[upper(trimmed(cells[i].substr(0, equals)))] =
           equals == std::string::npos ? "" : trimmed(cells[i].substr(equals + 1));
     }
-    static const std::set<std::string> made_by_rule{"NGEN", "NFILL", "NCOPY", "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM", "NMAP"};
-    if (made_by_rule.count(card_.word)) refuse(first, "found *" + card_.word, "all nodes and elements written out in this file");
+    static const std::set<std::string> made_by_rule{"NGEN",   "NFILL",   "NCOPY",  "ELGEN",
+                                                    "ELCOPY", "INCLUDE", "SYSTEM", "NMAP"};
+    if (made_by_rule.count(card_.word))
+      refuse(first, "found *" + card_.word, "all nodes and elements written out in this file");
     if (card_.word == "PART" && ++parts_ > 1) refuse(first, "found a second *PART", "one");
-    if (card_.word == "INSTANCE" && ++instances_ > 1) refuse(first, "found a second *INSTANCE", "one");
+    if (card_.word == "INSTANCE" && ++instances_ > 1)
+      refuse(first, "found a second *INSTANCE", "one");
     if (card_.word == "ELEMENT") {
       begin_elements(first);
     } else if (card_.word == "NSET" || card_.word == "ELSET") {
-      if (card_.value(card_.word).empty()) refuse(first, "*" + card_.word + " without a name", card_.word + "=name");
+      if (card_.value(card_.word).empty())
+        refuse(first, "*" + card_.word + " without a name", card_.word + "=name");
       named(card_.word == "NSET" ? node_sets_ : element_sets_, card_.value(card_.word));
     } else if (card_.word == "SURFACE") {
       if (card_.value("NAME").empty()) refuse(first, "*SURFACE without a name", "NAME=name");
@@ -159,8 +167,8 @@ class Reader {
       const std::string key = upper(card_.value("ELSET"));
       if (std::find(bodies_.begin(), bodies_.end(), key) == bodies_.end()) bodies_.push_back(key);
     } else if (card_.word != "NODE" && card_.word != "INSTANCE") {
-      static const std::set<std::string> nothing{"HEADING",      "PART",         "END PART", "ASSEMBLY",
-                                                 "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
+      static const std::set<std::string> nothing{
+          "HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
       if (!nothing.count(card_.word)) left_out_.insert("*" + card_.word);
     }
   }
@@ -196,9 +204,12 @@ class Reader {
       if (cells.size() < 2) refuse(line_, "found \"" + line + "\"", "number, x, y, z");
       const long long id = whole(cells[0]);
       Vec3 x = Vec3::Zero();
-      for (int k = 0; k < 3 && k + 1 < static_cast<int>(cells.size()); ++k) x[k] = real(cells[static_cast<std::size_t>(k) + 1]);
-      if (!nodes_.try_emplace(id, x).second) refuse(line_, fmt::format("node {} is there twice", id));
-      if (const std::string set = card_.value("NSET"); !set.empty()) node_sets_[named(node_sets_, set)].add(id);
+      for (int k = 0; k < 3 && k + 1 < static_cast<int>(cells.size()); ++k)
+        x[k] = real(cells[static_cast<std::size_t>(k) + 1]);
+      if (!nodes_.try_emplace(id, x).second)
+        refuse(line_, fmt::format("node {} is there twice", id));
+      if (const std::string set = card_.value("NSET"); !set.empty())
+        node_sets_[named(node_sets_, set)].add(id);
     } else if (card_.word == "ELEMENT") {
       if (element_.empty()) element_line_ = line_;
       for (const std::string& cell : cells)
@@ -211,7 +222,8 @@ class Reader {
     else if (card_.word == "SURFACE")
       surface(cells);
     else if (card_.word == "INSTANCE")
-      refuse(line_, "found an *INSTANCE that is moved or turned", "one that lies where its part does");
+      refuse(line_, "found an *INSTANCE that is moved or turned",
+             "one that lies where its part does");
   }
 
   void end_element() {
@@ -223,17 +235,20 @@ class Reader {
     std::vector<long long> nodes(element_.begin() + 1, element_.end());
     if (!cells_.try_emplace(element_[0], std::pair(std::move(nodes), element_line_)).second)
       refuse(element_line_, fmt::format("element {} is there twice", element_[0]));
-    if (const std::string set = card_.value("ELSET"); !set.empty()) element_sets_[named(element_sets_, set)].add(element_[0]);
+    if (const std::string set = card_.value("ELSET"); !set.empty())
+      element_sets_[named(element_sets_, set)].add(element_[0]);
     element_.clear();
   }
 
-  void members(const std::vector<std::string>& cells, std::map<std::string, Named>& sets, const std::string& name) {
+  void members(const std::vector<std::string>& cells, std::map<std::string, Named>& sets,
+               const std::string& name) {
     Named& set = sets[upper(name)];
     if (card_.parameters.count("GENERATE")) {
       if (cells.size() < 2) refuse(line_, "one number", "first, last, step");
       const long long first = whole(cells[0]), last = whole(cells[1]),
                       step = cells.size() > 2 && !cells[2].empty() ? whole(cells[2]) : 1;
-      if (step <= 0 || first < 0 || last < first) refuse(line_, "a range that does not ascend", "first, last, step");
+      if (step <= 0 || first < 0 || last < first)
+        refuse(line_, "a range that does not ascend", "first, last, step");
       set.members.push_back({first, last, step});
       return;
     }
@@ -244,7 +259,9 @@ class Reader {
         continue;
       }
       const auto other = sets.find(upper(cell));
-      if (other == sets.end()) refuse(line_, "there is no set \"" + cell + "\" above", "numbers, or a set that stands above");
+      if (other == sets.end())
+        refuse(line_, "there is no set \"" + cell + "\" above",
+               "numbers, or a set that stands above");
       const std::vector<Range> copy = other->second.members;
       set.members.insert(set.members.end(), copy.begin(), copy.end());
       std::sort(set.members.begin(), set.members.end());
@@ -257,9 +274,11 @@ class Reader {
     std::set<int> found;
     for (const Range& range : set.members)
       if (range.first == range.last) {
-        if (const auto one = numbers.find(range.first); one != numbers.end()) found.insert(one->second);
+        if (const auto one = numbers.find(range.first); one != numbers.end())
+          found.insert(one->second);
       } else
-        for (auto one = numbers.lower_bound(range.first); one != numbers.end() && one->first <= range.last; ++one)
+        for (auto one = numbers.lower_bound(range.first);
+             one != numbers.end() && one->first <= range.last; ++one)
           if ((one->first - range.first) % range.step == 0) found.insert(one->second);
     return {found.begin(), found.end()};
   }
@@ -274,7 +293,8 @@ class Reader {
     surfaces_[key].second.push_back({cells[0], cells.size() > 1 ? upper(cells[1]) : "", line_});
   }
 
-  using Numbers = std::map<long long, int>;  // the file's number of a node or cell: ours, without gaps
+  using Numbers =
+      std::map<long long, int>;  // the file's number of a node or cell: ours, without gaps
 
   Mesh made_of_cells(Numbers& cell_at, Numbers& node_at) {
     std::vector<Vec3> X;
@@ -283,18 +303,23 @@ class Reader {
     for (const auto& [id, cell] : cells_)
       for (long long n : cell.first) node_at[n] = -1;
     for (const auto& [id, x] : nodes_)
-      if (const auto node = node_at.find(id); node != node_at.end()) node->second = static_cast<int>(X.size()), X.push_back(x);
+      if (const auto node = node_at.find(id); node != node_at.end())
+        node->second = static_cast<int>(X.size()), X.push_back(x);
     for (const auto& [id, cell] : cells_) {
       cell_at[id] = static_cast<int>(connectivity.size() / order.size());
       connectivity.resize(connectivity.size() + order.size());
       for (std::size_t a = 0; a < order.size(); ++a) {
         const long long n = cell.first[a];
-        if (node_at[n] < 0) refuse(cell.second, fmt::format("element {} has the node {}, which is not there", id, n));
-        connectivity[connectivity.size() - order.size() + static_cast<std::size_t>(order[a])] = node_at[n];
+        if (node_at[n] < 0)
+          refuse(cell.second, fmt::format("element {} has the node {}, which is not there", id, n));
+        connectivity[connectivity.size() - order.size() + static_cast<std::size_t>(order[a])] =
+            node_at[n];
       }
     }
-    if (static_cast<int>(order.size()) == kind_.cell->n_corners) return raised(X, connectivity, kind_.cell->type);
-    if (static_cast<int>(order.size()) < kind_.cell->n_nodes) return raised_with_edges(X, connectivity, kind_.cell->type);
+    if (static_cast<int>(order.size()) == kind_.cell->n_corners)
+      return raised(X, connectivity, kind_.cell->type);
+    if (static_cast<int>(order.size()) < kind_.cell->n_nodes)
+      return raised_with_edges(X, connectivity, kind_.cell->type);
     Mesh mesh;
     mesh.type = kind_.cell->type, mesh.X = X, mesh.connectivity = connectivity;
     return mesh;
@@ -304,14 +329,15 @@ class Reader {
     mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     for (const std::string& key : bodies_.empty() ? element_bodies_ : bodies_) {
       const auto set = element_sets_.find(key);
-      if (set == element_sets_.end()) refuse(0, "*SOLID SECTION of the element set \"" + key + "\", which is not there");
+      if (set == element_sets_.end())
+        refuse(0, "*SOLID SECTION of the element set \"" + key + "\", which is not there");
       const int body = static_cast<int>(mesh.bodies.size());
       mesh.bodies.push_back(set->second.name);
       for (int cell : there(set->second, cell_at)) {
         if (mesh.body[cell] >= 0)
           refuse(0,
-                 fmt::format("the {}. element belongs to \"{}\" and to \"{}\"", cell + 1, mesh.bodies[mesh.body[cell]],
-                             mesh.bodies[body]),
+                 fmt::format("the {}. element belongs to \"{}\" and to \"{}\"", cell + 1,
+                             mesh.bodies[mesh.body[cell]], mesh.bodies[body]),
                  "one body for each element");
         mesh.body[cell] = body;
       }
@@ -330,7 +356,8 @@ class Reader {
       return {cell->second};
     }
     const auto set = element_sets_.find(upper(side.what));
-    if (set == element_sets_.end()) refuse(side.line, "there is no element set \"" + side.what + "\"");
+    if (set == element_sets_.end())
+      refuse(side.line, "there is no element set \"" + side.what + "\"");
     return there(set->second, cell_at);
   }
 
@@ -338,7 +365,8 @@ class Reader {
     const std::vector<int>& facets = kind_.cell->names.abaqus.sides;
     for (std::size_t s = 0; s < facets.size(); ++s)
       if (side.side == fmt::format("S{}", s + 1)) return facets[s];
-    refuse(side.line, "found the side \"" + side.side + "\"", fmt::format("S1 to S{}", facets.size()));
+    refuse(side.line, "found the side \"" + side.side + "\"",
+           fmt::format("S1 to S{}", facets.size()));
   }
 
   void add_sets(Mesh& mesh, const Numbers& cell_at, const Numbers& node_at) {
@@ -364,16 +392,22 @@ class Reader {
     add_sets(mesh, cell_at, node_at);
     std::vector<std::string> others;
     for (const auto& [key, set] : element_sets_)
-      if (std::find(mesh.bodies.begin(), mesh.bodies.end(), set.name) == mesh.bodies.end()) others.push_back(set.name);
-    if (!others.empty()) notes_.push_back(fmt::format("left out, as they are no bodies: element sets {}", fmt::join(others, ", ")));
-    if (!left_out_.empty()) notes_.push_back(fmt::format("left out, as they are no mesh: {}", fmt::join(left_out_, ", ")));
+      if (std::find(mesh.bodies.begin(), mesh.bodies.end(), set.name) == mesh.bodies.end())
+        others.push_back(set.name);
+    if (!others.empty())
+      notes_.push_back(
+          fmt::format("left out, as they are no bodies: element sets {}", fmt::join(others, ", ")));
+    if (!left_out_.empty())
+      notes_.push_back(
+          fmt::format("left out, as they are no mesh: {}", fmt::join(left_out_, ", ")));
     return mesh;
   }
 };
 
 }  // namespace
 
-Mesh parse_inp(const std::string& text, const std::string& shown_name, std::vector<std::string>& notes) {
+Mesh parse_inp(const std::string& text, const std::string& shown_name,
+               std::vector<std::string>& notes) {
   return Reader(text, shown_name, notes).read();
 }
 

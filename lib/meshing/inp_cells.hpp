@@ -20,7 +20,8 @@ struct InpCell {
 inline std::optional<InpCell> inp_cell(const std::string& type) {
   for (const ReferenceCell& cell : reference_cells())
     for (const AbaqusCell& theirs : cell.names.abaqus.read)
-      if (type.starts_with(theirs.name) && type.find_first_not_of("RHIMS", std::string(theirs.name).size()) == type.npos)
+      if (type.starts_with(theirs.name) &&
+          type.find_first_not_of("RHIMS", std::string(theirs.name).size()) == type.npos)
         return InpCell{&cell, &theirs};
   return std::nullopt;
 }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "meshing/exchange.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "meshing/exchange.hpp"
 
 namespace langer {
 
@@ -13,8 +13,11 @@ namespace {
 
 std::string quoted_name(const std::string& name) {
   if (name.find_first_of("\",\n\r*=") != std::string::npos)
-    throw Failure(Exit::config,
-                  Error{{}, "export", "the name \"" + name + "\" cannot stand in an .inp file", "names without , \" * and =", ""});
+    throw Failure(Exit::config, Error{{},
+                                      "export",
+                                      "the name \"" + name + "\" cannot stand in an .inp file",
+                                      "names without , \" * and =",
+                                      ""});
   return name.find(' ') == std::string::npos ? name : "\"" + name + "\"";
 }
 
@@ -22,9 +25,11 @@ std::string quoted_name(const std::string& name) {
 
 std::string inp_text(const Mesh& mesh) {
   std::string s = "** a mesh of Langer; mm\n*NODE\n";
-  for (int n = 0; n < mesh.n_nodes(); ++n) s += fmt::format("{}, {}, {}, {}\n", n + 1, mesh.X[n][0], mesh.X[n][1], mesh.X[n][2]);
+  for (int n = 0; n < mesh.n_nodes(); ++n)
+    s += fmt::format("{}, {}, {}, {}\n", n + 1, mesh.X[n][0], mesh.X[n][1], mesh.X[n][2]);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    s += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", mesh.cell().names.abaqus.written, quoted_name(mesh.bodies[b]));
+    s += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", mesh.cell().names.abaqus.written,
+                     quoted_name(mesh.bodies[b]));
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (mesh.body[e] != static_cast<int>(b)) continue;
       s += std::to_string(e + 1);
@@ -41,7 +46,8 @@ std::string inp_text(const Mesh& mesh) {
     s += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted_name(name));
     const std::vector<int>& sides = mesh.cell().names.abaqus.sides;
     for (const Facet& facet : facets)
-      s += fmt::format("{}, S{}\n", facet.cell + 1, std::find(sides.begin(), sides.end(), facet.local) - sides.begin() + 1);
+      s += fmt::format("{}, S{}\n", facet.cell + 1,
+                       std::find(sides.begin(), sides.end(), facet.local) - sides.begin() + 1);
   }
   return s;
 }

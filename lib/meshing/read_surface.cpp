@@ -15,7 +15,8 @@ namespace langer {
 
 namespace {
 
-constexpr std::size_t header = 80, record = 50;  // of a binary file: bytes before the count, bytes of a triangle
+constexpr std::size_t header = 80,
+                      record = 50;  // of a binary file: bytes before the count, bytes of a triangle
 
 template <class Number>
 Number little_endian(const char* at) {
@@ -26,7 +27,8 @@ Number little_endian(const char* at) {
 }
 
 bool is_binary(const std::string& bytes) {
-  return bytes.size() >= header + 4 && bytes.size() == header + 4 + record * little_endian<std::uint32_t>(bytes.data() + header);
+  return bytes.size() >= header + 4 &&
+         bytes.size() == header + 4 + record * little_endian<std::uint32_t>(bytes.data() + header);
 }
 
 // three corners for each triangle; normals are left out, the order of the corners says the same
@@ -35,7 +37,8 @@ std::vector<Vec3> corners_of_binary(const std::string& bytes) {
   for (const char* at = bytes.data() + header + 4; at < bytes.data() + bytes.size(); at += record)
     for (int k = 1; k <= 3; ++k) {
       Vec3 x;
-      for (int i = 0; i < 3; ++i) x[i] = static_cast<double>(little_endian<float>(at + 4 * (3 * k + i)));
+      for (int i = 0; i < 3; ++i)
+        x[i] = static_cast<double>(little_endian<float>(at + 4 * (3 * k + i)));
       corners.push_back(x);
     }
   return corners;
@@ -58,9 +61,12 @@ std::vector<Vec3> corners_of_text(const std::string& text, auto refuse) {
     for (int i = 0; i < 3; ++i) {
       std::string number;
       words >> number;
-      const char *from = number.data() + number.starts_with('+'), *to = number.data() + number.size();
-      if (const auto [end, error] = std::from_chars(from, to, x[i]); error != std::errc{} || end != to)
-        refuse(n, number.empty() ? "a corner of fewer than three coordinates" : "found \"" + number + "\" for a coordinate");
+      const char *from = number.data() + number.starts_with('+'),
+                 *to = number.data() + number.size();
+      if (const auto [end, error] = std::from_chars(from, to, x[i]);
+          error != std::errc{} || end != to)
+        refuse(n, number.empty() ? "a corner of fewer than three coordinates"
+                                 : "found \"" + number + "\" for a coordinate");
     }
     corners.push_back(x);
   }
@@ -68,17 +74,20 @@ std::vector<Vec3> corners_of_text(const std::string& text, auto refuse) {
   return corners;
 }
 
-// Points by their place: any two in a cell of the tolerance's length are one, further apart than twice that never.
+// Points by their place: any two in a cell of the tolerance's length are one, further apart than
+// twice that never.
 class MergedPoints {
  public:
   explicit MergedPoints(double tolerance) : tolerance_(tolerance) {}
   int at(const Vec3& x) {
-    const Key key{std::floor(x[0] / tolerance_), std::floor(x[1] / tolerance_), std::floor(x[2] / tolerance_)};
+    const Key key{std::floor(x[0] / tolerance_), std::floor(x[1] / tolerance_),
+                  std::floor(x[2] / tolerance_)};
     for (double i : {0., -1., 1.})
       for (double j : {0., -1., 1.})
         for (double k : {0., -1., 1.})
           if (const auto found = place_.find({key[0] + i, key[1] + j, key[2] + k});
-              found != place_.end() && (points[static_cast<std::size_t>(found->second)] - x).norm() <= 2 * tolerance_)
+              found != place_.end() &&
+              (points[static_cast<std::size_t>(found->second)] - x).norm() <= 2 * tolerance_)
             return found->second;
     points.push_back(x);
     return place_[key] = static_cast<int>(points.size()) - 1;
@@ -95,14 +104,19 @@ class MergedPoints {
 
 Triangles parse_surface(const std::string& bytes, const std::string& shown_name) {
   const auto refuse = [&](int line, const std::string& found) {
-    throw Failure(Exit::input,
-                  Error{{shown_name, line, line > 0 ? 1 : 0}, "", found, "an STL file with triangles, normals outwards", ""});
+    throw Failure(Exit::input, Error{{shown_name, line, line > 0 ? 1 : 0},
+                                     "",
+                                     found,
+                                     "an STL file with triangles, normals outwards",
+                                     ""});
   };
-  const std::vector<Vec3> corners = is_binary(bytes) ? corners_of_binary(bytes) : corners_of_text(bytes, refuse);
+  const std::vector<Vec3> corners =
+      is_binary(bytes) ? corners_of_binary(bytes) : corners_of_text(bytes, refuse);
   if (corners.empty()) refuse(0, "no triangles");
   Vec3 low = corners[0], high = low;
   for (const Vec3& x : corners) {
-    if (!x.allFinite() || !(x.lpNorm<Eigen::Infinity>() < 1e100)) refuse(0, "a position that is not finite");
+    if (!x.allFinite() || !(x.lpNorm<Eigen::Infinity>() < 1e100))
+      refuse(0, "a position that is not finite");
     low = low.cwiseMin(x), high = high.cwiseMax(x);
   }
   const double size = (high - low).norm();
@@ -112,8 +126,10 @@ Triangles parse_surface(const std::string& bytes, const std::string& shown_name)
   for (std::size_t t = 0; 3 * t < corners.size(); ++t) {
     std::array<int, 3> c;
     for (std::size_t k = 0; k < 3; ++k) c[k] = unique.at(corners[3 * t + k]);
-    const Vec3 ab = unique.points[c[1]] - unique.points[c[0]], ac = unique.points[c[2]] - unique.points[c[0]];
-    if (!(ab.cross(ac).norm() > 1e-14 * ab.norm() * ac.norm())) refuse(0, fmt::format("triangle {} has no area", t + 1));
+    const Vec3 ab = unique.points[c[1]] - unique.points[c[0]],
+               ac = unique.points[c[2]] - unique.points[c[0]];
+    if (!(ab.cross(ac).norm() > 1e-14 * ab.norm() * ac.norm()))
+      refuse(0, fmt::format("triangle {} has no area", t + 1));
     surface.corners.push_back(c);
   }
   surface.points = std::move(unique.points);
@@ -124,7 +140,10 @@ Triangles read_surface(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream bytes;
   bytes << file.rdbuf();
-  if (!file) throw Failure(Exit::input, Error{{path}, "", "cannot be read", "an STL file with triangles, normals outwards", ""});
+  if (!file)
+    throw Failure(
+        Exit::input,
+        Error{{path}, "", "cannot be read", "an STL file with triangles, normals outwards", ""});
   return parse_surface(bytes.str(), path);
 }
 

@@ -1,5 +1,6 @@
-// Reads a surface of triangles from an STL file (text or binary); corners that lie together to 1e-8 of its size are one.
-// Throws Failure(input): a file that is not one, no triangles, a triangle without area, coordinates that are not finite.
+// Reads a surface of triangles from an STL file (text or binary); corners that lie together to 1e-8
+// of its size are one. Throws Failure(input): a file that is not one, no triangles, a triangle
+// without area, coordinates that are not finite.
 #pragma once
 
 #include <string>

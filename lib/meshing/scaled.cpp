@@ -13,12 +13,16 @@ std::array<int, n> meshed(const Box& box, const std::array<int, n>& divisions) {
   return box.instead.value_or(divisions);
 }
 
-// An even number stays even, so that a line keeps passing through the middle, unless it is too small to be divided by little.
+// An even number stays even, so that a line keeps passing through the middle, unless it is too
+// small to be divided by little.
 template <class Box>
 void lengthen(Box& box, double factor) {
   std::vector<int> n;
-  const auto halved = [](int divisions) { return divisions % 2 == 0 && divisions >= 8; };
-  for (int divisions : box.divisions) n.push_back(divisions == 1 ? 0 : halved(divisions) ? divisions / 2 : divisions);
+  const auto halved = [](int divisions) {
+    return divisions % 2 == 0 && divisions >= 8;
+  };
+  for (int divisions : box.divisions)
+    n.push_back(divisions == 1 ? 0 : halved(divisions) ? divisions / 2 : divisions);
   n = divided(n, factor);
   box.instead = box.divisions;
   for (std::size_t i = 0; i < n.size(); ++i)
@@ -29,7 +33,9 @@ template <class Box>
 void scale(Box& box, double factor) {
   for (int& n : box.divisions) {
     const bool even = n % 2 == 0;
-    if (n > 1) n = even ? 2 * std::max(1L, std::lround(0.5 * n / factor)) : std::max(1L, std::lround(n / factor));
+    if (n > 1)
+      n = even ? 2 * std::max(1L, std::lround(0.5 * n / factor))
+               : std::max(1L, std::lround(n / factor));
   }
   if (box.centre) box.centre->edge *= factor;
   if (box.top) box.top->edge *= factor;

@@ -2,26 +2,29 @@
 
 #include <fmt/format.h>
 
+#include "mechanics/mesh/section.hpp"
 #include "meshing/block.hpp"
 #include "meshing/grading.hpp"
-#include "mechanics/mesh/section.hpp"
 
 namespace langer {
 
 namespace {
 
-// of the wedge for each mm of radius: an indentation's force changes by 6e-9 from 2^-12 to 2^-14, by less than 1e-9 from there to
-// 2^-20 (tests/scene/section.cpp)
+// of the wedge for each mm of radius: an indentation's force changes by 6e-9 from 2^-12 to 2^-14,
+// by less than 1e-9 from there to 2^-20 (tests/scene/section.cpp)
 constexpr double wedge = 0x1p-14;
 
 constexpr long long most = 100'000;  // cells; beyond, a number is more likely a slip than a wish
 
-void limit_cells(const SectionBox& b, const char* key, const std::string& found, std::vector<Complaint>& complaints) {
+void limit_cells(const SectionBox& b, const char* key, const std::string& found,
+                 std::vector<Complaint>& complaints) {
   if (const long long cells = 1LL * b.divisions[0] * b.divisions[1]; cells > most)
-    complaints.push_back({key, fmt::format("{}{} cells", found, cells), fmt::format("at most {} cells", most), ""});
+    complaints.push_back(
+        {key, fmt::format("{}{} cells", found, cells), fmt::format("at most {} cells", most), ""});
 }
 
-std::vector<double> lines_along(const SectionBox& b, int axis, const Points& points, std::vector<std::string>& notes) {
+std::vector<double> lines_along(const SectionBox& b, int axis, const Points& points,
+                                std::vector<std::string>& notes) {
   const double low = b.origin[axis], high = low + b.size[axis];
   const int n = b.divisions[axis];
   std::vector<double> lines;
@@ -32,7 +35,8 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
     for (double& x : lines) x += low;
     lines.back() = high;
   } else if (axis == 0 && b.centre) {
-    lines = lines_to_centre(low, high, n, b.centre->edge, b.centre->within, "geometry.section.centre.edge");
+    lines = lines_to_centre(low, high, n, b.centre->edge, b.centre->within,
+                            "geometry.section.centre.edge");
   } else {
     lines = even_lines(low, high, n);
   }
@@ -42,17 +46,21 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   if (axis == 1)
     for (double y : b.borders) demands.push_back({y, "bodies"});
   const std::string name(1, "xy"[axis]);
-  const Moved moved = through(lines, demands, name, fmt::format("geometry.section.divisions[{}]", axis));
+  const Moved moved =
+      through(lines, demands, name, fmt::format("geometry.section.divisions[{}]", axis));
   if (moved.furthest > 1e-9 * b.size[axis])
-    notes.push_back(fmt::format("grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers", name,
-                                moved.furthest));
+    notes.push_back(fmt::format(
+        "grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers",
+        name, moved.furthest));
   return moved.lines;
 }
 
 std::vector<Complaint> off_plane(const Points& points) {
   std::vector<Complaint> found;
   for (const auto& [name, x] : points)
-    if (x[2] != 0) found.push_back({"points." + name, fmt::format("found z = {:g}", x[2]), "z = 0, the plane of the section", ""});
+    if (x[2] != 0)
+      found.push_back({"points." + name, fmt::format("found z = {:g}", x[2]),
+                       "z = 0, the plane of the section", ""});
   return found;
 }
 
@@ -70,7 +78,8 @@ Mesh mesh_of(const SectionBox& box, const Points& points, std::vector<std::strin
       for (int k : {0, 1})
         for (const auto& [right, up] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
           mesh.connectivity.push_back((k * ny + j + up) * nx + i + right);
-  make_section(mesh, {box.of, box.of == SectionOf::axisymmetric ? wedge : box.thickness.value_or(1)});
+  make_section(mesh,
+               {box.of, box.of == SectionOf::axisymmetric ? wedge : box.thickness.value_or(1)});
   return mesh;
 }
 
@@ -81,18 +90,36 @@ Mesh mesh_of(const IndentedDisc& disc, const Points& points, std::vector<std::st
 std::vector<Complaint> SectionBox::complaints() const {
   std::vector<Complaint> found;
   if (of == SectionOf::axisymmetric && origin[0] < 0)
-    found.push_back({"origin", fmt::format("found x = {:g}", origin[0]), "a radius, at least 0", ""});
+    found.push_back(
+        {"origin", fmt::format("found x = {:g}", origin[0]), "a radius, at least 0", ""});
   if (of == SectionOf::axisymmetric && thickness)
-    found.push_back({"thickness", fmt::format("found {:g}", *thickness), "none: forces are those of the whole circle", ""});
+    found.push_back({"thickness", fmt::format("found {:g}", *thickness),
+                     "none: forces are those of the whole circle", ""});
   limit_cells(*this, "divisions", "found ", found);
   return found;
 }
 
 SectionBox IndentedDisc::section() const {
-  IndentedBlock whole{{-size[0], base, -size[0]}, {2 * size[0], size[1], 2 * size[0]}, radius, depth, edge, longer, {}, {}, {}};
+  IndentedBlock whole{{-size[0], base, -size[0]},
+                      {2 * size[0], size[1], 2 * size[0]},
+                      radius,
+                      depth,
+                      edge,
+                      longer,
+                      {},
+                      {},
+                      {}};
   if (even) whole.even = {*even, *even};
   const Block b = whole.block();
-  SectionBox half{SectionOf::axisymmetric, {0, base}, size, {b.divisions[0] / 2, b.divisions[1]}, b.centre, b.top, {}, {}, {}};
+  SectionBox half{SectionOf::axisymmetric,
+                  {0, base},
+                  size,
+                  {b.divisions[0] / 2, b.divisions[1]},
+                  b.centre,
+                  b.top,
+                  {},
+                  {},
+                  {}};
   if (b.instead) half.instead = {(*b.instead)[0] / 2, (*b.instead)[1]};
   half.borders = borders;
   return half;
@@ -102,10 +129,12 @@ std::vector<Complaint> IndentedDisc::complaints() const {
   std::vector<Complaint> found;
   const double contact = IndentedBlock{{}, {}, radius, depth, edge}.contact_radius();
   if (contact > 0.9 * size[0])
-    found.push_back({"size", fmt::format("a disc of radius {:g} mm", size[0]),
-                     fmt::format("more than {:.3g} mm, the contact with room around it", contact / 0.9), ""});
+    found.push_back(
+        {"size", fmt::format("a disc of radius {:g} mm", size[0]),
+         fmt::format("more than {:.3g} mm, the contact with room around it", contact / 0.9), ""});
   if (depth > size[1])
-    found.push_back({"depth", fmt::format("found {:g}", depth), fmt::format("less than the thickness, {:g} mm", size[1]), ""});
+    found.push_back({"depth", fmt::format("found {:g}", depth),
+                     fmt::format("less than the thickness, {:g} mm", size[1]), ""});
   if (found.empty()) limit_cells(section(), "edge", fmt::format("found {:g}: ", edge), found);
   return found;
 }
@@ -113,7 +142,8 @@ std::vector<Complaint> IndentedDisc::complaints() const {
 std::vector<Complaint> contradictions(const SectionBox& box, const Points& points) {
   std::vector<std::string> notes;
   if (auto found = off_plane(points); !found.empty()) return found;
-  return complaints_of([&] { lines_along(box, 0, points, notes), lines_along(box, 1, points, notes); });
+  return complaints_of(
+      [&] { lines_along(box, 0, points, notes), lines_along(box, 1, points, notes); });
 }
 
 std::vector<Complaint> contradictions(const IndentedDisc& disc, const Points& points) {

@@ -27,7 +27,8 @@ std::string short_number(const std::string& word) {
 std::string flat(const Tree& tree) {
   if (tree.kind == Tree::Kind::scalar) return short_number(tree.scalar);
   std::string text;
-  for (const Tree& item : tree.list) text += (text.empty() ? "" : tree.list[0].kind == Tree::Kind::map ? "; " : ", ") + flat(item);
+  for (const Tree& item : tree.list)
+    text += (text.empty() ? "" : tree.list[0].kind == Tree::Kind::map ? "; " : ", ") + flat(item);
   for (const auto& [key, value] : tree.map) {
     if (value.kind == Tree::Kind::null) continue;
     const bool deep = value.kind == Tree::Kind::map;
@@ -40,7 +41,8 @@ std::string flat(const Tree& tree) {
 std::string along(const Vec3& u) {
   const double size = u.norm();
   for (int k = 0; k < 3; ++k)
-    if (std::abs(std::abs(u[k]) - size) <= 1e-9 * size) return fmt::format("along {}{}", u[k] < 0 ? "−" : "", "xyz"[k]);
+    if (std::abs(std::abs(u[k]) - size) <= 1e-9 * size)
+      return fmt::format("along {}{}", u[k] < 0 ? "−" : "", "xyz"[k]);
   return fmt::format("along ({:.3g}, {:.3g}, {:.3g})", u[0] / size, u[1] / size, u[2] / size);
 }
 
@@ -49,8 +51,11 @@ std::string size_of(const Mesh& mesh) {
   for (const Vec3& x : mesh.X) low = low.cwiseMin(x), high = high.cwiseMax(x);
   const Vec3 size = high - low;
   if (mesh.section && mesh.section->of == SectionOf::axisymmetric)
-    return low[0] > 0 ? fmt::format("revolution, {:.4g} to {:.4g} mm from its axis and {:.4g} mm high", low[0], high[0], size[1])
-                      : fmt::format("revolution, {:.4g} mm in radius and {:.4g} mm high", high[0], size[1]);
+    return low[0] > 0
+               ? fmt::format("revolution, {:.4g} to {:.4g} mm from its axis and {:.4g} mm high",
+                             low[0], high[0], size[1])
+               : fmt::format("revolution, {:.4g} mm in radius and {:.4g} mm high", high[0],
+                             size[1]);
   return fmt::format("{:.4g} × {:.4g} × {:.4g} mm", size[0], size[1], size[2]);
 }
 
@@ -58,7 +63,8 @@ std::string shape_words(const Tree* rigid) {
   if (!rigid || rigid->map.empty()) return "an indenter";
   const auto& [shape, keys] = rigid->map[0];
   const Tree* radius = keys.find("radius");
-  return (shape == "ellipsoid" ? "an " : "a ") + shape + (radius ? fmt::format(" of radius {} mm", radius->scalar) : "");
+  return (shape == "ellipsoid" ? "an " : "a ") + shape +
+         (radius ? fmt::format(" of radius {} mm", radius->scalar) : "");
 }
 
 struct Reached {
@@ -81,8 +87,9 @@ double resisting(const StepRecord& step) {
 }
 
 std::string with_error(double force, const KnownError& error) {
-  return std::isfinite(error.percent) ? fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent)
-                                      : fmt::format("{:.4g}\u00a0N", force);
+  return std::isfinite(error.percent)
+             ? fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent)
+             : fmt::format("{:.4g}\u00a0N", force);
 }
 
 void tell_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {
@@ -91,24 +98,28 @@ void tell_contact(Answer& answer, const SolutionReader& solution, const Tree& co
   const Tree* first = contacts && !contacts->map.empty() ? &contacts->map[0].value : nullptr;
   const double force = resisting(step);
   const bool alone = !contacts || contacts->map.size() == 1;
-  const KnownError error =
-      last && alone ? known_error(solution.summary(), "force", force) : KnownError{force, std::numeric_limits<double>::quiet_NaN()};
-  const bool pushed = first && first->find("control") && first->find("control")->kind == Tree::Kind::map;
+  const KnownError error = last && alone
+                               ? known_error(solution.summary(), "force", force)
+                               : KnownError{force, std::numeric_limits<double>::quiet_NaN()};
+  const bool pushed =
+      first && first->find("control") && first->find("control")->kind == Tree::Kind::map;
   std::string who = shape_words(first ? first->find("rigid") : nullptr);
   who[0] = 'A';
-  answer.sentence = fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", who,
-                                pushed       ? "pushed by a given force goes"
-                                : force >= 0 ? "pressed"
-                                             : "moved",
-                                step.u_ind.norm(), along(step.u_ind), size_of(solution.header().mesh),
-                                last ? "" : ", at its greatest travel", with_error(force, error));
+  answer.sentence =
+      fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", who,
+                  pushed       ? "pushed by a given force goes"
+                  : force >= 0 ? "pressed"
+                               : "moved",
+                  step.u_ind.norm(), along(step.u_ind), size_of(solution.header().mesh),
+                  last ? "" : ", at its greatest travel", with_error(force, error));
   if (!alone) answer.sentence += ", the sum over all indenters";
   if (!contacts) return;
   for (const auto& [name, contact] : contacts->map) {
     const Tree* friction = contact.find("friction");
     answer.facts.push_back(
         {name, fmt::format("{}, {}", shape_words(contact.find("rigid")),
-                           friction && friction->scalar != "0" ? "friction " + friction->scalar : "without friction")});
+                           friction && friction->scalar != "0" ? "friction " + friction->scalar
+                                                               : "without friction")});
   }
 }
 
@@ -135,11 +146,13 @@ void tell_loads(Answer& answer, const SolutionReader& solution, const Tree& conf
       if (!on) continue;
       done += fmt::format("{}{}: {}", done.empty() ? "" : "; ", on->scalar, load_words(load));
       const auto set = mesh.node_sets.find(on->scalar);
-      if (!load.find("displacement") || load.find("displacement")->kind == Tree::Kind::null || set == mesh.node_sets.end())
+      if (!load.find("displacement") || load.find("displacement")->kind == Tree::Kind::null ||
+          set == mesh.node_sets.end())
         continue;
       Vec3 sum = Vec3::Zero();
       for (const int node : set->second) sum += last.reaction[static_cast<std::size_t>(node)];
-      answer.facts.push_back({"reaction on " + on->scalar, fmt::format("({:.4g}, {:.4g}, {:.4g}) N", sum[0], sum[1], sum[2])});
+      answer.facts.push_back({"reaction on " + on->scalar,
+                              fmt::format("({:.4g}, {:.4g}, {:.4g}) N", sum[0], sum[1], sum[2])});
     }
   double largest = 0;
   for (const Vec3& u : last.u) largest = std::max(largest, u.norm());
@@ -151,11 +164,13 @@ void tell_loads(Answer& answer, const SolutionReader& solution, const Tree& conf
 
 KnownError known_error(const std::vector<Summary>& summary, const std::string& name, double of) {
   const auto value = [&](const std::string& wanted) {
-    const auto at = std::find_if(summary.begin(), summary.end(), [&](const Summary& s) { return s.name == wanted; });
+    const auto at = std::find_if(summary.begin(), summary.end(),
+                                 [&](const Summary& s) { return s.name == wanted; });
     return at == summary.end() ? std::numeric_limits<double>::quiet_NaN() : at->value;
   };
   // what was found is its limit + cells + increments
-  const double found = value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
+  const double found =
+      value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
   const double number = std::isnan(found) ? of : found;
   return {number, 100 * value(name + "_error") / std::abs(number)};
 }
@@ -176,18 +191,22 @@ Answer answer_of(const SolutionReader& solution, const std::string& label) {
   if (!label.empty()) answer.sentence = label + ": " + answer.sentence;
   const std::vector<Material> laws = header.laws();
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const std::string of = laws.size() > 1 && i < header.mesh.bodies.size() ? " of " + header.mesh.bodies[i] : "";
+    const std::string of =
+        laws.size() > 1 && i < header.mesh.bodies.size() ? " of " + header.mesh.bodies[i] : "";
     for (const auto& [part, value] : to_tree(laws[i]).map)
-      if (const std::string text = flat(value); !text.empty()) answer.facts.push_back({part + of, text});
+      if (const std::string text = flat(value); !text.empty())
+        answer.facts.push_back({part + of, text});
   }
   if (const Tree* angles = config.find("fibre_angles"); angles && !angles->list.empty())
     answer.facts.push_back({"fibre angles", flat(*angles) + "°"});
   if (const Tree* supports = config.find("supports"))
     for (const Tree& support : supports->list)
       if (support.find("on") && support.find("hold"))
-        answer.facts.push_back({"held", support.find("on")->scalar + ": " + flat(*support.find("hold"))});
-  answer.facts.push_back({"cells", fmt::format("{} with {} nodes, {}, {} increments", header.mesh.n_cells(), header.mesh.n_nodes(),
-                                               header.formulation, solution.n_steps())});
+        answer.facts.push_back(
+            {"held", support.find("on")->scalar + ": " + flat(*support.find("hold"))});
+  answer.facts.push_back(
+      {"cells", fmt::format("{} with {} nodes, {}, {} increments", header.mesh.n_cells(),
+                            header.mesh.n_nodes(), header.formulation, solution.n_steps())});
   return answer;
 }
 

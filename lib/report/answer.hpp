@@ -1,4 +1,5 @@
-// What a reader asks first of a solution: what was done to which body, and what force came of it, with the error that is known of it.
+// What a reader asks first of a solution: what was done to which body, and what force came of it,
+// with the error that is known of it.
 #pragma once
 
 #include <string>
@@ -18,8 +19,8 @@ struct Answer {
   std::vector<Fact> facts;
 };
 
-// Estimated error of a number of the summary in percent of it, as cells and increments make it; NaN where nothing was estimated.
-// `of`: the number, where limit and parts do not tell it.
+// Estimated error of a number of the summary in percent of it, as cells and increments make it; NaN
+// where nothing was estimated. `of`: the number, where limit and parts do not tell it.
 struct KnownError {
   double value = 0, percent = 0;
 };

@@ -1,5 +1,5 @@
-// The deformed body of a solution as data of a page: places, displacements and fields of its nodes in several states, the facets
-// of its surface, fibres, and the indenters pressed into it.
+// The deformed body of a solution as data of a page: places, displacements and fields of its nodes
+// in several states, the facets of its surface, fibres, and the indenters pressed into it.
 //   displacement  int16, one unit is `step` mm     fields  uint16 between their least and largest value over all states
 //   fibre         F a = sum_k x_k (grad N_k . a) at the middle of a cell: eight weights per glyph, so that a fibre can be drawn
 //                 at any state and scale; it stands on the middle of a facet
@@ -15,7 +15,7 @@
 namespace langer::report {
 
 // at most `budget` bytes, unless two states of the surface need more
-Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path, const ReportConfig& config,
-               double budget);
+Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path,
+               const ReportConfig& config, double budget);
 
 }  // namespace langer::report

@@ -1,4 +1,5 @@
-// The page's files as they stand in lib/report/page, and three.js; cmake/embed.cmake writes them into the program.
+// The page's files as they stand in lib/report/page, and three.js; cmake/embed.cmake writes them
+// into the program.
 #pragma once
 
 #include <string_view>

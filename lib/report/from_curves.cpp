@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <map>
 
-#include "results/post/curves.hpp"
 #include "report/labels.hpp"
 #include "report/sources.hpp"
+#include "results/post/curves.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer::report {
@@ -16,7 +16,9 @@ std::string stem(const std::string& name) {
   if (cut == std::string::npos || cut == 0) return name;
   const std::string place = name.substr(cut + 1);
   const bool is_place =
-      !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c); });
+      !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) {
+        return std::isupper(c) || std::isdigit(c);
+      });
   return is_place ? name.substr(0, cut) : name;
 }
 
@@ -31,8 +33,8 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
     for (const Column& c : curves.columns) place.emplace(c.name, place.size());
     std::vector<const NamedCurve*> sorted;
     const auto curve_called = [&](const std::string& name) {
-      const auto found =
-          std::find_if(curves.curves.begin(), curves.curves.end(), [&](const NamedCurve& c) { return c.name == name; });
+      const auto found = std::find_if(curves.curves.begin(), curves.curves.end(),
+                                      [&](const NamedCurve& c) { return c.name == name; });
       return found == curves.curves.end() ? nullptr : &*found;
     };
     const auto is_band = [&](const std::string& name) {  // of another curve
@@ -43,15 +45,20 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
     };
     for (const NamedCurve& c : curves.curves)
       if (!is_band(c.name)) sorted.push_back(&c);
-    const auto rank = [&](const NamedCurve* c) { return place.count(c->name) ? place.at(c->name) : place.size(); };
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
+    const auto rank = [&](const NamedCurve* c) {
+      return place.count(c->name) ? place.at(c->name) : place.size();
+    };
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
     for (const NamedCurve* c : sorted) {
       const std::string title = sources.size() == 1 ? stem(c->name) : c->name;
       auto [it, is_new] = charts.try_emplace(title);
       Chart& chart = it->second;
       if (is_new) {
         order.push_back(title);
-        chart = {"curves", in_words(title), in_words(c->x_label), c->x_unit, in_words(title), c->y_unit, {}, sources.size() > 1};
+        chart = {"curves",  in_words(title),   in_words(c->x_label),
+                 c->x_unit, in_words(title),   c->y_unit,
+                 {},        sources.size() > 1};
       }
       chart.ordered = chart.ordered && source.numbered;
       chart.series.push_back({sources.size() > 1 ? source.label

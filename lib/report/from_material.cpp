@@ -50,7 +50,8 @@ void add_curves_of_scenes(ReportPage& page, const Source& source, const FitRecor
   }
 }
 
-// Standard deviation of a test's points about a smooth curve: each beside the cubic through its four neighbours. [MPa]; 0 below five points
+// Standard deviation of a test's points about a smooth curve: each beside the cubic through its
+// four neighbours. [MPa]; 0 below five points
 double scatter(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
   int n = 0;
@@ -74,7 +75,8 @@ double root_mean_square(const std::vector<double>& a, const std::vector<double>&
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Good: the law misses every test by no more than twice what its points scatter, or than 1 % of the largest stress.
+// Good: the law misses every test by no more than twice what its points scatter, or than 1 % of the
+// largest stress.
 void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
   constexpr double least = 0.01, enough = 2;
   std::string missed;
@@ -82,30 +84,37 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
     double largest = 0;
     for (const auto* list : {&test.stress_x, &test.stress_z})
       for (double s : *list) largest = std::max(largest, std::abs(s));
-    for (const auto& [stress, model] : {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
+    for (const auto& [stress, model] :
+         {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
       const double miss = root_mean_square(*stress, *model), points = scatter(test.first, *stress),
                    noise = std::max(points, least * largest);
       if (stress->empty() || !(miss > enough * noise)) continue;
-      missed += fmt::format("{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %", missed.empty() ? "" : "; ",
-                            test.name, 100 * miss / largest, 100 * points / largest);
+      missed += fmt::format(
+          "{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %",
+          missed.empty() ? "" : "; ", test.name, 100 * miss / largest, 100 * points / largest);
       break;
     }
   }
   for (const FittedCurve& curve : fit.curves)
-    if (const double miss = root_mean_square(curve.measured, curve.model); miss > enough * curve.standard_deviation)
-      missed += fmt::format("{}{} by {:.2g} times its standard deviation", missed.empty() ? "" : "; ", curve.name,
-                            miss / curve.standard_deviation);
+    if (const double miss = root_mean_square(curve.measured, curve.model);
+        miss > enough * curve.standard_deviation)
+      missed +=
+          fmt::format("{}{} by {:.2g} times its standard deviation", missed.empty() ? "" : "; ",
+                      curve.name, miss / curve.standard_deviation);
   const std::string errors =
-      fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest {}; R² = {:.5f}", fit.mean_error_percent,
-                  fit.max_error_percent, fit.curves.empty() ? "stress" : "value", fit.r2);
+      fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest {}; R² = {:.5f}",
+                  fit.mean_error_percent, fit.max_error_percent,
+                  fit.curves.empty() ? "stress" : "value", fit.r2);
   if (missed.empty())
-    page.verdicts.push_back({Level::good, source.label, "the law follows the tests within their scatter: " + errors});
+    page.verdicts.push_back(
+        {Level::good, source.label, "the law follows the tests within their scatter: " + errors});
   else
     page.verdicts.push_back(
         {Level::warning, source.label,
-         fmt::format("the law misses tests by more than their scatter ({}), root mean squares: another law or a "
-                     "shorter range may follow them; {}",
-                     missed, errors)});
+         fmt::format(
+             "the law misses tests by more than their scatter ({}), root mean squares: another law or a "
+             "shorter range may follow them; {}",
+             missed, errors)});
 }
 
 std::vector<std::vector<double>> rows_of(const MatX& m) {
@@ -117,26 +126,32 @@ std::vector<std::vector<double>> rows_of(const MatX& m) {
   return rows;
 }
 
-// What the tests tell of the parameters: each one's profile with the line that ends its interval, and their correlation.
-void add_identifiability(ReportPage& page, const Source& source, const FitRecord& fit, const h5::Group& root) {
+// What the tests tell of the parameters: each one's profile with the line that ends its interval,
+// and their correlation.
+void add_identifiability(ReportPage& page, const Source& source, const FitRecord& fit,
+                         const h5::Group& root) {
   constexpr double ends = 3.84;  // chi-square of one degree of freedom at 95 %
   const std::string profiles = "identifiability/profiles";
   for (const FittedParameter& p : fit.parameters) {
     if (!root.has(profiles + "/" + p.name)) continue;
     const h5::Group profile = root.group(profiles).group(p.name);
-    Chart chart{"profiles", fmt::format("profile of {}", p.name), p.name, p.unit, "rise of χ²", "-", {}, false};
-    chart.series.push_back(
-        {p.name, profile.read<double>("value", {h5::any}).values, profile.read<double>("rise", {h5::any}).values});
+    Chart chart{
+        "profiles", fmt::format("profile of {}", p.name), p.name, p.unit, "rise of χ²", "-", {},
+        false};
+    chart.series.push_back({p.name, profile.read<double>("value", {h5::any}).values,
+                            profile.read<double>("rise", {h5::any}).values});
     chart.marks.push_back({"95 %", ends});
     page.charts.push_back(std::move(chart));
   }
   if (fit.parameters.size() < 2) return;
-  Matrix matrix{"correlation of the parameters, " + source.label, {}, rows_of(correlation(fit.covariance))};
+  Matrix matrix{
+      "correlation of the parameters, " + source.label, {}, rows_of(correlation(fit.covariance))};
   for (const FittedParameter& p : fit.parameters) matrix.names.push_back(p.name);
   page.matrices.push_back(std::move(matrix));
 }
 
-// where the law is strongly elliptic, over the plane of stretches; twice its stiffness at rest is a medium colour
+// where the law is strongly elliptic, over the plane of stretches; twice its stiffness at rest is a
+// medium colour
 void add_stability(ReportPage& page, const Source& source, const h5::Group& root) {
   if (!root.has("stability/plane")) return;
   const h5::Group stability = root.group("stability");
@@ -156,7 +171,8 @@ void add_stability(ReportPage& page, const Source& source, const h5::Group& root
   std::size_t rest = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (std::abs(map.at[i] - 1) < std::abs(map.at[rest] - 1)) rest = i;
-  if (n > 0 && std::abs(map.values[rest][rest]) > 0) map.middle = 2 * std::abs(map.values[rest][rest]);
+  if (n > 0 && std::abs(map.values[rest][rest]) > 0)
+    map.middle = 2 * std::abs(map.values[rest][rest]);
   page.maps.push_back(std::move(map));
 }
 
@@ -169,19 +185,24 @@ void judge_parameters(ReportPage& page, const Source& source, const FitRecord& f
       worst = std::max(worst, p.standard_error / std::abs(p.value));
       continue;
     }
-    if (&list == &on_bound && fit.at_rest && fit.at_rest->key.ends_with("." + p.name)) continue;  // said below
+    if (&list == &on_bound && fit.at_rest && fit.at_rest->key.ends_with("." + p.name))
+      continue;  // said below
     list += (list.empty() ? "" : ", ") + p.name;
   }
   if (!open.empty())
     page.verdicts.push_back(
-        {Level::warning, source.label, fmt::format("the tests barely determine {}: standard error above half the value", open)});
+        {Level::warning, source.label,
+         fmt::format("the tests barely determine {}: standard error above half the value", open)});
   if (!on_bound.empty())
     page.verdicts.push_back(
-        {Level::warning, source.label, fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
+        {Level::warning, source.label,
+         fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
   if (fit.at_rest) page.verdicts.push_back({Level::warning, source.label, in_words(*fit.at_rest)});
   if (open.empty() && on_bound.empty() && !fit.at_rest && !fit.parameters.empty())
-    page.verdicts.push_back({Level::good, source.label,
-                             fmt::format("the tests determine every parameter: standard errors of at most {:.2g} %", 100 * worst)});
+    page.verdicts.push_back(
+        {Level::good, source.label,
+         fmt::format("the tests determine every parameter: standard errors of at most {:.2g} %",
+                     100 * worst)});
 }
 
 }  // namespace
@@ -190,10 +211,14 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const auto fit = read_material(source.path).fit;
     if (!fit) continue;
-    ReportTable table{
-        "Parameters: " + source.label,
-        {{"parameter", "-"}, {"unit", "-"}, {"value", "-"}, {"standard error", "-"}, {"lower bound", "-"}, {"upper bound", "-"}},
-        {}};
+    ReportTable table{"Parameters: " + source.label,
+                      {{"parameter", "-"},
+                       {"unit", "-"},
+                       {"value", "-"},
+                       {"standard error", "-"},
+                       {"lower bound", "-"},
+                       {"upper bound", "-"}},
+                      {}};
     for (const FittedParameter& p : fit->parameters)
       table.rows.push_back({p.name, p.unit, p.value, p.standard_error, p.lower, p.upper});
     page.tables.push_back(std::move(table));
@@ -201,15 +226,19 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
     judge_parameters(page, source, *fit);
     const h5::File file = h5::File::open(source.path);
     const auto said = [&](const char* group, const char* attribute) {
-      if (!file.root().has(group) || !file.root().group(group).has_attribute(attribute)) return std::string();
+      if (!file.root().has(group) || !file.root().group(group).has_attribute(attribute))
+        return std::string();
       return file.root().group(group).text_attribute(attribute);
     };
     if (const std::string verdict = said("stability", "verdict"); !verdict.empty())
       page.verdicts.push_back(
-          {verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos ? Level::note : Level::warning,
+          {verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos
+               ? Level::note
+               : Level::warning,
            source.label, verdict});
     if (const std::string least = said("identifiability", "words"); !least.empty())
-      page.verdicts.push_back({Level::note, source.label, "least identifiable combination: " + least});
+      page.verdicts.push_back(
+          {Level::note, source.label, "least identifiable combination: " + least});
     add_tests(page, source, *fit);
     add_curves_of_scenes(page, source, *fit);
     add_identifiability(page, source, *fit, file.root());

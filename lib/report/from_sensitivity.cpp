@@ -10,11 +10,12 @@ void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
   struct Matrix {
     const char *name, *title, *unit;
   };
-  static constexpr Matrix matrices[] = {{"mu_star_range", "one at a time: effect over the range", "MPa"},
-                                        {"morris/mu_star", "Morris: mean effect over the range", "MPa"},
-                                        {"morris/sigma", "Morris: spread of the effects", "MPa"},
-                                        {"sobol/first", "Sobol: first-order share", "-"},
-                                        {"sobol/total", "Sobol: total share", "-"}};
+  static constexpr Matrix matrices[] = {
+      {"mu_star_range", "one at a time: effect over the range", "MPa"},
+      {"morris/mu_star", "Morris: mean effect over the range", "MPa"},
+      {"morris/sigma", "Morris: spread of the effects", "MPa"},
+      {"sobol/first", "Sobol: first-order share", "-"},
+      {"sobol/total", "Sobol: total share", "-"}};
   for (const Source& source : sources) {
     const h5::File file = h5::File::open(source.path);
     read_identity(file.root(), sensitivity_schema);
@@ -25,22 +26,27 @@ void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
     for (const Matrix& matrix : matrices) {
       const std::string path = matrix.name;
       const auto cut = path.find('/');
-      const std::string folder = cut == std::string::npos ? "" : path.substr(0, cut), name = path.substr(cut + 1);
+      const std::string folder = cut == std::string::npos ? "" : path.substr(0, cut),
+                        name = path.substr(cut + 1);
       if (!folder.empty() && !file.root().has(folder)) continue;
       const h5::Group group = folder.empty() ? file.root() : file.root().group(folder);
       if (!group.has(name)) continue;
       const auto values = group.read<double>(name, {parameters.size(), strain.size()}).values;
-      Chart chart{"sensitivity",
-                  sources.size() > 1 ? fmt::format("{}: {}", source.label, matrix.title) : matrix.title,
-                  "strain",
-                  "-",
-                  matrix.title,
-                  matrix.unit,
-                  {},
-                  false};
+      Chart chart{
+          "sensitivity",
+          sources.size() > 1 ? fmt::format("{}: {}", source.label, matrix.title) : matrix.title,
+          "strain",
+          "-",
+          matrix.title,
+          matrix.unit,
+          {},
+          false};
       for (std::size_t p = 0; p < parameters.size(); ++p) {
         const auto row = values.begin() + static_cast<std::ptrdiff_t>(p * strain.size());
-        chart.series.push_back({parameters[p], strain, {row, row + static_cast<std::ptrdiff_t>(strain.size())}, false});
+        chart.series.push_back({parameters[p],
+                                strain,
+                                {row, row + static_cast<std::ptrdiff_t>(strain.size())},
+                                false});
       }
       page.charts.push_back(std::move(chart));
     }

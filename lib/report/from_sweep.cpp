@@ -30,7 +30,8 @@ Axis read_axis(const h5::Group& group, const std::string& name) {
   std::istringstream in(all);
   for (std::string word; in >> word;) known.push_back(word);
   for (const std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values) {
-    if (i < 0 || i >= static_cast<std::int64_t>(known.size())) group.refuse(name, fmt::format("{}", i), "an index of its words");
+    if (i < 0 || i >= static_cast<std::int64_t>(known.size()))
+      group.refuse(name, fmt::format("{}", i), "an index of its words");
     axis.words.push_back(known[static_cast<std::size_t>(i)]);
   }
   return axis;
@@ -54,7 +55,8 @@ std::string family(const std::string& name) {
 }
 
 // columns of one family in one picture, with what the symmetry of the scene asks of them
-void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& columns, const std::vector<std::string>& units) {
+void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& columns,
+                const std::vector<std::string>& units) {
   std::vector<std::string> done;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string of = family(columns[c].name);
@@ -62,7 +64,8 @@ void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& c
     done.push_back(of + units[c]);
     Polar polar{of, axis.name, units[c], axis.numbers, {}, {}};
     std::erase(polar.title, '*');
-    while (polar.title.find("__") != std::string::npos) polar.title.replace(polar.title.find("__"), 2, "_");
+    while (polar.title.find("__") != std::string::npos)
+      polar.title.replace(polar.title.find("__"), 2, "_");
     if (!polar.title.empty() && polar.title.back() == '_') polar.title.pop_back();
     polar.title = in_words(polar.title);
     for (std::size_t d = c; d < columns.size(); ++d)
@@ -75,7 +78,8 @@ void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& c
       for (const Series& b : polar.series) {
         std::string other;
         if (!at_place(b.name, at_place(a.name, 'A', around) ? 'B' : 'D', other)) continue;
-        if (const auto r = swap_residual(a.name, b.name, axis.numbers, a.y, b.y)) polar.residuals.push_back(*r);
+        if (const auto r = swap_residual(a.name, b.name, axis.numbers, a.y, b.y))
+          polar.residuals.push_back(*r);
       }
     }
     page.polars.push_back(std::move(polar));
@@ -105,22 +109,34 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
     std::string most;
     order >> most;  // the one that would help most stands first
     const double left = without.empty() ? std::nan("") : without[0];
-    table.rows.push_back({name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
+    table.rows.push_back(
+        {name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
     if (std::isfinite(deviation) && mean != 0 && !most.empty())
       page.verdicts.push_back(
           {Level::note, source.label,
-           fmt::format("{} {:.4g} {} ± {:.2g} % by what the fit leaves open of the parameters; {:.2g} % if {} were known", name,
-                       mean, one.unit("mean"), 100 * deviation / std::abs(mean), 100 * left / std::abs(mean), most)});
+           fmt::format(
+               "{} {:.4g} {} ± {:.2g} % by what the fit leaves open of the parameters; {:.2g} % if {} were known",
+               name, mean, one.unit("mean"), 100 * deviation / std::abs(mean),
+               100 * left / std::abs(mean), most)});
   }
   page.tables.push_back(std::move(table));
   const h5::Group bands = root.group("bands");
   for (const std::string& name : bands.groups()) {
     const h5::Group one = bands.group(name);
-    const auto values = [&](const char* of) { return one.read<double>(of, {h5::any}).values; };
+    const auto values = [&](const char* of) {
+      return one.read<double>(of, {h5::any}).values;
+    };
     const std::string x = one.text_attribute("x"), y = one.text_attribute("y");
     Series mean{"mean of the samples, ± one standard deviation", values("x"), values("mean")};
     mean.error = values("deviation");
-    page.charts.push_back({"sweep", in_words(y), in_words(x), one.unit("x"), in_words(y), one.unit("mean"), {mean}, false});
+    page.charts.push_back({"sweep",
+                           in_words(y),
+                           in_words(x),
+                           one.unit("x"),
+                           in_words(y),
+                           one.unit("mean"),
+                           {mean},
+                           false});
   }
 }
 
@@ -132,7 +148,8 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     read_identity(file.root(), sweep_schema);
     const h5::Group axis_group = file.root().group("axis"), values = file.root().group("values");
     std::vector<Axis> axes;
-    for (const std::string& name : axis_group.datasets()) axes.push_back(read_axis(axis_group, name));
+    for (const std::string& name : axis_group.datasets())
+      axes.push_back(read_axis(axis_group, name));
     std::istringstream members(file.root().read_text("members"));
     ReportTable table{"Sweep: " + source.label, {}, {}};
     for (std::string member; std::getline(members, member);)
@@ -140,11 +157,13 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     const std::size_t n = table.rows.size();
     if (axes.empty()) table.columns.push_back({"member", "-"});
     for (const Axis& axis : axes) {
-      if (std::max(axis.numbers.size(), axis.words.size()) != n) axis_group.refuse(axis.name, "another number of members");
+      if (std::max(axis.numbers.size(), axis.words.size()) != n)
+        axis_group.refuse(axis.name, "another number of members");
       table.columns.push_back({axis.name, axis.unit});
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(axis.at(i));
     }
-    const Axis* angle = axes.size() == 1 && axes[0].unit == "deg" && axes[0].words.empty() ? &axes[0] : nullptr;
+    const Axis* angle =
+        axes.size() == 1 && axes[0].unit == "deg" && axes[0].words.empty() ? &axes[0] : nullptr;
     const Axis* along = axes.size() == 1 && axes[0].words.empty() && n > 1 ? &axes[0] : nullptr;
     std::vector<Series> columns;
     std::vector<std::string> units;
@@ -153,14 +172,18 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       const auto column = values.read<double>(name, {n}).values;
       table.columns.push_back({name, values.unit(name)});
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(column[i]);
-      const bool whole = std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); });
-      if (along && whole) columns.push_back({name, along->numbers, column, false}), units.push_back(values.unit(name));
+      const bool whole =
+          std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); });
+      if (along && whole)
+        columns.push_back({name, along->numbers, column, false}),
+            units.push_back(values.unit(name));
     }
     page.tables.push_back(std::move(table));
     add_spread(page, source, file.root());
     if (angle && n > 2)
       add_polars(page, *angle, columns, units);
-    else if (along && axes[0].name != "sample" && !file.root().has("spread"))  // samples of a design have no order
+    else if (along && axes[0].name != "sample" &&
+             !file.root().has("spread"))  // samples of a design have no order
       for (std::size_t c = 0; c < columns.size(); ++c)
         page.charts.push_back({"sweep",
                                in_words(columns[c].name),
@@ -175,8 +198,9 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
         if (r.value > 0.02)
           page.verdicts.push_back(
               {Level::warning, source.label,
-               fmt::format("{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks that symmetry", r.says,
-                           100 * r.value)});
+               fmt::format(
+                   "{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks that symmetry",
+                   r.says, 100 * r.value)});
   }
 }
 

@@ -1,4 +1,5 @@
-// Text of JSON for a page's <script>: nothing in it can end the script, numbers that are not finite become null.
+// Text of JSON for a page's <script>: nothing in it can end the script, numbers that are not finite
+// become null.
 #pragma once
 
 #include <cmath>
@@ -31,7 +32,8 @@ inline Json numbers(const std::vector<double>& values) { return list(values, num
 
 inline Json object(const std::vector<std::pair<const char*, Json>>& parts) {
   std::string text;
-  for (const auto& [key, value] : parts) text += (text.empty() ? "" : ",") + words(key).text + ":" + value.text;
+  for (const auto& [key, value] : parts)
+    text += (text.empty() ? "" : ",") + words(key).text + ":" + value.text;
   return {"{" + text + "}"};
 }
 

@@ -11,7 +11,8 @@ std::string plain_label(const char* label) {
   std::string s = label;
   std::erase_if(s, [](char c) { return c == '{' || c == '}'; });
   for (const char* greek : {"σ", "ε"})
-    if (const auto at = s.find(greek + std::string("_")); at != s.npos) s.erase(at + std::string_view(greek).size(), 1);
+    if (const auto at = s.find(greek + std::string("_")); at != s.npos)
+      s.erase(at + std::string_view(greek).size(), 1);
   return s;
 }
 
@@ -20,11 +21,13 @@ std::string in_words(const std::string& column) {
   std::size_t length = 0;
   for (const QuantityLine& line : quantity_lines()) {
     const std::string_view word = line.word;
-    const bool begins = column.starts_with(word) && (column.size() == word.size() || column[word.size()] == '_');
+    const bool begins =
+        column.starts_with(word) && (column.size() == word.size() || column[word.size()] == '_');
     if (begins && word.size() > length) best = &line, length = word.size();
   }
   std::string rest = column.substr(length);
-  if (best && length == 1 && !rest.empty()) best = nullptr, rest = column;  // t_half is no path parameter
+  if (best && length == 1 && !rest.empty())
+    best = nullptr, rest = column;  // t_half is no path parameter
   std::replace(rest.begin(), rest.end(), '_', ' ');
   if (!best) return rest;
   return plain_label(best->label) + (rest.empty() ? "" : "," + rest);

@@ -1,4 +1,5 @@
-// Names of columns in words: u_y_A_half is "displacement u_y, A half"; what is no quantity stays, with spaces.
+// Names of columns in words: u_y_A_half is "displacement u_y, A half"; what is no quantity stays,
+// with spaces.
 #pragma once
 
 #include <string>

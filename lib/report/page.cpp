@@ -8,7 +8,9 @@ namespace langer::report {
 
 namespace {
 
-const char* level_word(Level level) { return level == Level::good ? "good" : level == Level::note ? "note" : "warning"; }
+const char* level_word(Level level) {
+  return level == Level::good ? "good" : level == Level::note ? "note" : "warning";
+}
 
 Json series(const Series& s) {
   return object({{"name", words(s.name)},
@@ -19,12 +21,16 @@ Json series(const Series& s) {
 }
 
 Json answer(const Answer& a) {
-  const auto fact = [](const Answer::Fact& f) { return object({{"name", words(f.name)}, {"text", words(f.text)}}); };
+  const auto fact = [](const Answer::Fact& f) {
+    return object({{"name", words(f.name)}, {"text", words(f.text)}});
+  };
   return object({{"sentence", words(a.sentence)}, {"facts", list(a.facts, fact)}});
 }
 
 Json matrix(const Matrix& m) {
-  return object({{"title", words(m.title)}, {"names", list(m.names, words)}, {"values", list(m.values, numbers)}});
+  return object({{"title", words(m.title)},
+                 {"names", list(m.names, words)},
+                 {"values", list(m.values, numbers)}});
 }
 
 Json plane_map(const PlaneMap& m) {
@@ -55,7 +61,8 @@ Json chart(const Chart& c) {
 
 Json polar(const Polar& p) {
   const auto residual = [](const SymmetryResidual& r) {
-    return object({{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
+    return object(
+        {{"says", words(r.says)}, {"pairs", number(r.pairs)}, {"value", number(r.value)}});
   };
   return object({{"title", words(p.title)},
                  {"axis", words(p.axis)},
@@ -67,16 +74,20 @@ Json polar(const Polar& p) {
 
 Json data_of(const ReportPage& page) {
   const auto verdict = [](const Verdict& v) {
-    return object({{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
+    return object(
+        {{"level", words(level_word(v.level))}, {"of", words(v.of)}, {"text", words(v.text)}});
   };
   const auto table = [](const ReportTable& t) {
-    const auto column = [](const TableColumn& c) { return object({{"name", words(c.name)}, {"unit", words(c.unit)}}); };
-    const auto cell = [](const Cell& c) {
-      return std::holds_alternative<double>(c) ? number(std::get<double>(c)) : words(std::get<std::string>(c));
+    const auto column = [](const TableColumn& c) {
+      return object({{"name", words(c.name)}, {"unit", words(c.unit)}});
     };
-    return object({{"title", words(t.title)}, {"columns", list(t.columns, column)}, {"rows", list(t.rows, [&](const auto& row) {
-                                                                                       return list(row, cell);
-                                                                                     })}});
+    const auto cell = [](const Cell& c) {
+      return std::holds_alternative<double>(c) ? number(std::get<double>(c))
+                                               : words(std::get<std::string>(c));
+    };
+    return object({{"title", words(t.title)},
+                   {"columns", list(t.columns, column)},
+                   {"rows", list(t.rows, [&](const auto& row) { return list(row, cell); })}});
   };
   const auto origin = [](const FileOrigin& o) {
     return object({{"label", words(o.label)},
@@ -110,18 +121,23 @@ bool has_three() { return !embedded::three_js.empty(); }
 
 std::size_t bytes_without_data() {
   using namespace embedded;
-  return index_html.size() + style_css.size() + three_js.size() + orbit_js.size() + charts_js.size() + tables_js.size() +
-         body_js.size() + main_js.size();
+  return index_html.size() + style_css.size() + three_js.size() + orbit_js.size() +
+         charts_js.size() + tables_js.size() + body_js.size() + main_js.size();
 }
 
 std::string html(const ReportPage& page) {
   using namespace embedded;
   const std::string data = data_of(page).text, title = xml_text(page.title);
   const bool view = has_three() && !page.bodies.empty();
-  const std::pair<std::string_view, std::string_view> parts[] = {
-      {"title", title}, {"style", style_css},  {"three", view ? three_js : ""}, {"orbit", view ? orbit_js : ""},
-      {"data", data},   {"charts", charts_js}, {"tables", tables_js},           {"body", body_js},
-      {"main", main_js}};
+  const std::pair<std::string_view, std::string_view> parts[] = {{"title", title},
+                                                                 {"style", style_css},
+                                                                 {"three", view ? three_js : ""},
+                                                                 {"orbit", view ? orbit_js : ""},
+                                                                 {"data", data},
+                                                                 {"charts", charts_js},
+                                                                 {"tables", tables_js},
+                                                                 {"body", body_js},
+                                                                 {"main", main_js}};
   std::string text;
   std::string_view rest = index_html;
   for (;;) {

@@ -1,4 +1,5 @@
-// A report as values, and as one HTML file that needs nothing beside it: styles, scripts, three.js and the data are inside.
+// A report as values, and as one HTML file that needs nothing beside it: styles, scripts, three.js
+// and the data are inside.
 //   answers   what was done and what came of it  verdicts  whether to believe it       charts  curves with hover values
 //   polars    a sweep over an angle              matrices  correlations                maps    values over a plane
 //   tables    numbers                            bodies    deformed bodies to look at  origins who made which file from what

@@ -12,8 +12,9 @@ namespace {
 bool same_direction(double a, double b) { return std::abs(std::remainder(a - b, 180)) < 1e-9; }
 
 // a(α) against b(partner - α)
-std::optional<SymmetryResidual> compared(std::string says, const std::vector<double>& angle, const std::vector<double>& a,
-                                         const std::vector<double>& b, double partner, bool both_ways) {
+std::optional<SymmetryResidual> compared(std::string says, const std::vector<double>& angle,
+                                         const std::vector<double>& a, const std::vector<double>& b,
+                                         double partner, bool both_ways) {
   SymmetryResidual residual{std::move(says), 0, 0};
   double largest = 0, scale = 0;
   for (std::size_t i = 0; i < angle.size(); ++i)
@@ -30,13 +31,15 @@ std::optional<SymmetryResidual> compared(std::string says, const std::vector<dou
 
 }  // namespace
 
-std::optional<SymmetryResidual> mirror_residual(const std::string& name, const std::vector<double>& angle,
+std::optional<SymmetryResidual> mirror_residual(const std::string& name,
+                                                const std::vector<double>& angle,
                                                 const std::vector<double>& f) {
   return compared(fmt::format("{0}(α) = {0}(180° − α)", name), angle, f, f, 180, false);
 }
 
 std::optional<SymmetryResidual> swap_residual(const std::string& name_a, const std::string& name_b,
-                                              const std::vector<double>& angle, const std::vector<double>& a,
+                                              const std::vector<double>& angle,
+                                              const std::vector<double>& a,
                                               const std::vector<double>& b) {
   return compared(fmt::format("{}(α) = {}(90° − α)", name_a, name_b), angle, a, b, 90, true);
 }

@@ -1,7 +1,9 @@
-// What a sweep over the fibre angle must fulfil by the symmetry of a scene, and by how much it does not.
+// What a sweep over the fibre angle must fulfil by the symmetry of a scene, and by how much it does
+// not.
 //   mirror   a square body under a sphere in its middle: f(α) = f(180 - α)
 //   swap     a quarter turn carries A to B: f_A(α) = f_B(90 - α)
-// Angles count modulo 180 degrees. A residual is the largest difference over the largest |f| of the columns compared.
+// Angles count modulo 180 degrees. A residual is the largest difference over the largest |f| of the
+// columns compared.
 #pragma once
 
 #include <optional>
@@ -16,11 +18,14 @@ struct SymmetryResidual {
   double value = 0;  // -
 };
 
-// nothing where no two angles of the sweep are partners (an angle that is its own partner compares nothing)
-std::optional<SymmetryResidual> mirror_residual(const std::string& name, const std::vector<double>& angle,
+// nothing where no two angles of the sweep are partners (an angle that is its own partner compares
+// nothing)
+std::optional<SymmetryResidual> mirror_residual(const std::string& name,
+                                                const std::vector<double>& angle,
                                                 const std::vector<double>& f);
 std::optional<SymmetryResidual> swap_residual(const std::string& name_a, const std::string& name_b,
-                                              const std::vector<double>& angle, const std::vector<double>& a,
+                                              const std::vector<double>& angle,
+                                              const std::vector<double>& a,
                                               const std::vector<double>& b);
 
 }  // namespace langer::report

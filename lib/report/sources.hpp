@@ -16,10 +16,12 @@ struct Source {
   bool numbered = false;
 };
 
-// Labels from the folders that tell the files apart: alpha_030/post/curves.h5 is "alpha = 30"; a file alone by its own folder.
+// Labels from the folders that tell the files apart: alpha_030/post/curves.h5 is "alpha = 30"; a
+// file alone by its own folder.
 std::vector<Source> labelled(const std::vector<std::string>& paths);
 
-void add_solutions(ReportPage& page, const std::vector<Source>& sources, const ReportConfig& config);
+void add_solutions(ReportPage& page, const std::vector<Source>& sources,
+                   const ReportConfig& config);
 void add_curves(ReportPage& page, const std::vector<Source>& sources);
 void add_sweeps(ReportPage& page, const std::vector<Source>& sources);
 void add_materials(ReportPage& page, const std::vector<Source>& sources);

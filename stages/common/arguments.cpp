@@ -14,7 +14,9 @@
 namespace langer {
 
 struct Arguments::Parser {
-  explicit Parser(std::string program) : app("", std::move(program)) { app.set_help_flag("-h,--help"); }
+  explicit Parser(std::string program) : app("", std::move(program)) {
+    app.set_help_flag("-h,--help");
+  }
   CLI::App app;
 };
 
@@ -39,7 +41,9 @@ void Arguments::text(const std::string& name, std::vector<std::string>& given, b
   parser_->app.add_option(name, given)->allow_extra_args(false)->required(required)->expected(1);
 }
 
-void Arguments::version() { parser_->app.set_version_flag("--version", version_line(parser_->app.get_name())); }
+void Arguments::version() {
+  parser_->app.set_version_flag("--version", version_line(parser_->app.get_name()));
+}
 
 bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
   CLI::App& app = parser_->app;
@@ -67,8 +71,8 @@ bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
     for (const std::string& extra : app.remaining())
       if (extra.rfind("-", 0) == 0) {
         const std::string near = nearest(extra, known);
-        say_error(
-            fmt::format("{}: unknown option {}{}", app.get_name(), extra, near.empty() ? "" : "; did you mean " + near + "?"));
+        say_error(fmt::format("{}: unknown option {}{}", app.get_name(), extra,
+                              near.empty() ? "" : "; did you mean " + near + "?"));
       }
     say_error(fmt::format("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name()));
     code = static_cast<int>(Exit::config);

@@ -1,5 +1,5 @@
-// The options of a program, read by CLI11, which is named nowhere else. They stand in the table of usage with their words; --help is
-// one of all.
+// The options of a program, read by CLI11, which is named nowhere else. They stand in the table of
+// usage with their words; --help is one of all.
 #pragma once
 
 #include <memory>
@@ -24,8 +24,9 @@ class Arguments {
   void text(const std::string& name, std::vector<std::string>& given, bool required);
   void version();
 
-  // False if the program has said all it was asked for, then `code` is its exit code. --help and --version are answered whatever else
-  // is missing. An option that the table lacks is an error of ours: throws std::logic_error.
+  // False if the program has said all it was asked for, then `code` is its exit code. --help and
+  // --version are answered whatever else is missing. An option that the table lacks is an error of
+  // ours: throws std::logic_error.
   bool read(const Usage& usage, int argc, char** argv, int& code);
 
  private:

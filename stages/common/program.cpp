@@ -32,11 +32,17 @@ namespace langer {
 void put_out(const std::string& text) {
   if (said::silent) return;
   errno = 0;
-  if ((std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) && errno != EPIPE)
-    throw Failure(Exit::input, Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+  if ((std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+       std::fflush(stdout) != 0) &&
+      errno != EPIPE)
+    throw Failure(
+        Exit::input,
+        Error{{"stdout"}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
 }
 
-std::string version_line(const std::string& program) { return fmt::format("{} {} ({})", program, version, revision); }
+std::string version_line(const std::string& program) {
+  return fmt::format("{} {} ({})", program, version, revision);
+}
 
 std::string command_line(int argc, char** argv) {
   std::string line = std::filesystem::path(argv[0]).filename().string();
@@ -61,7 +67,8 @@ void RunLog::open(const std::string& path, const std::string& command, bool goes
                                      fmt::format("cannot be written ({})", std::strerror(errno)),
                                      "a file in a folder that may be written to",
                                      "another name for --log"});
-  fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(), utc_now());
+  fmt::print(said::log, "# {}\n# {} on {}, {}\n", command, version_line("langer"), host_name(),
+             utc_now());
   std::fflush(said::log);
 }
 
@@ -71,25 +78,29 @@ namespace {
 double cpu_seconds_of_children() {
   rusage used{};
   if (getrusage(RUSAGE_CHILDREN, &used) != 0) return 0;
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
 // read by the table of a run's times (pipeline/run_state.hpp)
 void end_log(int code) {
   if (said::log)
-    fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code, wall_seconds(),
-               cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
+    fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code,
+               wall_seconds(), cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
 }
 
 // why this rank has failed, where the one that speaks has not
 void say_of_rank(const char* why) { std::fprintf(stderr, "rank %d: %s\n", launched().rank, why); }
 
-// The end of a program whose work is done. Where memory or disk have run out, libraries hang or crash in their own farewells
-// (OpenBLAS joins a thread that waits for memory, HDF5 writes again what could not be written): they are not asked for any.
+// The end of a program whose work is done. Where memory or disk have run out, libraries hang or
+// crash in their own farewells (OpenBLAS joins a thread that waits for memory, HDF5 writes again
+// what could not be written): they are not asked for any.
 [[noreturn]] void leave(int code) {
   std::fflush(nullptr);
-  if (said::silent && !ranks() && code != 0) sleep(1);  // the first to fail ends all: let it be the one that speaks
+  if (said::silent && !ranks() && code != 0)
+    sleep(1);  // the first to fail ends all: let it be the one that speaks
   if (ranks()) code = ranks()->end(code, code != 0, say_of_rank, said::unsaid);
   if (ranks() || code != static_cast<int>(Exit::input)) end_petsc();
 #ifdef LANGER_SANITIZE
@@ -102,7 +113,9 @@ void say_of_rank(const char* why) { std::fprintf(stderr, "rank %d: %s\n", launch
 int exit_code_after(const std::string& program, const std::function<int()>& body) {
   wall_seconds();
   const auto no_memory = [&](const char* what) {
-    say_line("{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)", program, what);
+    say_line(
+        "{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)",
+        program, what);
     return static_cast<int>(Exit::input);
   };
   listen_to_signals(said::silent);
@@ -117,13 +130,14 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
   } catch (const std::bad_alloc&) {
     return no_memory("");
   } catch (const std::system_error& e) {
-    if (e.code() == std::errc::resource_unavailable_try_again || e.code() == std::errc::not_enough_memory)
+    if (e.code() == std::errc::resource_unavailable_try_again ||
+        e.code() == std::errc::not_enough_memory)
       return no_memory(": no further thread can be started");
     say_line("{}: {}", program, e.what());
     return static_cast<int>(Exit::input);
   } catch (const std::exception& e) {
-    say_line("{} {} ({}): {}\n  this is a bug, please report it with the command and its files", program, version, revision,
-             e.what());
+    say_line("{} {} ({}): {}\n  this is a bug, please report it with the command and its files",
+             program, version, revision, e.what());
   }
   return static_cast<int>(Exit::bug);
 }

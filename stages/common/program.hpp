@@ -1,4 +1,5 @@
-// What every program of ours does around its work: data on stdout, a log, signals, and a message and an exit code for what is thrown.
+// What every program of ours does around its work: data on stdout, a log, signals, and a message
+// and an exit code for what is thrown.
 //
 // stdout is for data (--json, --describe); stderr for everything said to the person who waits.
 #pragma once
@@ -8,7 +9,8 @@
 
 namespace langer {
 
-// Data on stdout, to its end; a reader who has seen enough (`| head`) is no error, a full disk is: throws Failure(input).
+// Data on stdout, to its end; a reader who has seen enough (`| head`) is no error, a full disk is:
+// throws Failure(input).
 void put_out(const std::string& text);
 
 std::string version_line(const std::string& program);

@@ -39,17 +39,25 @@ void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
       const std::string stage = read_origin(file).identity.stage;
       const std::vector<std::string>& makers = spec.port(port)->made_by;
       if (std::find(makers.begin(), makers.end(), stage) == makers.end())
-        throw Failure(Exit::input, Error{{file}, "", "made by langer-" + stage, "a file of langer-" + list_words(makers), ""});
+        throw Failure(Exit::input, Error{{file},
+                                         "",
+                                         "made by langer-" + stage,
+                                         "a file of langer-" + list_words(makers),
+                                         ""});
     }
 }
 
 // --dry-run of the stages without a forecast
-void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts, const std::string& output, const InputFiles& inputs) {
+void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts,
+                 const std::string& output, const InputFiles& inputs) {
   say_line("{}: dry run, nothing is computed or written", spec.name);
-  const auto line = [](const std::string& part, const std::string& says) { say_line("  {:<14}{}", part, says); };
+  const auto line = [](const std::string& part, const std::string& says) {
+    say_line("  {:<14}{}", part, says);
+  };
   for (const auto& [port, files] : inputs) line(port, fmt::format("{}", fmt::join(files, ", ")));
   for (const ConfigPart& p : parts)
-    line(p.key, p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
+    line(p.key,
+         p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
   line("makes", output.empty() ? std::string(spec.output) : output);
 }
 
@@ -64,7 +72,8 @@ void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandL
   for (const Port& port : spec.inputs) {
     std::vector<std::string>& files = task.inputs[port.name];
     const std::string name = "--" + std::string(port.name);
-    port.several ? options.texts(name, files, port.required) : options.text(name, files, port.required);
+    port.several ? options.texts(name, files, port.required)
+                 : options.text(name, files, port.required);
   }
   options.text("-o,--output", task.output);
   options.flag("--dry-run", task.dry_run);
@@ -78,8 +87,8 @@ void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandL
 }
 
 // Config and inputs of a task whose options are read; nothing of it is written yet.
-ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given, const std::string& command,
-                     const StageWork& own) {
+ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given,
+                     const std::string& command, const StageWork& own) {
   std::erase_if(task.inputs, [](const auto& port) { return port.second.empty(); });
   for (const auto& [port, files] : task.inputs)
     for (const std::string& file : files) need_file(file);
@@ -92,7 +101,8 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
   ReadConfig config = own.read(std::move(tree));
   task.where = config.where;
   if (!task.dry_run) first([&] { need_output(task.output, given.config_file, task.inputs); });
-  task.identity = identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
+  task.identity =
+      identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);
   first([&] {
     if (!task.dry_run) need_replaceable(task.output);  // by now it is known what the config names
@@ -103,26 +113,32 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
 
 void need_own_files(const CommandLine& given, const Task& task) {
   never_replace(given.config_file);
-  for (const auto& [port, files] : task.inputs) std::for_each(files.begin(), files.end(), never_replace);
-  if (!given.log.empty() && std::filesystem::weakly_canonical(given.log) == std::filesystem::weakly_canonical(task.output))
-    throw Failure(Exit::input, Error{{given.log}, "", "is the output too", "another name for --log", ""});
+  for (const auto& [port, files] : task.inputs)
+    std::for_each(files.begin(), files.end(), never_replace);
+  if (!given.log.empty() && std::filesystem::weakly_canonical(given.log) ==
+                                std::filesystem::weakly_canonical(task.output))
+    throw Failure(Exit::input,
+                  Error{{given.log}, "", "is the output too", "another name for --log", ""});
 }
 
-// Says once what becomes of those that were started together. False on ranks that have nothing to do.
+// Says once what becomes of those that were started together. False on ranks that have nothing to
+// do.
 bool take_ranks(const std::string& program, bool quiet) {
   const Launched started = launched();
   if (started.n == 1) return true;
   std::string why = program + " is the work of one process";
   if (program == shared_by_ranks && begin_ranks(why)) return true;
   if (started.rank > 0) return false;
-  if (!quiet) say_line("{}: {} of {} ranks have nothing to do: {}", program, started.n - 1, started.n, why);
+  if (!quiet)
+    say_line("{}: {} of {} ranks have nothing to do: {}", program, started.n - 1, started.n, why);
   return true;
 }
 
-int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept, const std::string& command,
-        const StageWork& own) {
+int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept,
+        const std::string& command, const StageWork& own) {
   need_own_files(given, task);
-  if (!given.log.empty()) first([&] { kept.open(given.log, command, std::filesystem::exists(task.output + ".part")); });
+  if (!given.log.empty())
+    first([&] { kept.open(given.log, command, std::filesystem::exists(task.output + ".part")); });
   const ReadConfig config = read_task(task, spec, given, command, own);
   if (task.verbose) say_inputs(task.identity, "langer-" + std::string(spec.name));
   if (task.dry_run && !spec.forecasts) {
@@ -135,7 +151,8 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kep
   if (!task.dry_run) first([&] { lock.emplace(task.output, task.identity.command); });
   const std::vector<Summary> results = own.work();
   if (task.verbose)
-    say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(), cpu_seconds(), 1e-6 * peak_bytes());
+    say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(),
+             cpu_seconds(), 1e-6 * peak_bytes());
   if (task.json) put_out(json_text(task.identity, results));
   return static_cast<int>(Exit::ok);
 }
@@ -152,7 +169,8 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
   RunLog kept;
   return guarded(program, [&] {
     // --describe needs none of the required arguments
-    if (std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string(a) == "--describe"; })) {
+    if (std::any_of(argv + 1, argv + argc,
+                    [](const char* a) { return std::string(a) == "--describe"; })) {
       put_out(kind.reference());
       return static_cast<int>(Exit::ok);
     }

@@ -23,16 +23,20 @@ SolveConfig indentation() {
   config.contacts["ball"] = ball(0, 0);
   return config;
 }
-double edge_of(const SolveConfig& config) { return std::get<IndentedBlock>(config.mesh->geometry).edge; }
+double edge_of(const SolveConfig& config) {
+  return std::get<IndentedBlock>(config.mesh->geometry).edge;
+}
 }  // namespace
 
 TEST_CASE("a percentage is a number above 0 with its sign") {
   CHECK(percent_of("1%") == 1);
   CHECK(percent_of("0.25 %") == 0.25);
-  for (const char* wrong : {"1", "%", "0%", "-1%", "nan%", "inf%", "1%%", "one%", ""}) CHECK(!percent_of(wrong));
+  for (const char* wrong : {"1", "%", "0%", "-1%", "nan%", "inf%", "1%%", "one%", ""})
+    CHECK(!percent_of(wrong));
 }
 
-TEST_CASE("the levels come with falling errors, and of one kind none has fewer cells than the one before") {
+TEST_CASE(
+    "the levels come with falling errors, and of one kind none has fewer cells than the one before") {
   for (bool plain : {false, true}) {
     const auto& levels = accuracy_levels(plain);
     REQUIRE(levels.size() >= 3);
@@ -43,8 +47,10 @@ TEST_CASE("the levels come with falling errors, and of one kind none has fewer c
   }
 }
 
-TEST_CASE("the first level that promises the wanted error is taken, its cells, increments and symmetry with it") {
-  for (const auto& [wanted, mu] : {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {1.0, 0.34}}) {
+TEST_CASE(
+    "the first level that promises the wanted error is taken, its cells, increments and symmetry with it") {
+  for (const auto& [wanted, mu] :
+       {std::pair{5.0, 0.0}, {1.0, 0.0}, {0.2, 0.0}, {5.0, 0.34}, {1.0, 0.34}}) {
     SolveConfig config = indentation();
     config.contacts["ball"].friction = mu;
     config.accuracy = std::to_string(wanted) + "%";
@@ -61,7 +67,8 @@ TEST_CASE("the first level that promises the wanted error is taken, its cells, i
   }
 }
 
-TEST_CASE("more than the study can promise gives its finest level and says so; nothing wanted changes nothing") {
+TEST_CASE(
+    "more than the study can promise gives its finest level and says so; nothing wanted changes nothing") {
   SolveConfig config = indentation();
   config.accuracy = "0.0001%";
   const auto finest = choose_accuracy(config, std::nullopt);
@@ -92,18 +99,21 @@ TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the 
   CHECK(chosen.shown);
   CHECK(reached(chosen, {}).met);  // nothing was estimated: the promise stands
   CHECK(reached(chosen, {}).percent == chosen.level.error);
-  const ReachedAccuracy good = reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
+  const ReachedAccuracy good =
+      reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
   CHECK(good.met);
   CHECK(good.percent == doctest::Approx(0.5));
   CHECK(good.words.empty());
   // of several indenters the worst, and never a success by the average
-  const ReachedAccuracy bad = reached(chosen, {of("force_a", "N", 10, 0.01), of("force_b", "N", -2, 0.19)});
+  const ReachedAccuracy bad =
+      reached(chosen, {of("force_a", "N", 10, 0.01), of("force_b", "N", -2, 0.19)});
   CHECK(!bad.met);
   CHECK(bad.percent == doctest::Approx(9.5));
   CHECK(bad.words.find("9.5 %") != std::string::npos);
 }
 
-TEST_CASE("fibres take the levels of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
+TEST_CASE(
+    "fibres take the levels of hexahedra with 8 nodes, friction or not, wherever the material comes from") {
   Material fibrous;
   fibrous.fibres.emplace_back();
   SolveConfig config = indentation();
@@ -132,15 +142,23 @@ TEST_CASE("scenes unlike the study's are known as such, and begin coarse without
     return chosen.shown;
   };
   CHECK(shown([](SolveConfig&) {}));
-  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"] = ball(3, 0); }));                       // beside the middle
-  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"] = ball(0, 0, 20); }));                   // wider than the layer is thick
-  CHECK(!shown([](SolveConfig& c) { c.contacts["other"] = ball(8, 0); }));                      // two
-  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].motion.push_back({2, {4, -1, 0}}); }));  // goes aside
-  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Cylinder{1, 0.1, {0, 4, 0}, {0, 1, 0}}; }));
+  CHECK(!shown([](SolveConfig& c) { c.contacts["ball"] = ball(3, 0); }));  // beside the middle
+  CHECK(!shown([](SolveConfig& c) {
+    c.contacts["ball"] = ball(0, 0, 20);
+  }));  // wider than the layer is thick
+  CHECK(!shown([](SolveConfig& c) { c.contacts["other"] = ball(8, 0); }));  // two
+  CHECK(!shown([](SolveConfig& c) {
+    c.contacts["ball"].motion.push_back({2, {4, -1, 0}});
+  }));  // goes aside
+  CHECK(!shown([](SolveConfig& c) {
+    c.contacts["ball"].rigid = Cylinder{1, 0.1, {0, 4, 0}, {0, 1, 0}};
+  }));
   CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Plane{{0, 4, 0}, {0, -1, 0}}; }));
   CHECK(!shown([](SolveConfig& c) { c.contacts["ball"].rigid = Ellipsoid{{3, 1, 2}, {0, 5, 0}}; }));
   CHECK(!shown([](SolveConfig& c) { c.mesh->bodies = {{"fat", 2}, {"dermis", 2}}; }));
-  CHECK(!shown([](SolveConfig& c) { c.loads.push_back({"x_max", Displacement{HistoryConfig{0.1}, {}, {}}}); }));
+  CHECK(!shown([](SolveConfig& c) {
+    c.loads.push_back({"x_max", Displacement{HistoryConfig{0.1}, {}, {}}});
+  }));
 }
 
 TEST_CASE("what is moved at its faces gets hexahedra with 27 nodes, of many cells as many nodes") {
@@ -158,7 +176,8 @@ TEST_CASE("what is moved at its faces gets hexahedra with 27 nodes, of many cell
     if (level.level.cells == CellType::hex27) {
       CHECK(level.words.find("in place of the config's hex8") != std::string::npos);
       for (std::size_t i = 0; i < 3; ++i)
-        CHECK(level.level.edge * std::get<Block>(config.mesh->geometry).divisions[i] == divisions[i]);
+        CHECK(level.level.edge * std::get<Block>(config.mesh->geometry).divisions[i] ==
+              divisions[i]);
     }
     return level.level;
   };
@@ -168,22 +187,29 @@ TEST_CASE("what is moved at its faces gets hexahedra with 27 nodes, of many cell
       c.contacts["press"] = {"", Plane{{0, 4, 0}, {0, -1, 0}}, friction, {{1, {0, -1, 0}}}};
     };
   };
-  const auto as_it_is = [](SolveConfig&) {};
+  const auto as_it_is = [](SolveConfig&) {
+  };
   CHECK(chosen({8, 4, 8}, as_it_is).cells == CellType::hex27);
-  CHECK(chosen({8, 4, 8}, as_it_is).edge == 1);  // four cells at least, from which longer ones can be made
+  CHECK(chosen({8, 4, 8}, as_it_is).edge ==
+        1);  // four cells at least, from which longer ones can be made
   CHECK(chosen({16, 8, 16}, as_it_is).edge == 2);
   CHECK(chosen({8, 4, 8}, press(0)).cells == CellType::hex27);
   CHECK(chosen({8, 4, 8}, press(0.3)).cells == CellType::hex8);
-  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.contacts["ball"] = ball(4, 4); }).cells == CellType::hex8);
-  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.formulation = Formulation::mean_dilatation; }).cells == CellType::hex8);
-  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.estimate = EstimateBy::dual; }).cells == CellType::hex8);  // to be cut
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.contacts["ball"] = ball(4, 4); }).cells ==
+        CellType::hex8);
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) {
+          c.formulation = Formulation::mean_dilatation;
+        }).cells == CellType::hex8);
+  CHECK(chosen({8, 4, 8}, [](SolveConfig& c) { c.estimate = EstimateBy::dual; }).cells ==
+        CellType::hex8);  // to be cut
 }
 
 TEST_CASE("the footprint of indenters is where they cut the top") {
   const SolveConfig config = indentation();
   const Box body = box(config.mesh->geometry);
   SUBCASE("of a sphere, wherever it is and however small") {
-    for (const auto& [x, z, R, d] : {std::tuple{0., 0., 2.5, 1.}, {5., -3., 2.5, 1.}, {-11.3, 7.1, 0.2, 0.02}}) {
+    for (const auto& [x, z, R, d] :
+         {std::tuple{0., 0., 2.5, 1.}, {5., -3., 2.5, 1.}, {-11.3, 7.1, 0.2, 0.02}}) {
       SolveConfig c = config;
       c.contacts["ball"] = ball(x, z, R, d);
       const auto print = footprint(c, body);
@@ -227,7 +253,8 @@ TEST_CASE("cells go where the indenters are, unless the config says where") {
   CHECK((*std::get<IndentedBlock>(told.mesh->geometry).under)[0] == 1);
 }
 
-TEST_CASE("the next level follows from the error of the one before: cells by their order, increments by its square") {
+TEST_CASE(
+    "the next level follows from the error of the one before: cells by their order, increments by its square") {
   ChosenLevel chosen{{CellType::hex8, 0.16, 0.25, 0}, 1, false, false, "", 0.04};
   chosen.written = IndentedBlock{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.16};
   const auto of = [](double cells, double increments, double scatter = 0, double order = 2) {
@@ -237,19 +264,22 @@ TEST_CASE("the next level follows from the error of the one before: cells by the
   REQUIRE(by_cells.has_value());
   CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 2.2)).epsilon(0.05));
   CHECK(by_cells->step == 0.25);
-  CHECK(finer_level(chosen, {of(1, 0, 0, 1)})->edge == doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  CHECK(finer_level(chosen, {of(1, 0, 0, 1)})->edge ==
+        doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
   const auto by_step = finer_level(chosen, {of(0.3, 2)});
   REQUIRE(by_step.has_value());
   CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.15)).epsilon(0.01));
   CHECK(by_step->edge > 0.15);
   // with the order that was seen
-  CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge == doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge ==
+        doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
   CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));  // not even the finest
   chosen.level.edge = 0.04;
   CHECK(!finer_level(chosen, {of(3.2, 0)}));  // the finest there is
 }
 
-TEST_CASE("a level has at most eight times the cells of the one before, whatever its error, and three times the increments") {
+TEST_CASE(
+    "a level has at most eight times the cells of the one before, whatever its error, and three times the increments") {
   const auto from = [](const Geometry& written, double edge, double finest) {
     ChosenLevel chosen{{CellType::hex8, edge, 0.25, 0}, 0.1, false, false, "", finest};
     chosen.written = written;
@@ -259,13 +289,16 @@ TEST_CASE("a level has at most eight times the cells of the one before, whatever
     put(chosen, before);
     for (double cells : {0.3, 3.0, 30.0}) {
       CAPTURE(cells);
-      const auto next = finer_level(chosen, {ErrorEstimate{{"force", "N", 1000}, cells, cells, 0, 0, 2}});
+      const auto next =
+          finer_level(chosen, {ErrorEstimate{{"force", "N", 1000}, cells, cells, 0, 0, 2}});
       if (!next) continue;
       ChosenLevel other = chosen;
       other.level = *next;
       put(other, after);
       CHECK(n_cells(after.mesh->geometry) <= 8 * n_cells(before.mesh->geometry));
-      if (cells > 1) CHECK(n_cells(after.mesh->geometry) > n_cells(before.mesh->geometry));  // 0.3: increments alone
+      if (cells > 1)
+        CHECK(n_cells(after.mesh->geometry) >
+              n_cells(before.mesh->geometry));  // 0.3: increments alone
       CHECK(next->step < 0.25);
       CHECK(next->step >= 0.25 / 3 - 1e-12);
     }
@@ -279,7 +312,8 @@ TEST_CASE("a level has at most eight times the cells of the one before, whatever
   from(block, 1, 0.2);
 }
 
-TEST_CASE("what a level would take is held against memory and time, and the limits of both are known") {
+TEST_CASE(
+    "what a level would take is held against memory and time, and the limits of both are known") {
   CHECK(too_dear({10, 1e9, 2e9}, 20).empty());
   CHECK(too_dear({10, 3e9, 2e9}, 20).find("3.0 GB") != std::string::npos);
   CHECK(too_dear({30, 1e9, 2e9}, 20).find("30 s") != std::string::npos);
@@ -294,8 +328,11 @@ TEST_CASE("what a level would take is held against memory and time, and the limi
     config->material = test::neo_hooke(0.1, 1e-3);
   }
   std::get<IndentedBlock>(fine.mesh->geometry).edge = 0.15;
-  const auto nowhere = [](const std::string&) { return Place{}; };
-  const LevelCost less = level_cost(coarse, coarse.material, nowhere), more = level_cost(fine, fine.material, nowhere);
+  const auto nowhere = [](const std::string&) {
+    return Place{};
+  };
+  const LevelCost less = level_cost(coarse, coarse.material, nowhere),
+                  more = level_cost(fine, fine.material, nowhere);
   CHECK(less.seconds > 0);
   CHECK(more.seconds > 2 * less.seconds);
   CHECK(more.bytes > less.bytes);
@@ -309,14 +346,17 @@ TEST_CASE("an indenter that touches nothing has a force of 0 and no percent") {
   SolveConfig config = indentation();
   config.accuracy = "1%";
   const Accuracy accuracy(
-      Voice{"solve", true}, config, std::nullopt, [](const std::string&) { return Place{}; }, false);
+      Voice{"solve", true}, config, std::nullopt, [](const std::string&) { return Place{}; },
+      false);
   CHECK(accuracy.summary({none}).empty());
   accuracy.need({none}, "out.h5");
   REQUIRE(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}}).size() == 1);
-  CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value == doctest::Approx(0.5));
+  CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value ==
+        doctest::Approx(0.5));
 }
 
-TEST_CASE("cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {
+TEST_CASE(
+    "cells around a place beside the middle: a line through it, even cells around it, all of them halved by half the edge") {
   for (const auto& [x, z] : {std::pair{5., -3.}, {13., 13.}, {14.9, 0.}, {15., 15.}, {0., 2.}}) {
     const auto at = x;
     CAPTURE(at);
@@ -350,9 +390,11 @@ TEST_CASE("cells around a place beside the middle: a line through it, even cells
   CHECK(!middle.block().around);
 }
 
-TEST_CASE("half the edge of an indented block halves its cells, and they are even under the indenter") {
+TEST_CASE(
+    "half the edge of an indented block halves its cells, and they are even under the indenter") {
   for (double edge : {0.3, 0.2, 0.1}) {
-    const IndentedBlock coarse{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge}, fine{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge / 2};
+    const IndentedBlock coarse{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge},
+        fine{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge / 2};
     const Block a = coarse.block(), b = fine.block();
     CHECK(coarse.contact_radius() == doctest::Approx(2));
     CHECK(a.centre->edge == doctest::Approx(2 * edge));
@@ -361,8 +403,10 @@ TEST_CASE("half the edge of an indented block halves its cells, and they are eve
     CHECK(contradictions(coarse, {}).empty());
   }
   // a wide thin layer, a thick block, a block hardly wider than the contact
-  for (const IndentedBlock& b : {IndentedBlock{{}, {100, 1, 100}, 2.5, 0.3, 0.175}, IndentedBlock{{}, {30, 30, 30}, 2.5, 1, 0.175},
-                                 IndentedBlock{{}, {5, 4, 5}, 2.5, 1, 0.35}, IndentedBlock{{}, {30, 4, 60}, 0.5, 0.1, 0.175}}) {
+  for (const IndentedBlock& b :
+       {IndentedBlock{{}, {100, 1, 100}, 2.5, 0.3, 0.175},
+        IndentedBlock{{}, {30, 30, 30}, 2.5, 1, 0.175}, IndentedBlock{{}, {5, 4, 5}, 2.5, 1, 0.35},
+        IndentedBlock{{}, {30, 4, 60}, 0.5, 0.1, 0.175}}) {
     CAPTURE(b.size[0]);
     CAPTURE(b.size[1]);
     CHECK(b.complaints().empty());

@@ -30,8 +30,10 @@ Found adapted(const std::string& text) {
     Run run(model.mesh(), model.config(), config.material, test::nowhere);
     const RunEnd end = run.follow();
     REQUIRE(end.path.complete);
-    const PathErrors errors = dual_errors(model.config(), run, end.last, valued(model.config(), run.scene, run.mesh, end.last));
-    out.cells.push_back(run.mesh.n_cells()), out.kind.push_back(run.reduction.kind()), out.mesh = run.mesh;
+    const PathErrors errors = dual_errors(model.config(), run, end.last,
+                                          valued(model.config(), run.scene, run.mesh, end.last));
+    out.cells.push_back(run.mesh.n_cells()), out.kind.push_back(run.reduction.kind()),
+        out.mesh = run.mesh;
     const auto judged = forces_judged(errors.at_end);
     out.percent.push_back(judged.empty() ? 1e9 : judged[0].in_percent(judged[0].total()));
     out.value.push_back(judged.empty() ? 0 : judged[0].of.value);
@@ -50,7 +52,8 @@ const std::string sheared =
 
 TEST_CASE("the largest parts are marked, as many as it takes, and parts that are alike together") {
   std::vector<double> parts(70);
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = std::pow(0.9, static_cast<double>(i % 35));  // each twice
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i] = std::pow(0.9, static_cast<double>(i % 35));  // each twice
   const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
   for (double wanted : {0.35, 0.5, 0.6}) {
     const std::vector<char> marked = largest_parts(parts, wanted, 2);
@@ -62,7 +65,7 @@ TEST_CASE("the largest parts are marked, as many as it takes, and parts that are
     }
     CHECK(most < least);
     CHECK(sum - 0.75 * of_marked <= wanted * sum * (1 + 1e-12));  // cut to a quarter each
-    CHECK(sum - 0.75 * (of_marked - 2 * least) > wanted * sum);   // with a pair less it would not do
+    CHECK(sum - 0.75 * (of_marked - 2 * least) > wanted * sum);  // with a pair less it would not do
   }
   const auto n_marked = [&](double wanted, double order) {
     const std::vector<char> marked = largest_parts(parts, wanted, order);
@@ -77,7 +80,8 @@ TEST_CASE("the largest parts are marked, as many as it takes, and parts that are
   CHECK(std::accumulate(one.begin(), one.end(), 0) == 1);  // never those that have no part
 }
 
-TEST_CASE("cells are cut until the accuracy is reached, symmetric ones as symmetric, and the force is within it") {
+TEST_CASE(
+    "cells are cut until the accuracy is reached, symmetric ones as symmetric, and the force is within it") {
   const Found found = adapted(sheared + "accuracy: 2%\n");
   REQUIRE(found.cells.size() > 2);
   for (std::size_t i = 1; i < found.cells.size(); ++i) {
@@ -100,7 +104,8 @@ TEST_CASE("cells are cut until the accuracy is reached, symmetric ones as symmet
   CHECK(off < 0.6 * 100 * std::abs(found.value[0] / right - 1));
 }
 
-TEST_CASE("cells of which dual solutions or hanging nodes know nothing are not cut, and the reason is told") {
+TEST_CASE(
+    "cells of which dual solutions or hanging nodes know nothing are not cut, and the reason is told") {
   SolveConfig config = test::config_of(sheared);
   CHECK(why_not_cut(config).empty());
   config.estimate = EstimateBy::recovery;
@@ -118,7 +123,8 @@ TEST_CASE("cells of which dual solutions or hanging nodes know nothing are not c
   CHECK(!why_not_cut(mesh).empty());
 }
 
-TEST_CASE("where a next level finds no equilibrium the one before it is the last, and the accuracy that it reached is told") {
+TEST_CASE(
+    "where a next level finds no equilibrium the one before it is the last, and the accuracy that it reached is told") {
   const SolveConfig config = test::config_of(sheared + "accuracy: 1%\n");
   ModelChoice model({"solve", true}, config, "", config.material, test::nowhere, false);
   const Failure stuck(Exit::not_converged, Error{{}, "", "stopped at t = 0.5", "", ""});
@@ -138,8 +144,9 @@ TEST_CASE("where a next level finds no equilibrium the one before it is the last
     FAIL("3 % are taken for 1 %");
   } catch (const Failure& failure) {
     CHECK(failure.code() == Exit::not_accurate);
-    CHECK(failure.errors()[0].found ==
-          "asked for 1 %, and the error of the force is estimated at 3 %; a next level found no equilibrium: stopped at t = 0.5");
+    CHECK(
+        failure.errors()[0].found ==
+        "asked for 1 %, and the error of the force is estimated at 3 %; a next level found no equilibrium: stopped at t = 0.5");
   }
 }
 
@@ -152,7 +159,8 @@ TEST_CASE("a layer of one cell is cut everywhere before its error is asked for")
   CHECK(found.percent.back() <= 8);
 }
 
-TEST_CASE("under an indenter that is small beside the cells these are cut before the first solution, and nowhere else") {
+TEST_CASE(
+    "under an indenter that is small beside the cells these are cut before the first solution, and nowhere else") {
   const std::string text =
       "mesh: {geometry: {block: {origin: [-10, 0, -10], size: [20, 6, 20], divisions: [5, 3, 5]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}\n"
@@ -166,12 +174,15 @@ TEST_CASE("under an indenter that is small beside the cells these are cut before
     for (int e = 0; e < mesh.n_cells(); ++e) {
       Vec3 low = mesh.X[static_cast<std::size_t>(mesh.cell(e)[0])], high = low;
       for (int n : mesh.cell(e))
-        low = low.cwiseMin(mesh.X[static_cast<std::size_t>(n)]), high = high.cwiseMax(mesh.X[static_cast<std::size_t>(n)]);
-      if (high[1] == 6 && low[0] <= x && x <= high[0] && low[2] <= z && z <= high[2]) return high[0] - low[0];
+        low = low.cwiseMin(mesh.X[static_cast<std::size_t>(n)]),
+        high = high.cwiseMax(mesh.X[static_cast<std::size_t>(n)]);
+      if (high[1] == 6 && low[0] <= x && x <= high[0] && low[2] <= z && z <= high[2])
+        return high[0] - low[0];
     }
     return 0.0;
   };
-  for (const auto& [x, z] : {std::pair(3.0, -2.0), {3.75, -2.0}, {2.25, -2.0}, {3.0, -1.25}, {3.5, -2.5}})
+  for (const auto& [x, z] :
+       {std::pair(3.0, -2.0), {3.75, -2.0}, {2.25, -2.0}, {3.0, -1.25}, {3.5, -2.5}})
     CHECK(longest_at(x, z) == 0.25);
   CHECK(longest_at(-9, 9) == 4);
   CHECK(mesh.n_cells() < 3000);

@@ -14,7 +14,9 @@ using namespace langer;
 
 namespace {
 
-const auto nowhere = [](const std::string&) { return Place{}; };
+const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 
 SolveConfig disc(double edge, double friction, double increment = 0.125) {
   const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
@@ -27,12 +29,14 @@ SolveConfig disc(double edge, double friction, double increment = 0.125) {
 }
 
 PathErrors estimate_of(const SolveConfig& config) {
-  return estimate_along(config, config.material, nowhere, solved_path(config, config.material, nowhere), 1e-9);
+  return estimate_along(config, config.material, nowhere,
+                        solved_path(config, config.material, nowhere), 1e-9);
 }
 
 }  // namespace
 
-TEST_CASE("a force between two steps lies on the line between theirs, before the first on that from rest") {
+TEST_CASE(
+    "a force between two steps lies on the line between theirs, before the first on that from rest") {
   const std::vector<StepForces> path{{0.25, {{"force", 1}}}, {1, {{"force", 4}}}};
   CHECK(force_at(path, "force", 0) == 0);
   CHECK(force_at(path, "force", 0.125) == 0.5);
@@ -69,7 +73,8 @@ TEST_CASE("nodes that touch are counted, of the whole body, and those of a secti
   CHECK(counted(block).second == 17 * 17);
 }
 
-TEST_CASE("every step has an error bar, the last one that of the end, and bars hold the forces of much finer cells") {
+TEST_CASE(
+    "every step has an error bar, the last one that of the end, and bars hold the forces of much finer cells") {
   for (double friction : {0.0, 0.4}) {
     CAPTURE(friction);
     const SolveConfig config = disc(0.25, friction);
@@ -91,11 +96,14 @@ TEST_CASE("every step has an error bar, the last one that of the end, and bars h
   }
 }
 
-TEST_CASE("the limit of wider bodies: what falls by one ratio is summed up, what does not is told whole") {
+TEST_CASE(
+    "the limit of wider bodies: what falls by one ratio is summed up, what does not is told whole") {
   for (double r : {0.1, 0.3, 0.6, 0.75})  // f = 10 + 0.5 r^n
     CHECK(beyond(10.5, 10 + 0.5 * r, 10 + 0.5 * r * r) == doctest::Approx(0.5).epsilon(1e-10));
   for (double power : {1.0, 2.0, 3.0}) {  // f = 10 - 1 / width^power, width 2, 3, 4.5
-    const auto f = [&](double width) { return 10 - std::pow(width, -power); };
+    const auto f = [&](double width) {
+      return 10 - std::pow(width, -power);
+    };
     CHECK(beyond(f(2), f(3), f(4.5)) == doctest::Approx(-std::pow(2, -power)).epsilon(1e-10));
   }
   CHECK(beyond(10, 10, 10) == 0);
@@ -110,7 +118,8 @@ TEST_CASE("what the sides of a narrow disc change is told, and of a wide one tha
   };
   SolveConfig config = disc(0.25, 0);
   config.truncation = {Truncation::sides};
-  const double wide = force(config, 60);  // few nodes in contact: other widths, other cells, 0.7 % of the force
+  const double wide =
+      force(config, 60);  // few nodes in contact: other widths, other cells, 0.7 % of the force
   for (double radius : {4.0, 6.0, 20.0}) {
     CAPTURE(radius);
     std::get<IndentedDisc>(config.mesh->geometry).size[0] = radius;
@@ -120,7 +129,8 @@ TEST_CASE("what the sides of a narrow disc change is told, and of a wide one tha
     const double right = force(config, radius) - wide;
     CHECK(std::abs(e.left_out[0].value - right) < 0.3 * std::abs(right) + 0.007 * wide);
     const auto summary = summary_of({e});
-    CHECK(std::any_of(summary.begin(), summary.end(), [](const Summary& s) { return s.name == "force_error_sides"; }));
+    CHECK(std::any_of(summary.begin(), summary.end(),
+                      [](const Summary& s) { return s.name == "force_error_sides"; }));
   }
 }
 
@@ -141,7 +151,8 @@ TEST_CASE("wider and thicker bodies keep the surface and the place below the ind
   CHECK(t.size[0] == 20);
 }
 
-TEST_CASE("an estimate by itself takes longer cells than one that is asked for, and judges the same mesh") {
+TEST_CASE(
+    "an estimate by itself takes longer cells than one that is asked for, and judges the same mesh") {
   SolveConfig config = disc(0.04, 0);
   config.mesh->cells = CellType::hex8;
   const Refinements asked = refinements(config, nowhere);
@@ -158,7 +169,8 @@ TEST_CASE("an estimate by itself takes longer cells than one that is asked for, 
   CHECK(std::abs(two.limit() - one.limit()) < one.total() + two.total());
 }
 
-TEST_CASE("under a plate with a hole the height of the dome has an error bar, the displacement of what slips over the edge none") {
+TEST_CASE(
+    "under a plate with a hole the height of the dome has an error bar, the displacement of what slips over the edge none") {
   const std::string text =
       "mesh:\n  geometry: {section: {of: axisymmetric, size: [6, 2], divisions: [24, 8]}}\n"
       "  points: {apex: [0, 2, 0], rim: [2, 2, 0], below: [2, 1, 0]}\n"
@@ -167,9 +179,11 @@ TEST_CASE("under a plate with a hole the height of the dome has an error bar, th
       "contacts: {plate: {on: top, rigid: {aperture: {radius: 2, edge: 0.5, face: [0, 2, 0]}}, friction: 0, "
       "motion: [{t: 0.2, to: [0, -0.05, 0]}, {t: 1, to: [0, -0.05, 0]}]}}\n"
       "loads: [{on: hole, pressure: [{t: 0.2, to: 0}, {t: 1, to: -0.005}]}]\npath: {first: 0.2, largest: 0.4}\nestimate: refinement\n";
-  const PathErrors errors = estimate_of(read_config<SolveConfig>(parse_yaml(text, "plate.yaml")).config);
+  const PathErrors errors =
+      estimate_of(read_config<SolveConfig>(parse_yaml(text, "plate.yaml")).config);
   const auto has = [&](const std::string& name) {
-    return std::any_of(errors.at_end.begin(), errors.at_end.end(), [&](const ErrorEstimate& e) { return e.of.name == name; });
+    return std::any_of(errors.at_end.begin(), errors.at_end.end(),
+                       [&](const ErrorEstimate& e) { return e.of.name == name; });
   };
   CHECK(has("force"));
   CHECK(has("displacement_apex"));

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "mechanics/mesh/section.hpp"
-#include "results/post/patches.hpp"
 #include "mechanics/solve/state_tangent.hpp"
+#include "results/post/patches.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -45,7 +45,8 @@ double value_of(const std::string& text, const std::string& name) {
 }
 
 std::string cantilever(const char* cells, const char* divisions) {
-  return std::string("mesh: {cells: ") + cells + ", geometry: {block: {size: [10, 2, 2], divisions: " + divisions +
+  return std::string("mesh: {cells: ") + cells +
+         ", geometry: {block: {size: [10, 2, 2], divisions: " + divisions +
          "}}, points: {tip: [10, 2, 2]}}\n"
          "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-4}}}\n"
          "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, force: {y: 0.004}}]\npath: {steps: 1}\n";
@@ -84,9 +85,11 @@ TEST_CASE("patches give polynomials and their gradients exactly, up to the surfa
     for (int e = 0; e < mesh.n_cells(); ++e)
       for (int g = 0; g < mesh.cell().n_gauss; ++g) {
         const Vec3 X = gauss_position(mesh, e, g);
-        const Vec3 right(2 * X[0] + 2 * X[1] + (cubic ? 2 * X[0] * X[1] : 0), 2 * X[0] + (cubic ? X[0] * X[0] : 0), -2 * X[2]);
+        const Vec3 right(2 * X[0] + 2 * X[1] + (cubic ? 2 * X[0] * X[1] : 0),
+                         2 * X[0] + (cubic ? X[0] * X[0] : 0), -2 * X[2]);
         off = std::max(off, (smooth_u.gradients(e, g).row(0).transpose() - right).norm());
-        off = std::max(off, std::abs(smooth_p.values(e, g)(0, 0) - (X[0] - 3 * X[1] + (cubic ? X[1] * X[2] : 0))));
+        off = std::max(off, std::abs(smooth_p.values(e, g)(0, 0) -
+                                     (X[0] - 3 * X[1] + (cubic ? X[1] * X[2] : 0))));
       }
     CHECK(off < 1e-8);
   }
@@ -97,10 +100,12 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   std::vector<std::vector<Vec3>> u;
   std::vector<double> force;
   for (double at : {depth - step, depth + step}) {
-    const test::Ended end = test::run(test::indentation(test::disc(0.25, "hex8"), test::ball(0, at) + test::tight));
+    const test::Ended end =
+        test::run(test::indentation(test::disc(0.25, "hex8"), test::ball(0, at) + test::tight));
     u.push_back(end.last().u), force.push_back(end.last().force_ind[1]);
   }
-  const SolveConfig config = test::config_of(test::indentation(test::disc(0.25, "hex8"), test::ball(0, depth) + test::tight));
+  const SolveConfig config = test::config_of(
+      test::indentation(test::disc(0.25, "hex8"), test::ball(0, depth) + test::tight));
   Run run(test::mesh_in(config), config, config.material, test::nowhere);
   REQUIRE(run.follow().path.complete);
   ParameterChange by;
@@ -110,8 +115,10 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   REQUIRE(movement);
   double most = 0, off = 0, dr = 0;
   for (int i = 0; i < n_front(run.mesh); ++i) {
-    const Vec3 right = (u[1][static_cast<std::size_t>(i)] - u[0][static_cast<std::size_t>(i)]) / (2 * step);
-    most = std::max(most, right.norm()), off = std::max(off, (movement->u.segment<3>(3 * i) - right).norm());
+    const Vec3 right =
+        (u[1][static_cast<std::size_t>(i)] - u[0][static_cast<std::size_t>(i)]) / (2 * step);
+    most = std::max(most, right.norm()),
+    off = std::max(off, (movement->u.segment<3>(3 * i) - right).norm());
   }
   CHECK(most > 0.9);
   CHECK(off < 1e-4 * most);
@@ -119,8 +126,11 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   CHECK(dr == doctest::Approx((force[1] - force[0]) / (2 * step)).epsilon(1e-4));
 }
 
-TEST_CASE("the error of an indenter's force is within a factor of two of the true one, and its bar holds it") {
-  const auto scene = [](double edge) { return test::indentation(test::disc(edge, "hex8"), test::ball(0)); };
+TEST_CASE(
+    "the error of an indenter's force is within a factor of two of the true one, and its bar holds it") {
+  const auto scene = [](double edge) {
+    return test::indentation(test::disc(edge, "hex8"), test::ball(0));
+  };
   const double right = value_of(scene(0.02), "force");
   for (double edge : {0.0885, 0.05}) {
     CAPTURE(edge);
@@ -136,7 +146,8 @@ TEST_CASE("the error of an indenter's force is within a factor of two of the tru
 
 TEST_CASE("the error of a displacement under a force has its sign and size") {
   const double right = value_of(cantilever("hex27", "[14, 3, 3]"), "displacement_tip");
-  const ErrorEstimate e = by_dual_solutions(cantilever("hex8", "[20, 4, 4]")).of("displacement_tip");
+  const ErrorEstimate e =
+      by_dual_solutions(cantilever("hex8", "[20, 4, 4]")).of("displacement_tip");
   const double error = e.of.value - right;
   CAPTURE(e.cells);
   CAPTURE(error);
@@ -173,8 +184,9 @@ TEST_CASE("where no scene of the kind was measured the estimate says so") {
   const std::string geometry = test::disc(0.25, "hex8");
   CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0.3))),
                        doctest::Contains("no derivative of an energy"), Failure);
-  CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0) + "formulation: displacement\n")),
-                       doctest::Contains("formulation"), Failure);
+  CHECK_THROWS_WITH_AS(
+      by_dual_solutions(test::indentation(geometry, test::ball(0) + "formulation: displacement\n")),
+      doctest::Contains("formulation"), Failure);
   CHECK_THROWS_WITH_AS(by_dual_solutions(test::indentation(geometry, test::ball(0, -0.1))),
                        doctest::Contains("no indenter touches"), Failure);
 }

@@ -7,16 +7,20 @@
 #include <cmath>
 
 #include "core/config/tree.hpp"
-#include "scene/run/body_mesh.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "scene/run/body_mesh.hpp"
 
 using namespace langer;
 
 namespace {
 
-const auto no_file = [](const std::string&) { return Place{}; };
+const auto no_file = [](const std::string&) {
+  return Place{};
+};
 
-SolveConfig config_from(const std::string& text) { return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config; }
+SolveConfig config_from(const std::string& text) {
+  return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config;
+}
 
 struct Pressed {
   const char* x = "0";
@@ -69,7 +73,8 @@ TEST_CASE("a config without an estimate gets a bar at every step that holds") {
     const std::vector<double>& bars = coarse.errors.along.at("force");
     REQUIRE(bars.size() == coarse.path.size());
     for (std::size_t i = 0; i < bars.size(); ++i) {
-      const double found = coarse.path[i].of.at("force"), off = std::abs(found - force_at(right.path, "force", coarse.path[i].t));
+      const double found = coarse.path[i].of.at("force"),
+                   off = std::abs(found - force_at(right.path, "force", coarse.path[i].t));
       CAPTURE(coarse.path[i].t);
       CHECK(off < bars[i]);
       CHECK(bars[i] < 0.5 * found);
@@ -82,7 +87,8 @@ TEST_CASE("a config without an estimate gets a bar at every step that holds") {
   }
 }
 
-TEST_CASE("the stress is looked at three times along a path, and what lies between is as if at every step") {
+TEST_CASE(
+    "the stress is looked at three times along a path, and what lies between is as if at every step") {
   const SolveConfig config = pressed();
   Run run(body_mesh(config, "", no_file), config, config.material, no_file);
   RecoveredPath recovered(run, config, true);
@@ -90,13 +96,18 @@ TEST_CASE("the stress is looked at three times along a path, and what lies betwe
   std::vector<double> shares;
   std::vector<StepForces> path;
   RunListener listener;
-  listener.of_whole = [&](StepRecord& whole, const SolveReport&) { shares.push_back(recovered_energy_share(body, whole.u)); };
-  const RunEnd end = run.follow(recovered.beside({}).along(collecting(listener, config, run, path)));
-  const auto bars = recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last)).along.at("force");
+  listener.of_whole = [&](StepRecord& whole, const SolveReport&) {
+    shares.push_back(recovered_energy_share(body, whole.u));
+  };
+  const RunEnd end =
+      run.follow(recovered.beside({}).along(collecting(listener, config, run, path)));
+  const auto bars =
+      recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last)).along.at("force");
   REQUIRE(bars.size() == 5);
   CHECK(shares.back() == doctest::Approx(std::pow(recovered_error(body, end.last.u).eta, 2)));
   for (std::size_t i = 0; i < bars.size(); ++i) {
-    const double force = path[i].of.at("force"), touch = 2 * 0.5 * one_by_one(path[i].touching.at("force"), false);
+    const double force = path[i].of.at("force"),
+                 touch = 2 * 0.5 * one_by_one(path[i].touching.at("force"), false);
     CHECK(bars[i] / force - touch == doctest::Approx(shares[i]).epsilon(0.35));
   }
 }
@@ -184,7 +195,8 @@ TEST_CASE("a body that deforms alike everywhere has no error of its cells") {
   CHECK(recovered_by_default(config, run));
   RecoveredPath recovered(run, config, true);
   const RunEnd end = run.follow(recovered.beside({}).along({}));
-  const PathErrors errors = recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last));
+  const PathErrors errors =
+      recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last));
   for (const ErrorEstimate& e : errors.at_end) CHECK(e.cells == 0);
   CHECK(errors.along.at("reaction_x_max").size() == 2);
 }

@@ -1,5 +1,5 @@
-// A section in place of a block: offered where the scene is the same around an axis, taken where the sides matter little enough,
-// and its force is that of the block within what is named.
+// A section in place of a block: offered where the scene is the same around an axis, taken where
+// the sides matter little enough, and its force is that of the block within what is named.
 #include "accuracy/refinement/section_in_place.hpp"
 
 #include <doctest/doctest.h>
@@ -14,14 +14,19 @@ using namespace langer;
 namespace {
 
 using Random = std::mt19937;
-double draw(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-const auto nowhere = [](const std::string&) { return Place{}; };
+double draw(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 const Voice silent{"solve", true, false};
 
 SolveConfig pressed(double length, double width, double thickness, double edge) {
   SolveConfig config;
   config.mesh.emplace();
-  config.mesh->geometry = IndentedBlock{{-0.5 * length, 0, -0.5 * width}, {length, thickness, width}, 2.5, 0.6, edge};
+  config.mesh->geometry =
+      IndentedBlock{{-0.5 * length, 0, -0.5 * width}, {length, thickness, width}, 2.5, 0.6, edge};
   config.mesh->cells = CellType::hex27;
   config.material = test::neo_hooke(0.1, 1e-3);
   config.supports = {{"bottom", {Axis::x, Axis::y, Axis::z}}};
@@ -31,9 +36,13 @@ SolveConfig pressed(double length, double width, double thickness, double edge) 
   return config;
 }
 
-bool offered(const SolveConfig& config) { return on_a_disc(config, config.material, 5).has_value(); }
+bool offered(const SolveConfig& config) {
+  return on_a_disc(config, config.material, 5).has_value();
+}
 
-double force_of(const SolveConfig& config) { return end_of_path(config, config.material, nowhere).at(0).value; }
+double force_of(const SolveConfig& config) {
+  return end_of_path(config, config.material, nowhere).at(0).value;
+}
 
 double named(const std::vector<Summary>& summary, const std::string& name) {
   for (const Summary& s : summary)
@@ -44,14 +53,17 @@ double named(const std::vector<Summary>& summary, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a section is offered for what is the same around the block's axis, wherever that is, as seen from there") {
+TEST_CASE(
+    "a section is offered for what is the same around the block's axis, wherever that is, as seen from there") {
   Random random(31);
   for (int n = 0; n < 10; ++n) {
     SolveConfig config = pressed(12, 10, 2, 0.3);
     const double x = draw(random, -5, 5), y = draw(random, -2, 2), z = draw(random, -5, 5);
     auto& block = std::get<IndentedBlock>(config.mesh->geometry);
-    for (int k = 0; k < 3; ++k) block.origin[static_cast<std::size_t>(k)] += std::array{x, y, z}[static_cast<std::size_t>(k)];
-    const double at_x = block.origin[0] + 6, at_z = block.origin[2] + 5;  // in the digits of the block
+    for (int k = 0; k < 3; ++k)
+      block.origin[static_cast<std::size_t>(k)] += std::array{x, y, z}[static_cast<std::size_t>(k)];
+    const double at_x = block.origin[0] + 6,
+                 at_z = block.origin[2] + 5;  // in the digits of the block
     Indenter shape = Sphere{2.5, {at_x, y + 4.5, at_z}};
     if (n % 3 == 1) shape = Cylinder{1.5, 0.3, {at_x, y + 2, at_z}};
     if (n % 3 == 2) shape = Ellipsoid{{2, 1, 2}, {at_x, y + 3, at_z}};
@@ -77,7 +89,8 @@ TEST_CASE("a section is offered for what is the same around the block's axis, wh
   }
 }
 
-TEST_CASE("none is offered for what is not: place, path, supports at the sides, fibres, sets, points, a named symmetry") {
+TEST_CASE(
+    "none is offered for what is not: place, path, supports at the sides, fibres, sets, points, a named symmetry") {
   const SolveConfig base = pressed(12, 10, 2, 0.3);
   REQUIRE(offered(base));
   const std::vector<std::function<void(SolveConfig&)>> breaks{
@@ -148,7 +161,8 @@ TEST_CASE("none is offered for what is not: place, path, supports at the sides, 
   }
 }
 
-TEST_CASE("the force of a block lies between those of the discs inside and around it, and within what the sides may change") {
+TEST_CASE(
+    "the force of a block lies between those of the discs inside and around it, and within what the sides may change") {
   Random random(32);
   for (int n = 0; n < 3; ++n) {
     const double length = draw(random, 5, 7), width = n == 0 ? length : draw(random, 5, 7);
@@ -157,8 +171,11 @@ TEST_CASE("the force of a block lies between those of the discs inside and aroun
     SolveConfig config = pressed(length, width, draw(random, 2, 3), 0.3536);
     if (n == 2) config.contacts["ball"].friction = 0.3;
     const RadiiOfBlock radii = radii_of(std::get<IndentedBlock>(config.mesh->geometry));
-    const auto disc = [&](double radius) { return force_of(*on_a_disc(config, config.material, radius)); };
-    const double inside = disc(radii.inside), alike = disc(radii.alike), around = disc(radii.around);
+    const auto disc = [&](double radius) {
+      return force_of(*on_a_disc(config, config.material, radius));
+    };
+    const double inside = disc(radii.inside), alike = disc(radii.alike),
+                 around = disc(radii.around);
     config.symmetry = SymmetryChoice::automatic;
     const double block = force_of(config);
     MESSAGE("block ", block, " N, discs inside ", inside, ", alike ", alike, ", around ", around);
@@ -169,7 +186,8 @@ TEST_CASE("the force of a block lies between those of the discs inside and aroun
   }
 }
 
-TEST_CASE("a section is taken where its sides change less than is allowed, and names what they change") {
+TEST_CASE(
+    "a section is taken where its sides change less than is allowed, and names what they change") {
   SolveConfig wide = pressed(24, 24, 2, 0.3536), narrow = pressed(5, 5, 2.5, 0.3536);
   for (SolveConfig* config : {&wide, &narrow}) {
     const SectionInPlace unasked(silent, *config, config->material, nowhere, false);
@@ -185,7 +203,8 @@ TEST_CASE("a section is taken where its sides change less than is allowed, and n
   const double section = force_of(taken.config());
   CHECK(sides < 0.01 * section);
   wide.symmetry = SymmetryChoice::automatic;
-  CHECK(std::abs(force_of(wide) - section) < sides + 0.01 * section);  // and what these cells are worth
+  CHECK(std::abs(force_of(wide) - section) <
+        sides + 0.01 * section);  // and what these cells are worth
   CHECK_FALSE(SectionInPlace(silent, narrow, narrow.material, nowhere, false).taken());
   narrow.accuracy = "50%";
   CHECK(SectionInPlace(silent, narrow, narrow.material, nowhere, false).taken());
@@ -199,8 +218,12 @@ TEST_CASE("an accuracy counts the sides with the estimate: shorter cells first, 
   CHECK(section.config().estimate == EstimateBy::refinement);
   CHECK(section.config().mesh->cells == CellType::hex27);
   CHECK(section.config().complaints().empty());
-  const auto edge = [&] { return std::get<IndentedDisc>(section.config().mesh->geometry).edge; };
-  const auto errors = [](double share) { return std::vector<ErrorEstimate>{{{"force", "N", 2}, 2 * share, 0, 0, 0, 2}}; };
+  const auto edge = [&] {
+    return std::get<IndentedDisc>(section.config().mesh->geometry).edge;
+  };
+  const auto errors = [](double share) {
+    return std::vector<ErrorEstimate>{{{"force", "N", 2}, 2 * share, 0, 0, 0, 2}};
+  };
   const double first = edge();
   CHECK(section.accurate(errors(0.001)));
   const double percent = named(section.summary(errors(0.001)), "accuracy");
@@ -210,7 +233,8 @@ TEST_CASE("an accuracy counts the sides with the estimate: shorter cells first, 
   REQUIRE(section.taken());
   CHECK(edge() < first);
   const double after = edge(), step = section.config().path.largest_increment();
-  CHECK(after == doctest::Approx(first * std::sqrt(0.8 * (1 - percent) / 2)).epsilon(0.3));  // by what the sides leave
+  CHECK(after == doctest::Approx(first * std::sqrt(0.8 * (1 - percent) / 2))
+                     .epsilon(0.3));  // by what the sides leave
   // what increments cost is taken from them
   CHECK_FALSE(section.accurate({{{"force", "N", 2}, 0.004, 0.04, 0, 0, 2}}));
   CHECK(section.config().path.largest_increment() < 0.6 * step);
@@ -226,7 +250,8 @@ TEST_CASE("an accuracy is asked of forces on indenters, of several their own, el
   const auto names = [](std::vector<std::string> found) {
     std::vector<Valued> all;
     std::vector<ErrorEstimate> estimates;
-    for (const std::string& name : found) all.push_back({name, "N", 1}), estimates.push_back({all.back()});
+    for (const std::string& name : found)
+      all.push_back({name, "N", 1}), estimates.push_back({all.back()});
     std::string chosen;
     for (const Valued& v : forces_judged(all)) chosen += v.name + " ";
     std::string again;
@@ -234,8 +259,10 @@ TEST_CASE("an accuracy is asked of forces on indenters, of several their own, el
     CHECK(chosen == again);
     return chosen;
   };
-  CHECK(names({"force", "force_left", "reaction_top", "force_right", "von_mises_max"}) == "force_left force_right ");
+  CHECK(names({"force", "force_left", "reaction_top", "force_right", "von_mises_max"}) ==
+        "force_left force_right ");
   CHECK(names({"reaction_top", "von_mises_max", "force"}) == "force ");
-  CHECK(names({"reaction_top", "displacement_A", "reaction_side"}) == "reaction_top reaction_side ");
+  CHECK(names({"reaction_top", "displacement_A", "reaction_side"}) ==
+        "reaction_top reaction_side ");
   CHECK(names({"von_mises_max"}) == "");
 }

@@ -1,4 +1,5 @@
-// What an indenter that is pushed costs beside one that is moved: the same curve in the same increments.
+// What an indenter that is pushed costs beside one that is moved: the same curve in the same
+// increments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,14 +8,16 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/config/reader.hpp"
-#include "scene/run/run.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/run/run.hpp"
 
 using namespace langer;
 
 namespace {
 
-const auto nowhere = [](const std::string&) { return Place{}; };
+const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 
 struct Curve {
   std::vector<double> t, travel, force;
@@ -27,7 +30,8 @@ Curve along(const SolveConfig& config, const Mesh& mesh, double depth) {
   for (int turn = 0; turn < 3; ++turn) {
     const double begun = cpu_seconds();
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
-    Run run(mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, nowhere), config.path, config.solver);
+    Run run(mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, nowhere), config.path,
+            config.solver);
     Curve curve;
     RunListener each;
     each.of_whole = [&](const StepRecord& step, const SolveReport& report) {
@@ -51,16 +55,17 @@ void beside(const char* name, const std::string& text, double depth) {
   ContactConfig& sphere = config.contacts.at("sphere");
   sphere.motion.clear();
   sphere.control.emplace();
-  for (std::size_t i = 0; i < moved.t.size(); ++i) sphere.control->force.points.push_back({moved.t[i], moved.force[i]});
+  for (std::size_t i = 0; i < moved.t.size(); ++i)
+    sphere.control->force.points.push_back({moved.t[i], moved.force[i]});
   const Curve pushed = along(config, mesh, depth);
   double apart = 0;
   for (std::size_t i = 0; i < std::min(moved.t.size(), pushed.t.size()); ++i)
     apart = std::max(apart, std::abs(pushed.travel[i] - moved.travel[i]));
-  fmt::print("{}: {} cells, {} increments, {:.4g} N; travels {:.1e} mm apart\n", name, mesh.n_cells(), moved.t.size(),
-             moved.force.back(), apart);
+  fmt::print("{}: {} cells, {} increments, {:.4g} N; travels {:.1e} mm apart\n", name,
+             mesh.n_cells(), moved.t.size(), moved.force.back(), apart);
   for (const auto& [how, curve] : {std::pair("moved ", &moved), {"pushed", &pushed}})
-    fmt::print("  {} {:.2f} s CPU, {} iterations, {} factorizations\n", how, curve->seconds, curve->iterations,
-               curve->factorizations);
+    fmt::print("  {} {:.2f} s CPU, {} iterations, {} factorizations\n", how, curve->seconds,
+               curve->iterations, curve->factorizations);
   fmt::print("  pushed over moved: {:.3f}\n", pushed.seconds / moved.seconds);
   std::fflush(stdout);
 }
@@ -86,7 +91,8 @@ void measure_control() {
   beside("the paper's scene", papers + ball("0.34", "-1"), 1);
   beside(
       "without friction, on a section",
-      "mesh:\n  geometry: {indented_disc: {size: [16, 4], radius: 2.5, depth: 1, edge: 0.05}}\n" + under +
+      "mesh:\n  geometry: {indented_disc: {size: [16, 4], radius: 2.5, depth: 1, edge: 0.05}}\n" +
+          under +
           "material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-6}}}\npath: {steps: 20}\n" +
           ball("0", "-1"),
       1);

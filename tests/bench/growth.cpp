@@ -11,9 +11,9 @@
 #include "core/base/ranks.hpp"
 #include "core/base/stopwatch.hpp"
 #include "mechanics/linear/petsc/petsc_load.hpp"
+#include "mechanics/solve/forecast.hpp"
 #include "results/plot/figure_style.hpp"
 #include "results/plot/gnuplot.hpp"
-#include "mechanics/solve/forecast.hpp"
 #include "support/indentation.hpp"
 
 namespace langer {
@@ -21,7 +21,8 @@ namespace langer {
 namespace {
 
 struct Row {
-  double dofs = 0, cells = 0, analysis = 0, assembly = 0, factor = 0, solve = 0, contact = 0, flops = 0, nonzeros = 0, rate = 0;
+  double dofs = 0, cells = 0, analysis = 0, assembly = 0, factor = 0, solve = 0, contact = 0,
+         flops = 0, nonzeros = 0, rate = 0;
   double iterations = 0, forecast_bytes = 0, forecast_seconds = 0;
   double wall = 0;  // of an iteration
 };
@@ -34,16 +35,19 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
   scene.before = [&](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
-    told = forecast(body, statics.size(), {}, path, {}, {false, statics.contact_in_tangent(), statics.mixed()});
+    told = forecast(body, statics.size(), {}, path, {},
+                    {false, statics.contact_in_tangent(), statics.mixed()});
   };
   double begun = 0;
-  scene.before = [told_of = scene.before, &begun](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
+  scene.before = [told_of = scene.before, &begun](Equilibrium& body, const Statics& statics,
+                                                  const LoadPathOptions& path) {
     told_of(body, statics, path);
     begun = wall_seconds();
   };
   const auto result = scene.run(skin);
   const double ended = wall_seconds();
-  const double n = static_cast<double>(linear == LinearBy::direct ? result.cost.factorizations : result.path.iterations);
+  const double n = static_cast<double>(linear == LinearBy::direct ? result.cost.factorizations
+                                                                  : result.path.iterations);
   const auto& cost = result.cost;
   return {static_cast<double>(3 * (nx + 1) * (nx + 1) * ny),
           static_cast<double>(result.mesh.n_cells()),
@@ -62,7 +66,8 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
 }
 
 // in a process of its own, whose largest memory the system tells
-std::optional<Row> measured(const Material& skin, int nx, int ny, LinearBy linear, double& megabytes) {
+std::optional<Row> measured(const Material& skin, int nx, int ny, LinearBy linear,
+                            double& megabytes) {
   int ends[2];
   if (pipe(ends) != 0) return std::nullopt;
   std::fflush(stdout);
@@ -96,16 +101,18 @@ void measure(const Material& skin, LinearBy linear, const std::vector<std::pair<
       continue;
     }
     const Row& r = *row;
-    const double iteration = r.assembly + r.factor + r.solve + r.contact, gflops = r.factor > 0 ? 1e-9 * r.flops / r.factor : 0;
+    const double iteration = r.assembly + r.factor + r.solve + r.contact,
+                 gflops = r.factor > 0 ? 1e-9 * r.flops / r.factor : 0;
     fmt::print(
         "  {:9}  {:7.0f}  {:9.0f}  {:7.0f} ({:7.0f})        {:8.3f} ({:8.3f})      {:8.3f}{:8.3f}{:8.3f}{:9.3f}{:10.2f}  {:7.1f} "
         "({:.1f})\n",
-        how, r.dofs, r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve,
-        r.contact, r.analysis, gflops, 1e-9 * r.rate);
+        how, r.dofs, r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds,
+        r.assembly, r.factor, r.solve, r.contact, r.analysis, gflops, 1e-9 * r.rate);
     std::fflush(stdout);
-    csv << fmt::format("{},{},{:.1f},{:.1f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.2f}\n", r.dofs, r.cells, megabytes,
-                       r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly, r.factor, r.solve, r.contact,
-                       r.analysis, gflops);
+    csv << fmt::format(
+        "{},{},{:.1f},{:.1f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.2f}\n", r.dofs,
+        r.cells, megabytes, r.forecast_bytes / 1048576, iteration, r.forecast_seconds, r.assembly,
+        r.factor, r.solve, r.contact, r.analysis, gflops);
   }
 }
 
@@ -133,9 +140,10 @@ void measure_ranks(const Material& skin) {
     const Row r = indentation(skin, nx, ny, LinearBy::iterative);
     const double megabytes = peak_of_all(), seconds = wall_seconds() - begin;
     if (!first) continue;
-    fmt::print("  {:9.0f}  {:9.0f} ({:.0f})  {:8.3f}  {:8.3f} ({:.3f})  {:8.3f}  {:8.3f}   whole {:.1f}, {:.0f} iterations\n",
-               r.dofs, megabytes, r.forecast_bytes / 1048576, r.wall, r.assembly + r.solve, r.forecast_seconds, r.assembly, r.solve,
-               seconds, r.iterations);
+    fmt::print(
+        "  {:9.0f}  {:9.0f} ({:.0f})  {:8.3f}  {:8.3f} ({:.3f})  {:8.3f}  {:8.3f}   whole {:.1f}, {:.0f} iterations\n",
+        r.dofs, megabytes, r.forecast_bytes / 1048576, r.wall, r.assembly + r.solve,
+        r.forecast_seconds, r.assembly, r.solve, seconds, r.iterations);
     std::fflush(stdout);
   }
   if (ranks())
@@ -149,25 +157,29 @@ void measure_growth(const Material& skin) {
       "growth: two steps of 0.02 mm; CPU seconds per iteration on one thread\n"
       "  solver        dofs  hexahedra  memory (forecast) MB   iteration (forecast) s   assembly  factor   solve  contact  analysis  "
       "GFLOP/s (product)\n");
-  measure(skin, LinearBy::direct, {{19, 4}, {28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}});
-  measure(skin, LinearBy::iterative, {{28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}, {143, 20}, {170, 23}});
+  measure(skin, LinearBy::direct,
+          {{19, 4}, {28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}});
+  measure(skin, LinearBy::iterative,
+          {{28, 5}, {42, 6}, {56, 8}, {75, 10}, {90, 12}, {103, 14}, {143, 20}, {170, 23}});
   const std::string direct = "growth_direct.csv", iterative = "growth_iterative.csv";
-  for (const auto& [name, label, lines] : {std::tuple{"growth_time", "CPU time of one iteration (s)",
-                                                      std::vector<PlotLine>{{direct, "dofs", "iteration_s", "by a factor"},
-                                                                            {direct, "dofs", "forecast_s", "forecast", true},
-                                                                            {iterative, "dofs", "iteration_s", "iterative"},
-                                                                            {iterative, "dofs", "forecast_s", "forecast", true},
-                                                                            {direct, "dofs", "assembly_s", "assembly"}}},
-                                           {"growth_memory", "memory (MB)",
-                                            std::vector<PlotLine>{{direct, "dofs", "memory_MB", "by a factor"},
-                                                                  {direct, "dofs", "forecast_MB", "forecast", true},
-                                                                  {iterative, "dofs", "memory_MB", "iterative"},
-                                                                  {iterative, "dofs", "forecast_MB", "forecast", true}}}}) {
+  for (const auto& [name, label, lines] :
+       {std::tuple{"growth_time", "CPU time of one iteration (s)",
+                   std::vector<PlotLine>{{direct, "dofs", "iteration_s", "by a factor"},
+                                         {direct, "dofs", "forecast_s", "forecast", true},
+                                         {iterative, "dofs", "iteration_s", "iterative"},
+                                         {iterative, "dofs", "forecast_s", "forecast", true},
+                                         {direct, "dofs", "assembly_s", "assembly"}}},
+        {"growth_memory", "memory (MB)",
+         std::vector<PlotLine>{{direct, "dofs", "memory_MB", "by a factor"},
+                               {direct, "dofs", "forecast_MB", "forecast", true},
+                               {iterative, "dofs", "memory_MB", "iterative"},
+                               {iterative, "dofs", "forecast_MB", "forecast", true}}}}) {
     Plot plot;
     plot.x_label = "free degrees of freedom", plot.y_label = label, plot.lines = lines;
     plot.scale = AxisScale::log;
     std::ofstream(std::string(name) + ".gp") << gnuplot_script(plot, name, FigureStyle());
-    if (const std::string wrong = run_gnuplot(".", std::string(name) + ".gp"); !wrong.empty()) fmt::print("  {}\n", wrong);
+    if (const std::string wrong = run_gnuplot(".", std::string(name) + ".gp"); !wrong.empty())
+      fmt::print("  {}\n", wrong);
   }
 }
 

@@ -17,16 +17,17 @@
 
 #include "core/base/stopwatch.hpp"
 #include "identification/inverse/sensitivity.hpp"
-#include "scene/run/body_mesh.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "identification/setup/fit_config_io.hpp"
 #include "identification/setup/fit_report.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/body_mesh.hpp"
 
 using namespace langer;
 
 namespace {
 
-const std::string folder = (std::filesystem::temp_directory_path() / "langer_bench_inverse").string();
+const std::string folder =
+    (std::filesystem::temp_directory_path() / "langer_bench_inverse").string();
 
 constexpr const char* solve_yaml =
     "mesh: {geometry: {indented_disc: {size: [16, 4], radius: 2.5, depth: 1.5, edge: 0.25}}}\n"
@@ -59,8 +60,9 @@ void write_noisy(const ForwardPath& path, double deviation, unsigned seed) {
   std::normal_distribution<double> noise(0, deviation);
   std::string text = "travel_mm,force_N\n";
   for (std::size_t i = 0; i < path.t.size(); ++i)
-    text +=
-        fmt::format("{},{}\n", 1.5 * path.t[i], path.values(static_cast<Eigen::Index>(i), 0) + (deviation > 0 ? noise(rng) : 0));
+    text += fmt::format(
+        "{},{}\n", 1.5 * path.t[i],
+        path.values(static_cast<Eigen::Index>(i), 0) + (deviation > 0 ? noise(rng) : 0));
   write("force.csv", text);
 }
 
@@ -86,7 +88,8 @@ void measure_inverse_coverage() {
     write_noisy(path, 2e-3, static_cast<unsigned>(seed));
     // from near the truth: the optimum is the same, and the runs are fewer
     std::string yaml = fit_yaml;
-    yaml.replace(yaml.find("{a1: 0.05, a2: 0.01, a3: 0.05}"), 30, "{a1: 0.013, a2: 0.03, a3: 0.01}");
+    yaml.replace(yaml.find("{a1: 0.05, a2: 0.01, a3: 0.05}"), 30,
+                 "{a1: 0.013, a2: 0.03, a3: 0.01}");
     const FitRecord record = fitted(yaml, runs);
     all_runs += runs;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -97,14 +100,16 @@ void measure_inverse_coverage() {
   }
   fmt::print(
       "indentation with a noise of 2 mN, {} seeds: 95 % intervals hold a1 {:.0f} %, a2 {:.0f} %, a3 {:.0f} % of the time; {} runs, {:.0f} s CPU\n",
-      seeds, 100.0 * held[0] / seeds, 100.0 * held[1] / seeds, 100.0 * held[2] / seeds, all_runs, cpu_seconds() - begun);
+      seeds, 100.0 * held[0] / seeds, 100.0 * held[1] / seeds, 100.0 * held[2] / seeds, all_runs,
+      cpu_seconds() - begun);
 }
 
 namespace {
 
 using Loaded = decltype(read_config<FitConfig>(load_yaml("")));
 
-// what the scenes of a fit say at the law and the friction of their configs, into the files that the pipeline would give the fit
+// what the scenes of a fit say at the law and the friction of their configs, into the files that
+// the pipeline would give the fit
 std::vector<std::string> made_up(const Loaded& fit) {
   std::vector<std::string> files;
   for (const FitData& data : fit.config.data) {
@@ -116,7 +121,8 @@ std::vector<std::string> made_up(const Loaded& fit) {
     const double depth = -scene.config.contacts.begin()->second.motion.back().to[1];
     std::string text = data.columns->u_ind + "," + data.columns->force + "\n";
     for (std::size_t i = 0; i < path.t.size(); ++i)
-      text += fmt::format("{},{}\n", depth * path.t[i], path.values(static_cast<Eigen::Index>(i), 0));
+      text +=
+          fmt::format("{},{}\n", depth * path.t[i], path.values(static_cast<Eigen::Index>(i), 0));
     const std::string name = fmt::format("made_{}.csv", files.size());
     write(name, text);
     files.push_back(folder + "/" + name);
@@ -149,31 +155,37 @@ void measure_fit(const std::string& name, const std::string& yaml) {
   for (bool quotients : {false, true}) {
     FitProblem problem = fit_problem(loaded.config);
     const double begun = cpu_seconds();
-    InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, files, "", quotients);
+    InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, files, "",
+                       quotients);
     const FitResult found = inverse.search();
     const double seconds = cpu_seconds() - begun;
     if (forward == 0) forward = forward_seconds(loaded, found.material);
     fmt::print("| {} | {} | {} | {} | {:.2f} | {:.1f} | {:.6g} |\n", name, problem.free.size(),
-               quotients ? "differences of runs" : "derivatives", inverse.runs(), seconds, seconds / forward, 2 * found.best.cost);
+               quotients ? "differences of runs" : "derivatives", inverse.runs(), seconds,
+               seconds / forward, 2 * found.best.cost);
   }
 }
 
 }  // namespace
 
 void measure_inverse() {
-  fmt::print("| fit | parameters | slopes by | runs | CPU s | forward runs of its scenes | chi-square |\n");
+  fmt::print(
+      "| fit | parameters | slopes by | runs | CPU s | forward runs of its scenes | chi-square |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
   measure_fit("Yeoh, indentation of a section", "inverse_yeoh.yaml");
-  measure_fit("HGO-Yeoh, tensile curve and two indentations with friction", "inverse_indentation.yaml");
+  measure_fit("HGO-Yeoh, tensile curve and two indentations with friction",
+              "inverse_indentation.yaml");
   measure_fit("HGO-Yeoh, force and field between two pads", "invivo_hgo_yeoh.yaml");
 }
 
 namespace {
 
-void measure_price_of(const std::string& yaml, const std::vector<std::string>& keys, const std::string& edge = "") {
+void measure_price_of(const std::string& yaml, const std::vector<std::string>& keys,
+                      const std::string& edge = "") {
   Tree tree = load_yaml(SOURCE_DIR "/configs/solve/" + yaml);
   if (!edge.empty())
-    set_value(tree, "mesh.geometry." + tree.find("mesh")->find("geometry")->map[0].key + ".edge", parse_yaml(edge, "edge"));
+    set_value(tree, "mesh.geometry." + tree.find("mesh")->find("geometry")->map[0].key + ".edge",
+              parse_yaml(edge, "edge"));
   const auto loaded = read_config<SolveConfig>(tree);
   const Mesh mesh = body_mesh(loaded.config, "", loaded.where);
   double none = 0, last = 0;
@@ -188,9 +200,11 @@ void measure_price_of(const std::string& yaml, const std::vector<std::string>& k
       Run run(mesh, config, config.material, loaded.where);
       Sensitivity sensitivity(run, config, loaded.where);
       RunListener each;
-      each.of_whole = [](StepRecord&, const SolveReport&) {};
+      each.of_whole = [](StepRecord&, const SolveReport&) {
+      };
       path = run.follow(sensitivity.along(each)).path;
-      least = std::min(least, cpu_seconds() - begun), factorizations = run.statics.cost().factorizations;
+      least = std::min(least, cpu_seconds() - begun),
+      factorizations = run.statics.cost().factorizations;
     }
     if (n == 0) none = least;
     fmt::print(
@@ -199,7 +213,8 @@ void measure_price_of(const std::string& yaml, const std::vector<std::string>& k
         n == 0   ? "nothing"
         : n == 1 ? keys[0]
                  : fmt::format("{} numbers", n),
-        least, 100 * (least / none - 1), n == 0 ? 0 : 100 * (least - last) / none, path.steps, factorizations, path.again);
+        least, 100 * (least / none - 1), n == 0 ? 0 : 100 * (least - last) / none, path.steps,
+        factorizations, path.again);
     last = least;
   }
 }

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/base/stopwatch.hpp"
-#include "scene/run/run.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/run.hpp"
 
 namespace langer {
 
@@ -51,11 +51,16 @@ VecX row(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const 
   Run run(mesh, scene, std::nullopt, config.path, solver);
   int evaluations = 0;
   RunListener count;
-  count.failed = [&](double, const SolveReport& report) { evaluations += report.evaluations; };
-  count.of_whole = [&](const StepRecord&, const SolveReport& report) { evaluations += report.evaluations; };
+  count.failed = [&](double, const SolveReport& report) {
+    evaluations += report.evaluations;
+  };
+  count.of_whole = [&](const StepRecord&, const SolveReport& report) {
+    evaluations += report.evaluations;
+  };
   const PathReport path = run.follow(count).path;
   fmt::print("| {} | {} | {} | {} | {:.2f} |{}\n", name, path.iterations + path.again, evaluations,
-             run.statics.cost().factorizations, cpu_seconds() - began, path.complete ? "" : " " + path.why);
+             run.statics.cost().factorizations, cpu_seconds() - began,
+             path.complete ? "" : " " + path.why);
   return run.statics.accepted().u;
 }
 
@@ -66,18 +71,23 @@ void measure_solvers() {
                                     {"tension at 45 degrees, ends clamped", across},
                                     {"indentation, friction", pressed}}) {
     const SolveConfig config = read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config;
-    const auto nowhere = [](const std::string&) { return Place{}; };
+    const auto nowhere = [](const std::string&) {
+      return Place{};
+    };
     const Mesh mesh = make_mesh(*config.mesh, nowhere).mesh;
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
-    fmt::print("{}: {} hexahedra, increments of {:g}\n| solver | iterations | evaluations | factorizations | CPU s |\n", words,
-               mesh.n_cells(), config.path.largest);
+    fmt::print(
+        "{}: {} hexahedra, increments of {:g}\n| solver | iterations | evaluations | factorizations | CPU s |\n",
+        words, mesh.n_cells(), config.path.largest);
     const VecX u = row(config, mesh, scene, "newton", NewtonOptions{});
     double differs = 0;
-    for (KinsolStrategy strategy :
-         {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
+    for (KinsolStrategy strategy : {KinsolStrategy::newton, KinsolStrategy::linesearch,
+                                    KinsolStrategy::picard, KinsolStrategy::fixed_point}) {
       KinsolOptions options;
       options.strategy = strategy;
-      const VecX other = row(config, mesh, scene, std::string("kinsol ") + names(strategy)[static_cast<int>(strategy)], options);
+      const VecX other =
+          row(config, mesh, scene,
+              std::string("kinsol ") + names(strategy)[static_cast<int>(strategy)], options);
       differs = std::max(differs, (other - u).lpNorm<Eigen::Infinity>());
     }
     fmt::print("displacements differ by at most {:.1e} mm\n\n", differs);

@@ -1,4 +1,5 @@
-// What contact costs over its candidates: a plane pressed on a block, all of whose upper nodes touch.
+// What contact costs over its candidates: a plane pressed on a block, all of whose upper nodes
+// touch.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -17,10 +18,12 @@ struct Row {
 
 Row pressed(int n, int layers, double mu, ContactBy by) {
   test::Indentation scene;
-  scene.nx = scene.nz = n, scene.ny = layers, scene.h = 0, scene.depth = 0.1, scene.step = 0.05, scene.mu = mu;
+  scene.nx = scene.nz = n, scene.ny = layers, scene.h = 0, scene.depth = 0.1, scene.step = 0.05,
+  scene.mu = mu;
   scene.shape = Plane{{0, 4, 0}, {0, -1, 0}}, scene.reach = 30, scene.contact_by = by;
   const auto result = scene.run(test::neo_hooke(0.3, 1e-4));
-  const double corrections = result.path.iterations + result.path.again, factors = static_cast<double>(result.cost.factorizations);
+  const double corrections = result.path.iterations + result.path.again,
+               factors = static_cast<double>(result.cost.factorizations);
   return {static_cast<double>((n + 1) * (n + 1)),
           result.cost.factor / factors,
           result.cost.contact / corrections,
@@ -34,10 +37,12 @@ void print_both(int n, int layers, double mu) {
   for (ContactBy by : {ContactBy::compliance, ContactBy::tangent}) {
     if (by == ContactBy::compliance && n > 32) continue;  // minutes
     const Row row = pressed(n, layers, mu, by);
-    fmt::print("  {:>10}  {:>6}  {:>8}  {:<10}  {:>13.3f}  {:>20.3f}  {:>14}  {:>11}  {:>31.2f}  {:.9g}{}\n", row.candidates,
-               layers, mu, by == ContactBy::compliance ? "condensed" : "in tangent", row.factor, row.contact, row.factorizations,
-               row.corrections, row.factor * row.factorizations + row.contact * row.corrections, row.force,
-               row.complete ? "" : " (stopped)");
+    fmt::print(
+        "  {:>10}  {:>6}  {:>8}  {:<10}  {:>13.3f}  {:>20.3f}  {:>14}  {:>11}  {:>31.2f}  {:.9g}{}\n",
+        row.candidates, layers, mu, by == ContactBy::compliance ? "condensed" : "in tangent",
+        row.factor, row.contact, row.factorizations, row.corrections,
+        row.factor * row.factorizations + row.contact * row.corrections, row.force,
+        row.complete ? "" : " (stopped)");
     std::fflush(stdout);
   }
 }

@@ -60,7 +60,8 @@ std::vector<std::string> messages(const std::string& stage, const std::string& p
   return found;
 }
 
-// LANGER_BAD_CONFIG names one of them (tests/CMakeLists.txt makes a test of each); without it they follow one another
+// LANGER_BAD_CONFIG names one of them (tests/CMakeLists.txt makes a test of each); without it they
+// follow one another
 std::vector<fs::path> bad_configs() {
   if (const char* one = std::getenv("LANGER_BAD_CONFIG")) return {one};
   std::vector<fs::path> files;
@@ -86,10 +87,13 @@ TEST_CASE("a bad config is refused with the right words at the right line and co
     CHECK(found.size() == bad.expected.size());
     for (const std::string& expected : bad.expected) {
       INFO("expected: " << expected);
-      CHECK(std::any_of(found.begin(), found.end(), [&](const std::string& m) { return m.find(expected) != std::string::npos; }));
+      CHECK(std::any_of(found.begin(), found.end(), [&](const std::string& m) {
+        return m.find(expected) != std::string::npos;
+      }));
       // the place names this file, or the one it includes
-      CHECK(std::all_of(found.begin(), found.end(),
-                        [&](const std::string& m) { return m.rfind(path.parent_path().string(), 0) == 0; }));
+      CHECK(std::all_of(found.begin(), found.end(), [&](const std::string& m) {
+        return m.rfind(path.parent_path().string(), 0) == 0;
+      }));
     }
   }
 }

@@ -1,12 +1,13 @@
-// Files of another kind, or of a runaway script: read or refused in the time of their size, in words that can be read.
+// Files of another kind, or of a runaway script: read or refused in the time of their size, in
+// words that can be read.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
 
 #include <ctime>
 
-#include "core/config/reader.hpp"
 #include "config/sample.hpp"
+#include "core/config/reader.hpp"
 
 using namespace langer;
 
@@ -31,16 +32,19 @@ std::string keys(int n, const char* form, const std::string& between) {
   return text;
 }
 
-constexpr double seconds = 10;  // with sanitizers, on a busy machine; a search through all earlier keys takes 25 without
+constexpr double seconds =
+    10;  // with sanitizers, on a busy machine; a search through all earlier keys takes 25 without
 
 }  // namespace
 
-TEST_CASE("hundreds of thousands of keys, in blocks, in braces, twice the same: refused in seconds") {
+TEST_CASE(
+    "hundreds of thousands of keys, in blocks, in braces, twice the same: refused in seconds") {
   for (const auto& [text, expected] :
        {std::pair{keys(300000, "k{}: 1", "\n"), "more than 100000 parts"},
         {"{" + keys(300000, "k{}: 1", ", ") + "}", "more than 100000 parts"},
         {keys(90000, "k{}: 1", "\n"), "unknown key \"k0\""},
-        {keys(45000, "k{}: 1", "\n") + "\n" + keys(45000, "k{}: 2", "\n"), "was already given at line 1"},
+        {keys(45000, "k{}: 1", "\n") + "\n" + keys(45000, "k{}: 2", "\n"),
+         "was already given at line 1"},
         {keys(90000, "same: {}", "\n"), "the key \"same\" was already given"}}) {
     const auto [said, took] = read(text);
     const std::string part = expected;
@@ -53,7 +57,8 @@ TEST_CASE("hundreds of thousands of keys, in blocks, in braces, twice the same: 
 
 TEST_CASE("a file with very many mistakes shows the first ones and says how many more") {
   const std::string said = read(keys(1000, "k{}: 1", "\n")).first;
-  CHECK(said.find("large.yaml:40:1") != std::string::npos);  // before them a few keys that are missing
+  CHECK(said.find("large.yaml:40:1") !=
+        std::string::npos);  // before them a few keys that are missing
   CHECK(said.find("large.yaml:51:1") == std::string::npos);
   CHECK(said.find(" more") != std::string::npos);
 }

@@ -1,8 +1,10 @@
-// Every shipped config and pipeline with one thing wrong, a few thousand times: never a crash, never a hang; where it must be
-// refused it is, and every refusal names the file, a line and what it is about.
+// Every shipped config and pipeline with one thing wrong, a few thousand times: never a crash,
+// never a hang; where it must be refused it is, and every refusal names the file, a line and what
+// it is about.
 //   key twice, key misspelt, value not a number, infinite, huge, negative, of another type, missing
-// As deep as it goes without solving: configs are read with all their rules, meshes made (those of few cells), scenes
-// composed, measured tests read, pipelines expanded with the configs of their steps.
+// As deep as it goes without solving: configs are read with all their rules, meshes made (those of
+// few cells), scenes composed, measured tests read, pipelines expanded with the configs of their
+// steps.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,12 +19,12 @@
 
 #include <fmt/format.h>
 
+#include "identification/setup/fit_config_io.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/expand.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/make_mesh.hpp"
 #include "scene/model/scene.hpp"
-#include "identification/setup/fit_config_io.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;
@@ -53,19 +55,24 @@ bool is_number(const std::string& s) {
   return error == std::errc{} && end == s.data() + s.size();
 }
 
-void collect(const Tree& tree, const std::string& path, const std::string& file, const std::string& text,
-             const std::vector<std::size_t>& lines, std::vector<Spot>& spots) {
+void collect(const Tree& tree, const std::string& path, const std::string& file,
+             const std::string& text, const std::vector<std::size_t>& lines,
+             std::vector<Spot>& spots) {
   const auto add = [&](const Tree& value, const std::string& key, const std::string& here) {
     if (value.place.file == file && value.place.line > 0) {
       const std::size_t line = lines[static_cast<std::size_t>(value.place.line - 1)];
-      Spot spot{key, here, value.place.line, line + static_cast<std::size_t>(value.place.column - 1)};
-      const bool there = text.compare(spot.at, key.size(), key) == 0;  // not quoted, not behind an alias
+      Spot spot{key, here, value.place.line,
+                line + static_cast<std::size_t>(value.place.column - 1)};
+      const bool there =
+          text.compare(spot.at, key.size(), key) == 0;  // not quoted, not behind an alias
       std::size_t at = spot.at + key.size();
       if (!key.empty()) at = text.find_first_not_of(' ', at + 1);
-      if (there && value.kind == Tree::Kind::scalar && !value.scalar.empty() && at != std::string::npos) {
+      if (there && value.kind == Tree::Kind::scalar && !value.scalar.empty() &&
+          at != std::string::npos) {
         if (text[at] == '"' || text[at] == '\'') ++at;
         if (text.compare(at, value.scalar.size(), value.scalar) == 0)
-          spot.value = at, spot.length = value.scalar.size(), spot.number = !value.quoted && is_number(value.scalar);
+          spot.value = at, spot.length = value.scalar.size(),
+          spot.number = !value.quoted && is_number(value.scalar);
       }
       if (there) spots.push_back(spot);
     }
@@ -85,12 +92,15 @@ struct Mutation {
 
 // Names that a config gives may be any. Pipelines say where what was meant is missed.
 Must must_where_misspelt(const Spot& spot) {
-  std::string parent = spot.path.substr(0, std::max(spot.path.size(), spot.key.size() + 1) - spot.key.size() - 1);
+  std::string parent =
+      spot.path.substr(0, std::max(spot.path.size(), spot.key.size() + 1) - spot.key.size() - 1);
   parent = parent.substr(parent.rfind('.') + 1);
-  static const std::set<std::string> of_names{"sets",      "points",     "maps",  "renders", "figures", "contacts",
-                                              "materials", "summary_at", "nodes", "sweep",   "variants"};
+  static const std::set<std::string> of_names{"sets",    "points",   "maps",      "renders",
+                                              "figures", "contacts", "materials", "summary_at",
+                                              "nodes",   "sweep",    "variants"};
   if (of_names.count(parent)) return Must::not_crash;
-  // beside the one that an included file gives, a misspelt alternative is a second one: said of the whole choice
+  // beside the one that an included file gives, a misspelt alternative is a second one: said of the
+  // whole choice
   if (spot.path == "geometry.block") return Must::not_crash;
   return spot.path.starts_with("nodes.") ? Must::refuse : Must::refuse_here;
 }
@@ -107,12 +117,16 @@ std::vector<Mutation> mutations(const Spot& spot, const std::string& text) {
   const std::string before = text.substr(begin, spot.at - begin);
   const bool flow = before.find_first_of("{[") != std::string::npos;
   if (!spot.key.empty()) {
-    const std::string again = flow ? spot.key + ": 0, " : spot.key + ": 0\n" + std::string(before.size(), ' ');
-    all.push_back({"twice", with(spot.at, 0, again), Must::refuse_here, spot.line + (flow ? 0 : 1)});
-    all.push_back({"misspelt", with(spot.at, spot.key.size(), spot.key + "x"), must_where_misspelt(spot), spot.line});
+    const std::string again =
+        flow ? spot.key + ": 0, " : spot.key + ": 0\n" + std::string(before.size(), ' ');
+    all.push_back(
+        {"twice", with(spot.at, 0, again), Must::refuse_here, spot.line + (flow ? 0 : 1)});
+    all.push_back({"misspelt", with(spot.at, spot.key.size(), spot.key + "x"),
+                   must_where_misspelt(spot), spot.line});
   }
   if (spot.length == 0) return all;
-  const auto value = [&](const std::string& what, const std::string& in, Must must = Must::not_crash) {
+  const auto value = [&](const std::string& what, const std::string& in,
+                         Must must = Must::not_crash) {
     all.push_back({what, with(spot.value, spot.length, in), must, spot.line});
   };
   const bool quoted = text[spot.value - 1] == '"' || text[spot.value - 1] == '\'';
@@ -122,8 +136,8 @@ std::vector<Mutation> mutations(const Spot& spot, const std::string& text) {
   }
   for (const char* word : {".nan", "nan", "inf", "-.inf", "1e400"})
     value(word, word, spot.number ? Must::refuse_here : Must::not_crash);
-  for (const char* word :
-       {"1e308", "-1e308", "99999999999999999999", "2000000000", "0", "-1", "1e-300", "[1, 2]", "{a: 1}", "abc", "~", "true", "''"})
+  for (const char* word : {"1e308", "-1e308", "99999999999999999999", "2000000000", "0", "-1",
+                           "1e-300", "[1, 2]", "{a: 1}", "abc", "~", "true", "''"})
     value(word, word);
   if (spot.number) {
     const std::string number = text.substr(spot.value, spot.length);
@@ -143,7 +157,8 @@ struct Tally {
   std::string slowest_name;
 };
 
-// Of a long file every so many-th: prime to the twenty of each spot, so that every spot and every kind of mutation is among them.
+// Of a long file every so many-th: prime to the twenty of each spot, so that every spot and every
+// kind of mutation is among them.
 int one_of(std::size_t mutations) {
   constexpr std::size_t most = 1500;
   for (int every : {1, 3, 7, 9, 11, 13, 17})
@@ -169,7 +184,8 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
     for (const Mutation& m : mutations(spot, text)) {
       if (tally.found++ % every) continue;
       ++tally.mutations;
-      const std::string name = fmt::format("{}:{}: {} {}", fs::relative(file, root).string(), spot.line, spot.path, m.what);
+      const std::string name = fmt::format("{}:{}: {} {}", fs::relative(file, root).string(),
+                                           spot.line, spot.path, m.what);
       const auto start = std::chrono::steady_clock::now();
       bool refused = false, here = false, about = false, named = true;
       std::string said;
@@ -178,10 +194,12 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
       } catch (const Failure& failure) {
         refused = true;
         said = failure.what();
-        named = !failure.errors().empty() && (failure.code() == Exit::config || failure.code() == Exit::input);
+        named = !failure.errors().empty() &&
+                (failure.code() == Exit::config || failure.code() == Exit::input);
         for (const Error& e : failure.errors()) {
           // an error of the data themselves names the data's file
-          named = named && !e.where.file.empty() && (e.where.line > 0 || failure.code() == Exit::input);
+          named =
+              named && !e.where.file.empty() && (e.where.line > 0 || failure.code() == Exit::input);
           here = here || (e.where.file == file && e.where.line == m.line &&
                           (e.key + e.found).find(last_part(spot.key)) != std::string::npos);
           about = about || (e.key + e.found).find(last_part(spot.key)) != std::string::npos;
@@ -190,11 +208,13 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
         said = e.what();
         FAIL_CHECK(name << ": not a refusal, but " << said);
       }
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       if (seconds > tally.slowest) tally.slowest = seconds, tally.slowest_name = name;
       tally.refused += refused;
       if (!named) FAIL_CHECK(name << ": refused without file or line: " << said);
-      if ((m.must == Must::refuse && !(refused && about)) || (m.must == Must::refuse_here && !(refused && here)))
+      if ((m.must == Must::refuse && !(refused && about)) ||
+          (m.must == Must::refuse_here && !(refused && here)))
         tally.accepted.insert(name + (refused ? ": said elsewhere: " + said : ": accepted"));
     }
 }
@@ -202,8 +222,9 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
 void report(const std::string& what, const Tally& tally) {
   std::string all;
   for (const std::string& name : tally.accepted) all += name + "\n";
-  MESSAGE(what << ": " << tally.files << " files, " << tally.mutations << " mutations, " << tally.refused << " refused, slowest "
-               << tally.slowest << " s (" << tally.slowest_name << ")");
+  MESSAGE(what << ": " << tally.files << " files, " << tally.mutations << " mutations, "
+               << tally.refused << " refused, slowest " << tally.slowest << " s ("
+               << tally.slowest_name << ")");
   INFO(all);
   CHECK(tally.accepted.empty());
   CHECK(tally.slowest < 20);
@@ -224,7 +245,8 @@ TEST_CASE("mutations of the shipped configs of fit sensitivity post and gather")
   for (const std::string stage : {"fit", "sensitivity", "post", "gather"})
     for (const fs::path& path : yaml_files("configs/" + stage))
       run(
-          path, [&](Tree tree) { effective_config(*find_stage(stage), std::move(tree), "."); }, tally);
+          path, [&](Tree tree) { effective_config(*find_stage(stage), std::move(tree), "."); },
+          tally);
   for (const fs::path& path : yaml_files("configs/material"))
     run(
         path, [&](Tree tree) { read_config<Material>(std::move(tree)); }, tally);
@@ -275,17 +297,21 @@ Mesh coarse_mesh(MeshConfig config, const std::function<Place(const std::string&
 
 TEST_CASE("mutations of the shipped configs of solve with the scene composed") {
   std::vector<Mesh> shipped;
-  for (const char* name : {"smoke", "cube_1_8", "scratch", "suction", "twist", "prestretch", "indentation_coarse"}) {
-    const auto loaded = read_config<MeshConfig>(load_yaml(root + "/configs/mesh/" + name + ".yaml"));
+  for (const char* name :
+       {"smoke", "cube_1_8", "scratch", "suction", "twist", "prestretch", "indentation_coarse"}) {
+    const auto loaded =
+        read_config<MeshConfig>(load_yaml(root + "/configs/mesh/" + name + ".yaml"));
     shipped.push_back(coarse_mesh(loaded.config, loaded.where));
   }
-  const Material material = read_config<Material>(load_yaml(root + "/configs/material/abdomen_hgo_yeoh.yaml")).config;
+  const Material material =
+      read_config<Material>(load_yaml(root + "/configs/material/abdomen_hgo_yeoh.yaml")).config;
   Tally tally;
   int composed = 0;
   for (const fs::path& path : yaml_files("configs/solve")) {
     const auto compose = [&](Tree tree, const Mesh& mesh) {
       const auto loaded = read_config<SolveConfig>(std::move(tree));
-      make_scene(loaded.config, mesh, loaded.config.material ? loaded.config.material : material, loaded.where);
+      make_scene(loaded.config, mesh, loaded.config.material ? loaded.config.material : material,
+                 loaded.where);
     };
     const Mesh* fitting = nullptr;
     std::vector<Mesh> meshes = shipped;
@@ -319,14 +345,16 @@ TEST_CASE("mutations of the shipped pipelines expanded with the configs of their
     if (found != known.end()) return found->second;
     return known[from_root.string()] = load_yaml(from_root.string());
   };
-  std::set<std::size_t> accepted;  // steps, by their texts: what a mutation leaves as it was is not read again
+  std::set<std::size_t>
+      accepted;  // steps, by their texts: what a mutation leaves as it was is not read again
   Tally tally;
   for (const fs::path& path : yaml_files("pipelines")) {
     run(
         path,
         [&](Tree tree) {
           for (const pipeline::Step& step : pipeline::expand(pipeline::read_pipeline(tree), read)) {
-            const std::size_t text = std::hash<std::string>()(step.stage->name + to_text(step.config));
+            const std::size_t text =
+                std::hash<std::string>()(step.stage->name + to_text(step.config));
             if (accepted.count(text)) continue;
             effective_config(*step.stage, step.config, ".");
             accepted.insert(text);

@@ -14,7 +14,9 @@ using sample::Sample;
 
 namespace {
 
-Sample read(const std::string& text) { return read_config<Sample>(parse_yaml(text, "text")).config; }
+Sample read(const std::string& text) {
+  return read_config<Sample>(parse_yaml(text, "text")).config;
+}
 
 std::string failure(const std::string& text) {
   try {
@@ -88,11 +90,13 @@ TEST_CASE("a sum may be a list, and then hold the same term twice") {
 TEST_CASE("what is written reads back as the same text, for every kind of member") {
   const std::string once = to_yaml(read(full));
   CHECK(to_yaml(read(once)) == once);
-  const std::string listed = to_yaml(read("part: {to: 1}\nsum: [{linear: {slope: 1}}, {linear: {slope: 2}}]"));
+  const std::string listed =
+      to_yaml(read("part: {to: 1}\nsum: [{linear: {slope: 1}}, {linear: {slope: 2}}]"));
   CHECK(to_yaml(read(listed)) == listed);
 }
 
-TEST_CASE("the order of keys, comments, quotes and the way a number is typed do not change the written text") {
+TEST_CASE(
+    "the order of keys, comments, quotes and the way a number is typed do not change the written text") {
   CHECK(to_yaml(read("part: {from: 0.10, to: 1e0}\ncount: 4 # c\ntitle: abc")) ==
         to_yaml(read("title: 'abc'\ncount: +4\npart:\n  to: 1.0\n  from: 1.0e-1\n")));
   CHECK(to_yaml(read("part: {from: -0.0, to: 1}")) == to_yaml(read("part: {from: 0, to: 1}")));
@@ -116,9 +120,15 @@ TEST_CASE("written numbers are read back bit for bit") {
 }
 
 TEST_CASE("written texts are read back, whatever they hold") {
-  for (const std::string title : {"",           "true", "null",       "~",     "1e5",     "010", "a: b",    "- a", "# no comment",
-                                  "say \"so\"", "a\\b", "two\nlines", "\ttab", " space ", "{x}", "[x]",     "*a",  "&a",
-                                  "!t",         "%",    "@",          "`",     "ü",       "yes", "include", "<<",  "key: [1, 2"}) {
+  for (const std::string title : {"",           "true",    "null",
+                                  "~",          "1e5",     "010",
+                                  "a: b",       "- a",     "# no comment",
+                                  "say \"so\"", "a\\b",    "two\nlines",
+                                  "\ttab",      " space ", "{x}",
+                                  "[x]",        "*a",      "&a",
+                                  "!t",         "%",       "@",
+                                  "`",          "ü",       "yes",
+                                  "include",    "<<",      "key: [1, 2"}) {
     Sample s = read("part: {to: 1}");
     s.title = title;
     CAPTURE(to_yaml(s));
@@ -138,7 +148,8 @@ TEST_CASE("all errors of a file come at once, by line") {
 }
 
 TEST_CASE("rules between keys are looked at only where the keys themselves are right") {
-  CHECK(failure("part: {from: 2, to: 1}").find("text:1:17: part.to: an end before the begin; expected to > from") !=
+  CHECK(failure("part: {from: 2, to: 1}")
+            .find("text:1:17: part.to: an end before the begin; expected to > from") !=
         std::string::npos);
   const std::string said = failure("part: {from: x, to: -1}");
   CHECK(said.find("part.from: found x") != std::string::npos);
@@ -146,13 +157,15 @@ TEST_CASE("rules between keys are looked at only where the keys themselves are r
 }
 
 TEST_CASE("several ranges of a key hold together") {
-  CHECK(failure("part: {to: 1}\nfraction: 0").find("fraction: found 0; expected a number > 0 and <= 1") != std::string::npos);
+  CHECK(failure("part: {to: 1}\nfraction: 0")
+            .find("fraction: found 0; expected a number > 0 and <= 1") != std::string::npos);
   CHECK(failure("part: {to: 1}\nfraction: 1.5").find("found 1.5") != std::string::npos);
   CHECK(read("part: {to: 1}\nfraction: 1").fraction == 1);
 }
 
 TEST_CASE("places are known for errors found later") {
-  const auto loaded = read_config<Sample>(parse_yaml("count: 2\nparts:\n  - {to: 1}\n  - to: 5\npart: {to: 1}\n", "text"));
+  const auto loaded = read_config<Sample>(
+      parse_yaml("count: 2\nparts:\n  - {to: 1}\n  - to: 5\npart: {to: 1}\n", "text"));
   CHECK(loaded.where("parts[1].to").line == 4);
   CHECK(loaded.where("parts[1].to").column == 5);
   CHECK(loaded.where("part.from").line == 5);  // not given: the deepest part that is
@@ -160,10 +173,12 @@ TEST_CASE("places are known for errors found later") {
 }
 
 TEST_CASE("a path of an input file is relative to the file it is written in") {
-  const auto tree = parse_yaml("part: {to: 1}\ncurve: ../data/a.csv", "configs/fit/a.yaml", "configs/fit");
+  const auto tree =
+      parse_yaml("part: {to: 1}\ncurve: ../data/a.csv", "configs/fit/a.yaml", "configs/fit");
   const Sample s = read_config<Sample>(tree).config;
   CHECK(s.curve.path == "configs/data/a.csv");
-  CHECK(to_yaml(s, relative_to("runs/x/fit")).find("curve: ../../../configs/data/a.csv\n") != std::string::npos);
+  CHECK(to_yaml(s, relative_to("runs/x/fit")).find("curve: ../../../configs/data/a.csv\n") !=
+        std::string::npos);
   CHECK(to_yaml(s, file_name).find("curve: a.csv\n") != std::string::npos);
   const auto files = files_named_by(s);
   REQUIRE(files.size() == 1);
@@ -172,9 +187,11 @@ TEST_CASE("a path of an input file is relative to the file it is written in") {
 
 TEST_CASE("included files are merged below the keys beside them") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("langer_include_" + std::to_string(getpid()));
+  const fs::path folder =
+      fs::temp_directory_path() / ("langer_include_" + std::to_string(getpid()));
   fs::create_directories(folder / "deep");
-  std::ofstream(folder / "deep/base.yaml") << "a: {x: 1, y: 2}\nb: [1, 2]\nfile: {include: leaf.yaml}\n";
+  std::ofstream(folder / "deep/base.yaml")
+      << "a: {x: 1, y: 2}\nb: [1, 2]\nfile: {include: leaf.yaml}\n";
   std::ofstream(folder / "deep/leaf.yaml") << "curve: c.csv\n";
   std::ofstream(folder / "top.yaml") << "include: deep/base.yaml\na: {y: 3}\nb: [5]\n";
   const Tree tree = load_yaml((folder / "top.yaml").string());
@@ -194,7 +211,8 @@ TEST_CASE("null beside an include takes the included key away, at any depth") {
   const Tree tree = load_yaml((folder / "top.yaml").string());
   CHECK(to_text(tree) == "a:\n  y: 2\nd:\n  z: 4\nnew: null\n");
   std::ofstream(folder / "over.yaml") << "include: [base.yaml, top.yaml]\nd: null\nc: 5\n";
-  CHECK(to_text(load_yaml((folder / "over.yaml").string())) == "a:\n  x: 1\n  y: 2\nb: [1, 2]\nc: 5\nnew: null\n");
+  CHECK(to_text(load_yaml((folder / "over.yaml").string())) ==
+        "a:\n  x: 1\n  y: 2\nb: [1, 2]\nc: 5\nnew: null\n");
   fs::remove_all(folder);
 }
 
@@ -208,9 +226,10 @@ TEST_CASE("a value is set at a path, making maps on the way") {
   set_value(tree, "contacts[0].friction", parse_yaml("0.5", "set"));
   set_value(tree, "empty.a.b", parse_yaml("[1]", "set"));
   set_value(tree, "contacts[0].on", parse_yaml("{deep: 1}", "set"));
-  CHECK(to_text(tree) == "contacts:\n  - on:\n      deep: 1\n    friction: 0.5\nempty:\n  a:\n    b: [1]\n");
-  for (const char* path : {"contacts[1].on", "contacts.on", "contacts[0].friction.x", "", "a..b", "[0]", "a[", "a[x]", "a.", ".a",
-                           "contacts[99999999999]"}) {
+  CHECK(to_text(tree) ==
+        "contacts:\n  - on:\n      deep: 1\n    friction: 0.5\nempty:\n  a:\n    b: [1]\n");
+  for (const char* path : {"contacts[1].on", "contacts.on", "contacts[0].friction.x", "", "a..b",
+                           "[0]", "a[", "a[x]", "a.", ".a", "contacts[99999999999]"}) {
     CAPTURE(path);
     CHECK_THROWS_AS(set_value(tree, path, parse_yaml("1", "set")), Failure);
   }
@@ -219,8 +238,9 @@ TEST_CASE("a value is set at a path, making maps on the way") {
 TEST_CASE("the reference names key, kind, unit, default, range and meaning of every line") {
   const std::string text = describe<Sample>();
   for (const char* part :
-       {"count", "a whole number >= 1; default 3", "a number > 0 in mm; default 1.5", "one of red, green; default green", "part",
-        "required", "exactly one of", "linear", "slope", "a number in MPa; required", "a number >= 0; optional", "exponent",
+       {"count", "a whole number >= 1; default 3", "a number > 0 in mm; default 1.5",
+        "one of red, green; default green", "part", "required", "exactly one of", "linear", "slope",
+        "a number in MPa; required", "a number >= 0; optional", "exponent",
         "a whole number >= 1 and <= 9; default 2"}) {
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
@@ -228,14 +248,17 @@ TEST_CASE("the reference names key, kind, unit, default, range and meaning of ev
 }
 
 TEST_CASE("the paper's material is read and written back") {
-  const auto again = [](const std::string& text) { return to_yaml(read_config<Material>(parse_yaml(text, "text")).config); };
+  const auto again = [](const std::string& text) {
+    return to_yaml(read_config<Material>(parse_yaml(text, "text")).config);
+  };
   const std::string written = again(
       "matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}\n"
       "fibres: [{hgo: {c1: -0.317, c2: 0.319}, alpha: 30}]\n"
       "volume: {quadratic: {d: 1.0e-6}}\n");
-  for (const char* part : {"matrix:\n  yeoh:\n    a1: 0.269\n    a2: 0.376\n    a3: 0.415\n",
-                           "fibres:\n  - hgo:\n      c1: -0.317\n      c2: 0.319\n    alpha: 30\n    switch: I4_bar\n",
-                           "volume:\n  quadratic:\n    d: 1e-06\n"}) {
+  for (const char* part :
+       {"matrix:\n  yeoh:\n    a1: 0.269\n    a2: 0.376\n    a3: 0.415\n",
+        "fibres:\n  - hgo:\n      c1: -0.317\n      c2: 0.319\n    alpha: 30\n    switch: I4_bar\n",
+        "volume:\n  quadratic:\n    d: 1e-06\n"}) {
     CAPTURE(written);
     CHECK(written.find(part) != std::string::npos);
   }
@@ -244,16 +267,18 @@ TEST_CASE("the paper's material is read and written back") {
 
 TEST_CASE("the law of a family is the one key among its keys that names one") {
   const auto read = [](const std::string& family) {
-    return read_config<Material>(
-               parse_yaml("matrix: {neo_hooke: {a1: 0.1}}\nfibres: [" + family + "]\nvolume: {simo_taylor: {bulk_modulus: 100}}\n",
-                          "law.yaml"))
+    return read_config<Material>(parse_yaml("matrix: {neo_hooke: {a1: 0.1}}\nfibres: [" + family +
+                                                "]\nvolume: {simo_taylor: {bulk_modulus: 100}}\n",
+                                            "law.yaml"))
         .config;
   };
   const Material m = read("{kappa: 0.1, exp_pow: {ksi: 0.3, beta: 2.5}, alpha: 20}");
   CHECK(std::get<ExpPowFibre>(m.fibres[0].law).beta == 2.5);
   CHECK(std::get<ExpPowFibre>(m.fibres[0].law).alpha == 0);
   CHECK(m.fibres[0].alpha_deg == 20);
-  CHECK(to_yaml(m).find("  - exp_pow:\n      ksi: 0.3\n      alpha: 0\n      beta: 2.5\n    alpha: 20\n") != std::string::npos);
+  CHECK(to_yaml(m).find(
+            "  - exp_pow:\n      ksi: 0.3\n      alpha: 0\n      beta: 2.5\n    alpha: 20\n") !=
+        std::string::npos);
   CHECK(to_yaml(read_config<Material>(parse_yaml(to_yaml(m), "text")).config) == to_yaml(m));
   CHECK(std::get<PowLinearFibre>(read("{pow_linear: {E: 3, lam0: 1.05}}").fibres[0].law).beta == 2);
   const std::string text = describe<Material>();

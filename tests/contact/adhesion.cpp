@@ -14,14 +14,16 @@ namespace {
 const Indenter plane = Plane{{0, 0, 0}, {0.2, 1, -0.1}}, ball = Sphere{2, {0, -2, 0}};
 
 // y: where the node is relative to the indenter; it bonded at rest
-Adhesive at(const Adhesion& law, const Indenter& shape, const Vec3& X, const Vec3& v, double viscous = 0, double beta = 1) {
+Adhesive at(const Adhesion& law, const Indenter& shape, const Vec3& X, const Vec3& v,
+            double viscous = 0, double beta = 1) {
   return adhesive(law, shape_at(shape, X + v), v, {beta, Vec3::Zero(), true}, viscous);
 }
 
 // what the law makes least [N/mm]
 double potential(const Adhesion& law, const Adhesive& bond, double viscous, double beta_0) {
   const double lost = beta_0 - bond.beta;
-  return bond.stored - law.work * bond.beta + (std::isfinite(viscous) ? 0.5 * viscous * lost * lost : 0);
+  return bond.stored - law.work * bond.beta +
+         (std::isfinite(viscous) ? 0.5 * viscous * lost * lost : 0);
 }
 
 }  // namespace
@@ -32,10 +34,12 @@ TEST_CASE("a bond's force is the slope of its potential, and its tangent that of
     Indenter shape;
     double tangential, viscous, beta;
     Vec3 v;
-  } cases[]{
-      {plane, 0, 0, 1, {0.001, 0.002, 0}},         {plane, 30, 0, 1, {0.01, 0.02, -0.03}},
-      {plane, 30, 0.02, 0.7, {0.05, 0.02, -0.03}}, {ball, 0, 0, 1, {0.001, 0.0499, 0}},
-      {ball, 0, 0.3, 0.4, {0.1, 0.08, 0.02}},      {ball, 0, std::numeric_limits<double>::infinity(), 0.6, {0.1, 0.08, 0.02}}};
+  } cases[]{{plane, 0, 0, 1, {0.001, 0.002, 0}},
+            {plane, 30, 0, 1, {0.01, 0.02, -0.03}},
+            {plane, 30, 0.02, 0.7, {0.05, 0.02, -0.03}},
+            {ball, 0, 0, 1, {0.001, 0.0499, 0}},
+            {ball, 0, 0.3, 0.4, {0.1, 0.08, 0.02}},
+            {ball, 0, std::numeric_limits<double>::infinity(), 0.6, {0.1, 0.08, 0.02}}};
   for (const auto& c : cases) {
     const Adhesion law{0.02, 50, c.tangential};
     CAPTURE(c.v.transpose());
@@ -45,7 +49,9 @@ TEST_CASE("a bond's force is the slope of its potential, and its tangent that of
       const Vec3 d = step * Vec3::Unit(j);
       const Adhesive more = at(law, c.shape, Vec3::Zero(), c.v + d, c.viscous, c.beta),
                      less = at(law, c.shape, Vec3::Zero(), c.v - d, c.viscous, c.beta);
-      const double slope = (potential(law, more, c.viscous, c.beta) - potential(law, less, c.viscous, c.beta)) / (2 * step);
+      const double slope =
+          (potential(law, more, c.viscous, c.beta) - potential(law, less, c.viscous, c.beta)) /
+          (2 * step);
       CHECK(-here.force[j] == doctest::Approx(slope).epsilon(1e-6));
       const Vec3 change = (more.force - less.force) / (2 * step);
       CHECK((here.tangent.col(j) - change).norm() <= 1e-5 * here.tangent.norm());
@@ -71,7 +77,8 @@ TEST_CASE("a bond that is pulled off bears sqrt(w C) at most and takes w, in ste
   }
   CHECK(most == doctest::Approx(std::sqrt(law.work * law.stiffness)).epsilon(1e-3));
   CHECK(taken == doctest::Approx(law.work * (1 - 1e-4)).epsilon(1e-6));
-  const Adhesive once = adhesive(law, shape_at(flat, Vec3(0, 100 * g_0, 0)), Vec3(0, 100 * g_0, 0), {1, Vec3::Zero(), true}, 0);
+  const Adhesive once = adhesive(law, shape_at(flat, Vec3(0, 100 * g_0, 0)), Vec3(0, 100 * g_0, 0),
+                                 {1, Vec3::Zero(), true}, 0);
   CHECK(once.dissipated == doctest::Approx(taken).epsilon(1e-9));
 }
 

@@ -1,5 +1,6 @@
-// Contact problems with known solutions: one or two contacts solved by hand, random ones judged by the law itself,
-// and the folder named by LANGER_FRICTION_ORACLE (solutions to 1e-14) where it is present.
+// Contact problems with known solutions: one or two contacts solved by hand, random ones judged by
+// the law itself, and the folder named by LANGER_FRICTION_ORACLE (solutions to 1e-14) where it is
+// present.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,8 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "mechanics/contact/local_problem.hpp"
 #include "contact/random_problem.hpp"
+#include "mechanics/contact/local_problem.hpp"
 
 using namespace langer;
 
@@ -45,8 +46,9 @@ TEST_CASE("every reference problem is solved to 1e-10 in the relative position a
     VecX r = VecX::Zero(p.q.size()), reference(p.q.size()), x_reference(p.q.size());
     for (int i = 0; i < r.size(); ++i) reference[i] = j["r"][i], x_reference[i] = j["u"][i];
     const LocalReport report = solve_local(p, r);
-    MESSAGE(file.path().filename().string() << ": " << report.sweeps << " sweeps, " << report.newton_steps
-                                            << " Newton steps, residual " << report.residual);
+    MESSAGE(file.path().filename().string()
+            << ": " << report.sweeps << " sweeps, " << report.newton_steps
+            << " Newton steps, residual " << report.residual);
     CHECK(report.converged);
     CHECK((p.W * r + p.q - x_reference).lpNorm<Eigen::Infinity>() <= 1e-10);
     CHECK((p.W * (r - reference)).lpNorm<Eigen::Infinity>() <= 1e-10);
@@ -65,7 +67,8 @@ TEST_CASE("a thousand random problems of up to eight contacts satisfy the law") 
     const double scale = std::max(1.0, r.lpNorm<Eigen::Infinity>());
     if (!(test::law_defect(p, r) <= 1e-9 * scale)) {
       ++failed;
-      MESSAGE("seed " << seed << ", " << k << " contacts: defect " << test::law_defect(p, r) << ", residual " << report.residual);
+      MESSAGE("seed " << seed << ", " << k << " contacts: defect " << test::law_defect(p, r)
+                      << ", residual " << report.residual);
     }
   }
   CHECK(failed == 0);
@@ -88,8 +91,9 @@ TEST_CASE("however small the budget, what counts as solved satisfies the law to 
   CHECK(solved > 100);
 }
 
-// Two contacts that push each other down harder than they hold themselves: no forces keep both out, and sweeps grow a million
-// times with each contact. Their end does not come from counting sweeps that will never be made.
+// Two contacts that push each other down harder than they hold themselves: no forces keep both out,
+// and sweeps grow a million times with each contact. Their end does not come from counting sweeps
+// that will never be made.
 TEST_CASE("forces that run away end the search at once, without convergence and finite") {
   LocalProblem p;
   p.W.setIdentity(6, 6);

@@ -1,4 +1,5 @@
-// Bodies that are not held, or not stable, without their contacts: exact law, quadratic convergence, no shift left behind.
+// Bodies that are not held, or not stable, without their contacts: exact law, quadratic
+// convergence, no shift left behind.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,10 +16,15 @@ using test::run;
 
 TEST_CASE("a cube between two rough plates, held by nothing else") {
   const Mesh mesh = test::cube(4);
-  Equilibrium body =
-      test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), {}).dofs);
-  const RigidContact below{"below", Plane{{0, 0, 0}, {0, 1, 0}}, 0.5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}};
-  const RigidContact above{"above", Plane{{0, 1, 0}, {0, -1, 0}}, 0.5, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.2, 0)}}};
+  Equilibrium body = test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), {}).dofs);
+  const RigidContact below{
+      "below", Plane{{0, 0, 0}, {0, 1, 0}}, 0.5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}};
+  const RigidContact above{"above",
+                           Plane{{0, 1, 0}, {0, -1, 0}},
+                           0.5,
+                           mesh.node_sets.at("y_max"),
+                           {{1, Vec3(0, -0.2, 0)}}};
   Statics statics(body, {below, above}, {});
   const ExactPath result = run(statics, 0.1);
   REQUIRE(result.path.complete);
@@ -33,7 +39,11 @@ TEST_CASE("a cube between two rough plates, held by nothing else") {
 
 TEST_CASE("the same cube on a held base gives the same force: the springs leave nothing behind") {
   const Mesh mesh = test::cube(4);
-  const RigidContact above{"above", Plane{{0, 1, 0}, {0, -1, 0}}, 5, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.1, 0)}}};
+  const RigidContact above{"above",
+                           Plane{{0, 1, 0}, {0, -1, 0}},
+                           5,
+                           mesh.node_sets.at("y_max"),
+                           {{1, Vec3(0, -0.1, 0)}}};
   const auto force = [&](bool glued) {
     std::vector<Prescribed> held;
     std::vector<RigidContact> contacts{above};
@@ -41,9 +51,14 @@ TEST_CASE("the same cube on a held base gives the same force: the springs leave 
       for (int i : mesh.node_sets.at("y_min"))
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
     else  // mu = 5 sticks everywhere: as good as glued
-      contacts.push_back({"below", Plane{{0, 0, 0}, {0, 1, 0}}, 5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}});
+      contacts.push_back({"below",
+                          Plane{{0, 0, 0}, {0, 1, 0}},
+                          5,
+                          mesh.node_sets.at("y_min"),
+                          {{1, Vec3(0, 0, 0)}}});
     Equilibrium body =
-        test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+        test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
+                          number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, contacts, {});
     REQUIRE(run(statics, 0.25).path.complete);
     return -statics.defects()[0].force[1];
@@ -65,7 +80,8 @@ TEST_CASE("a block that may glide along x is held by the rough sphere that press
   CHECK(result.steps.back().force > 0.1);
 }
 
-TEST_CASE("deep indentation goes on where friction alone keeps the contact stable, three to five iterations a step") {
+TEST_CASE(
+    "deep indentation goes on where friction alone keeps the contact stable, three to five iterations a step") {
   test::Indentation scene;
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 1.8, scene.reach = 4;
   const auto result = scene.run(test::table1(0, 1e-6, 0));

@@ -1,4 +1,5 @@
-// Random contact problems, a fifth of them with a rank-deficient W, a third ill-conditioned, a quarter without friction.
+// Random contact problems, a fifth of them with a rank-deficient W, a third ill-conditioned, a
+// quarter without friction.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,9 @@ inline LocalProblem random_problem(int seed, int k) {
   LocalProblem p{A * A.transpose(), VecX(3 * k), VecX(k)};
   for (auto& q : p.q) q = normal(random);
   for (auto& mu : p.mu) mu = seed % 4 == 0 ? 0 : uniform(random);
-  if (rank < 3 * k) p.q = A * VecX::NullaryExpr(rank, [&] { return normal(random); });  // in the range: a solution exists
+  if (rank < 3 * k)
+    p.q = A * VecX::NullaryExpr(rank,
+                                [&] { return normal(random); });  // in the range: a solution exists
   return p;
 }
 
@@ -32,7 +35,8 @@ inline double law_defect(const LocalProblem& p, const VecX& r) {
   for (int i = 0; i < p.n_contacts(); ++i) {
     const double r_n = r[3 * i], r_t = std::hypot(r[3 * i + 1], r[3 * i + 2]), x_n = x[3 * i];
     const double slip = std::hypot(x[3 * i + 1], x[3 * i + 2]), mu = p.mu[i];
-    const double power = r_n * x_n + mu * r_n * slip + (mu > 0 ? r[3 * i + 1] * x[3 * i + 1] + r[3 * i + 2] * x[3 * i + 2] : 0);
+    const double power = r_n * x_n + mu * r_n * slip +
+                         (mu > 0 ? r[3 * i + 1] * x[3 * i + 1] + r[3 * i + 2] * x[3 * i + 2] : 0);
     defect = std::max({defect, -r_n, -x_n, r_t - mu * r_n, std::abs(power)});
   }
   return defect;

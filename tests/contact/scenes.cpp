@@ -36,7 +36,8 @@ PathReport run(Statics& statics, double increment, const std::vector<double>& st
 
 }  // namespace
 
-TEST_CASE("Hertz: a sphere on an incompressible half-space, F = 16/9 E sqrt(R) delta^1.5 within 2 %") {
+TEST_CASE(
+    "Hertz: a sphere on an incompressible half-space, F = 16/9 E sqrt(R) delta^1.5 within 2 %") {
   // a quarter of a block 400 times as thick as the contact is wide; bottom fixed
   const double R = 25, depth = 0.0225, a1 = 0.3, E = 6 * a1;
   auto x = test::graded(150, 40, 0.08);
@@ -51,19 +52,24 @@ TEST_CASE("Hertz: a sphere on an incompressible half-space, F = 16/9 E sqrt(R) d
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 1.2) sphere.nodes.push_back(i);
   Equilibrium body =
-      test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation,
+                        number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {sphere}, {});
   REQUIRE(run(statics, 0.5).complete);
-  const double force = -4 * statics.defects()[0].force[1], hertz = 16. / 9 * E * std::sqrt(R) * std::pow(depth, 1.5);
+  const double force = -4 * statics.defects()[0].force[1],
+               hertz = 16. / 9 * E * std::sqrt(R) * std::pow(depth, 1.5);
   MESSAGE("force " << force << " N, Hertz " << hertz << " N");
   CHECK(force == doctest::Approx(hertz).epsilon(0.02));
 }
 
 TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
-  // plane strain; the block hangs on its top face, the wedge (slope 0.1) is pressed up and then pushed under it
-  for (const auto& [mu, ratio] : {std::pair{0.0, 0.1}, {0.1, 0.20202020}, {0.2, 0.30612245}, {0.3, 0.41237113}}) {
+  // plane strain; the block hangs on its top face, the wedge (slope 0.1) is pressed up and then
+  // pushed under it
+  for (const auto& [mu, ratio] :
+       {std::pair{0.0, 0.1}, {0.1, 0.20202020}, {0.2, 0.30612245}, {0.3, 0.41237113}}) {
     Mesh mesh = test::block(test::even(0, 4, 4), test::even(0, 1, 2), {0, 0.5});
-    for (Vec3& X : mesh.X) X[1] += 0.1 * X[0] * (1 - X[1]);  // the lower face has the slope of the wedge
+    for (Vec3& X : mesh.X)
+      X[1] += 0.1 * X[0] * (1 - X[1]);  // the lower face has the slope of the wedge
     std::vector<Prescribed> held;
     for (int i = 0; i < mesh.n_nodes(); ++i) held.push_back({3 * i + 2, 0});
     for (int i : mesh.node_sets.at("y_max"))
@@ -74,7 +80,8 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
                              mesh.node_sets.at("y_min"),
                              {{0.1, Vec3(0, 0.01, 0)}, {1, Vec3(-0.3, 0.01, 0)}}};
     Equilibrium body =
-        test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+        test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation,
+                          number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {wedge}, {});
     REQUIRE(run(statics, 0.05, {0.1}).complete);
     const ContactDefect defect = statics.defects()[0];
@@ -86,7 +93,8 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
   }
 }
 
-TEST_CASE("a weight on a slope sticks where the slope is less steep than friction, and slides where it is steeper") {
+TEST_CASE(
+    "a weight on a slope sticks where the slope is less steep than friction, and slides where it is steeper") {
   const double G = 3, mu = 0.34;
   for (double slope : {0.0, 0.1, 0.33, 0.35, 0.8}) {
     const double c = 1 / std::hypot(1, slope), s = slope * c;

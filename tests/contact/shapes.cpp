@@ -1,4 +1,5 @@
-// Every indenter: the normal is the gradient of the gap, the curvature is the gradient of the normal, the gap is a distance.
+// Every indenter: the normal is the gradient of the gap, the curvature is the gradient of the
+// normal, the gap is a distance.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -15,16 +16,20 @@ using namespace langer;
 
 namespace {
 
-// lower half of a sphere as triangles, normals outwards; rings from the pole (0, -R, 0) to the equator
+// lower half of a sphere as triangles, normals outwards; rings from the pole (0, -R, 0) to the
+// equator
 Triangles half_sphere(double R, int rings, int sectors) {
   Triangles t;
   t.points.emplace_back(0, -R, 0);
   for (int i = 1; i <= rings; ++i)
     for (int j = 0; j < sectors; ++j) {
       const double a = 0.5 * M_PI * i / rings, b = 2 * M_PI * j / sectors;
-      t.points.emplace_back(R * std::sin(a) * std::cos(b), -R * std::cos(a), R * std::sin(a) * std::sin(b));
+      t.points.emplace_back(R * std::sin(a) * std::cos(b), -R * std::cos(a),
+                            R * std::sin(a) * std::sin(b));
     }
-  const auto id = [&](int i, int j) { return i == 0 ? 0 : 1 + (i - 1) * sectors + (j % sectors); };
+  const auto id = [&](int i, int j) {
+    return i == 0 ? 0 : 1 + (i - 1) * sectors + (j % sectors);
+  };
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < sectors; ++j) {
       t.corners.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
@@ -48,8 +53,10 @@ std::vector<std::pair<const char*, Indenter>> shapes() {
 // a closed surface of triangles: a box about 0
 Facets faceted_box(const Vec3& half) {
   Triangles t;
-  for (const auto& corner : Hex8::corner) t.points.push_back(half.cwiseProduct(Vec3(corner[0], corner[1], corner[2])));
-  for (const auto& f : Hex8::facet) t.corners.push_back({f[0], f[1], f[2]}), t.corners.push_back({f[0], f[2], f[3]});
+  for (const auto& corner : Hex8::corner)
+    t.points.push_back(half.cwiseProduct(Vec3(corner[0], corner[1], corner[2])));
+  for (const auto& f : Hex8::facet)
+    t.corners.push_back({f[0], f[1], f[2]}), t.corners.push_back({f[0], f[2], f[3]});
   Facets facets;
   facets.rounding = 0.25;
   facets.tree = std::make_shared<TriangleTree>(t);
@@ -60,7 +67,8 @@ Vec3 area_vector(const Outline& outline) {
   Vec3 sum = Vec3::Zero();
   for (const auto& face : outline.faces)
     for (std::size_t k = 2; k < face.size(); ++k)
-      sum += 0.5 * (outline.points[face[k - 1]] - outline.points[face[0]]).cross(outline.points[face[k]] - outline.points[face[0]]);
+      sum += 0.5 * (outline.points[face[k - 1]] - outline.points[face[0]])
+                       .cross(outline.points[face[k]] - outline.points[face[0]]);
   return sum;
 }
 
@@ -76,7 +84,8 @@ double area(const Outline& outline) {
 std::vector<std::pair<const char*, Indenter>> closed_shapes() {
   std::vector<std::pair<const char*, Indenter>> list;
   for (const auto& [name, shape] : shapes())
-    if (point_inside(shape) && !std::holds_alternative<Facets>(shape)) list.emplace_back(name, shape);
+    if (point_inside(shape) && !std::holds_alternative<Facets>(shape))
+      list.emplace_back(name, shape);
   list.emplace_back("faceted box", faceted_box({1, 0.6, 2}));
   return list;
 }
@@ -96,8 +105,12 @@ TEST_CASE("a shape is unchanged by an operation where its gap is, and says so") 
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(-6, 6);
   const Vec3 o = Vec3::Zero();
-  std::vector<Indenter> list{Sphere{2, {0, 3, 0}},        Plane{{0, 1, 0}, {0, 1, 0}},     Plane{{0, 1, 0}, {0, 1, 0.2}},
-                             Cylinder{2, 0.5, {0, 4, 0}}, Ellipsoid{{2, 1, 2}, {0, 3, 0}}, Ellipsoid{{2, 1, 1.5}, {0, 3, 0}}};
+  std::vector<Indenter> list{Sphere{2, {0, 3, 0}},
+                             Plane{{0, 1, 0}, {0, 1, 0}},
+                             Plane{{0, 1, 0}, {0, 1, 0.2}},
+                             Cylinder{2, 0.5, {0, 4, 0}},
+                             Ellipsoid{{2, 1, 2}, {0, 3, 0}},
+                             Ellipsoid{{2, 1, 1.5}, {0, 3, 0}}};
   for (const auto& [name, shape] : shapes()) list.push_back(shape);
   std::vector<Isometry> operations;
   for (const Vec3& centre : {o, Vec3(0.1, 0, -0.2), Vec3(0, 5, 0.5)}) {
@@ -105,7 +118,8 @@ TEST_CASE("a shape is unchanged by an operation where its gap is, and says so") 
       operations.push_back({signs.asDiagonal(), centre});
     for (double angle : {1.0, M_PI / 2, 0.3})
       operations.push_back({Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(), centre});
-    operations.push_back({Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), centre});
+    operations.push_back(
+        {Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), centre});
   }
   int unchanged = 0, changed = 0;
   for (const Indenter& shape : list)
@@ -128,12 +142,15 @@ TEST_CASE("a shape is unchanged by an operation where its gap is, and says so") 
 TEST_CASE("a shape becomes another by a mirror or a turn exactly where the other is its image") {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(-6, 6), part(0.5, 2);
-  const Isometry mirror{Vec3(-1, 1, 1).asDiagonal(), {0.5, 0, -1}}, turn{Vec3(-1, 1, -1).asDiagonal(), {0.5, 0, -1}};
+  const Isometry mirror{Vec3(-1, 1, 1).asDiagonal(), {0.5, 0, -1}},
+      turn{Vec3(-1, 1, -1).asDiagonal(), {0.5, 0, -1}};
   int images = 0, others = 0;
   for (int n = 0; n < 200; ++n) {
     const Isometry& op = n % 2 ? mirror : turn;
     const Vec3 at(u(random), u(random), u(random)), to = op(at);
-    const auto place = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
+    const auto place = [](const Vec3& x) {
+      return std::array{x[0], x[1], x[2]};
+    };
     const double r = part(random), q = part(random);
     const Vec3 axis(u(random), u(random), u(random)), turned = op.turn * axis;
     Indenter a, b;
@@ -145,7 +162,8 @@ TEST_CASE("a shape becomes another by a mirror or a turn exactly where the other
         a = Plane{place(at), place(axis)}, b = Plane{place(to), place(2 * turned)};
         break;
       case 2:
-        a = Cylinder{r, 0.3 * r, place(at), place(axis)}, b = Cylinder{r, 0.3 * r, place(to), place(3 * turned)};
+        a = Cylinder{r, 0.3 * r, place(at), place(axis)},
+        b = Cylinder{r, 0.3 * r, place(to), place(3 * turned)};
         break;
       case 3:
         a = Ellipsoid{{r, q, 1}, place(at)}, b = Ellipsoid{{r, q, 1}, place(to)};
@@ -185,7 +203,8 @@ TEST_CASE("the outline of every shape lies on its surface and is seen from outsi
     const Outline out = outline(shape, {Vec3(0, 2, 0), 10, 24});
     CHECK(out.faces.size() > 20);
     double farthest = 0;
-    for (const Vec3& x : out.points) farthest = std::max(farthest, std::abs(shape_at(shape, x).gap));
+    for (const Vec3& x : out.points)
+      farthest = std::max(farthest, std::abs(shape_at(shape, x).gap));
     CHECK(farthest < 1e-9);
     int inwards = 0, large = 0;
     for (const auto& face : out.faces) {
@@ -208,8 +227,9 @@ TEST_CASE("the outline of every shape lies on its surface and is seen from outsi
 
 TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
   const auto with = [](double length) {
-    return std::array<Indenter, 2>{Plane{{0, 1, 0}, {0.2 * length, length, 0.3 * length}},
-                                   Cylinder{2, 0.5, {0, 4, 0}, {0.1 * length, length, 0.2 * length}}};
+    return std::array<Indenter, 2>{
+        Plane{{0, 1, 0}, {0.2 * length, length, 0.3 * length}},
+        Cylinder{2, 0.5, {0, 4, 0}, {0.1 * length, length, 0.2 * length}}};
   };
   const Vec3 x(0.3, 3.6, 1.1);
   for (double length : {1e-200, 1e-150, 1e3, 1e200})
@@ -226,7 +246,8 @@ TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
     }
 }
 
-TEST_CASE("a plate with a hole has no end: a plane through it leaves the two lines of its profile, and no face") {
+TEST_CASE(
+    "a plate with a hole has no end: a plane through it leaves the two lines of its profile, and no face") {
   const Outline whole = outline(Aperture{2, 0.25, {0, 4, 0}, {0, 1, 0}}, {Vec3::Zero(), 10, 24});
   for (double at : {0., 0.1}) {
     const OpenedOutline cut = cut_open(whole, 2, at, -1);
@@ -234,7 +255,8 @@ TEST_CASE("a plate with a hole has no end: a plane through it leaves the two lin
     CHECK(cut.cap.faces.empty());
     REQUIRE(cut.kept.lines.size() == whole.lines.size() + 2);
     for (const auto& line : cut.kept.lines)
-      for (int p : line) CHECK(cut.kept.points[static_cast<std::size_t>(p)][2] == doctest::Approx(at));
+      for (int p : line)
+        CHECK(cut.kept.points[static_cast<std::size_t>(p)][2] == doctest::Approx(at));
   }
 }
 
@@ -246,7 +268,8 @@ TEST_CASE("outlines are closed, and what is cut off them leaves a face in the pl
     CHECK(area_vector(whole).norm() < 1e-9 * area(whole));
     for (int axis = 0; axis < 3; ++axis) {
       double low = 1e300, high = -1e300;
-      for (const Vec3& x : whole.points) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
+      for (const Vec3& x : whole.points)
+        low = std::min(low, x[axis]), high = std::max(high, x[axis]);
       const double at = low + 0.37 * (high - low);
       for (double side : {-1., 1.}) {
         const OpenedOutline cut = cut_open(whole, axis, at, side);
@@ -278,9 +301,11 @@ TEST_CASE("normal and curvature are the first and second derivatives of the gap"
       Vec3 gradient;
       bool smooth = true;  // no border between pieces of the shape within reach of the difference
       for (int j = 0; j < 3; ++j) {
-        const ShapePoint a = shape_at(shape, x + h * Vec3::Unit(j)), b = shape_at(shape, x - h * Vec3::Unit(j));
+        const ShapePoint a = shape_at(shape, x + h * Vec3::Unit(j)),
+                         b = shape_at(shape, x - h * Vec3::Unit(j));
         gradient[j] = (a.gap - b.gap) / (2 * h), slope.col(j) = (a.normal - b.normal) / (2 * h);
-        smooth = smooth && (a.curvature - p.curvature).norm() < 1e-3 && (b.curvature - p.curvature).norm() < 1e-3;
+        smooth = smooth && (a.curvature - p.curvature).norm() < 1e-3 &&
+                 (b.curvature - p.curvature).norm() < 1e-3;
       }
       CHECK(p.normal.norm() == doctest::Approx(1).epsilon(1e-12));
       CHECK((gradient - p.normal).norm() < 1e-8);
@@ -294,7 +319,8 @@ TEST_CASE("normal and curvature are the first and second derivatives of the gap"
 }
 
 TEST_CASE("an ellipsoid of equal axes is a sphere, its poles are where they should be") {
-  const Indenter ball = Ellipsoid{{2, 2, 2}, {0, 1, 0}}, sphere = Sphere{2, {0, 1, 0}}, egg = Ellipsoid{{3, 1.5, 2}, {0, 5, 0}};
+  const Indenter ball = Ellipsoid{{2, 2, 2}, {0, 1, 0}}, sphere = Sphere{2, {0, 1, 0}},
+                 egg = Ellipsoid{{3, 1.5, 2}, {0, 5, 0}};
   for (const Vec3& x : {Vec3(3, 0, 1), Vec3(0.3, -1.2, 0.4), Vec3(0, -3, 0)}) {
     CHECK(shape_at(ball, x).gap == doctest::Approx(shape_at(sphere, x).gap).epsilon(1e-10));
     CHECK((shape_at(ball, x).curvature - shape_at(sphere, x).curvature).norm() < 1e-8);
@@ -320,7 +346,8 @@ TEST_CASE("facets know inside from outside and find the nearest triangle") {
   }
 }
 
-TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted sphere gives the sphere's force") {
+TEST_CASE(
+    "every indenter presses: exact law, few iterations, a finely faceted sphere gives the sphere's force") {
   test::Indentation scene;
   scene.nx = scene.nz = 14, scene.ny = 4, scene.h = 0.45, scene.depth = 0.5, scene.reach = 3;
   const auto press = [&](const std::string& name, const Indenter& shape) {
@@ -334,11 +361,13 @@ TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted s
       CHECK(step.defect.cone <= 1e-8);
       CHECK(step.defect.complementarity <= 1e-8);
     }
-    MESSAGE(name << ": " << result.steps.back().force << " N, " << result.path.iterations << " iterations");
+    MESSAGE(name << ": " << result.steps.back().force << " N, " << result.path.iterations
+                 << " iterations");
     return result.steps.back().force;
   };
   const double ball = press("sphere", Sphere{2.5, {0, 6.5, 0}});
-  CHECK(press("ellipsoid of equal axes", Ellipsoid{{2.5, 2.5, 2.5}, {0, 6.5, 0}}) == doctest::Approx(ball).epsilon(1e-8));
+  CHECK(press("ellipsoid of equal axes", Ellipsoid{{2.5, 2.5, 2.5}, {0, 6.5, 0}}) ==
+        doctest::Approx(ball).epsilon(1e-8));
   CHECK(press("flat-ended cylinder", Cylinder{2, 0.4, {0, 4, 0}, {0, 1, 0}}) > 1.5 * ball);
   CHECK(press("long ellipsoid", Ellipsoid{{5, 2.5, 2.5}, {0, 6.5, 0}}) > ball);
   Facets facets;
@@ -349,21 +378,27 @@ TEST_CASE("every indenter presses: exact law, few iterations, a finely faceted s
   CHECK(press("faceted sphere", facets) == doctest::Approx(ball).epsilon(0.01));
 }
 
-TEST_CASE("a surface of very many triangles is shown by a few thousand polygons, as large and seen from outside") {
+TEST_CASE(
+    "a surface of very many triangles is shown by a few thousand polygons, as large and seen from outside") {
   for (int rings : {20, 60, 250}) {
     CAPTURE(rings);
     Triangles whole = half_sphere(2, rings, 2 * rings);
     const auto points = whole.points;
     const auto corners = whole.corners;
-    const int n = static_cast<int>(points.size()), below = n - 2 * rings;  // its rim belongs to both halves
-    for (int i = 0; i < below; ++i) whole.points.emplace_back(points[i][0], -points[i][1], points[i][2]);
-    const auto above = [&](int i) { return i < below ? n + i : i; };
+    const int n = static_cast<int>(points.size()),
+              below = n - 2 * rings;  // its rim belongs to both halves
+    for (int i = 0; i < below; ++i)
+      whole.points.emplace_back(points[i][0], -points[i][1], points[i][2]);
+    const auto above = [&](int i) {
+      return i < below ? n + i : i;
+    };
     for (const auto& c : corners) whole.corners.push_back({above(c[0]), above(c[2]), above(c[1])});
     const std::size_t triangles = whole.corners.size();
     Facets facets;
     facets.rounding = 0.05;
     facets.tree = std::make_shared<TriangleTree>(std::move(whole));
-    const Outline out = outline(facets, {Vec3::Zero(), 10, 24}), ball = outline(Sphere{2, {0, 0, 0}}, {Vec3::Zero(), 10, 24});
+    const Outline out = outline(facets, {Vec3::Zero(), 10, 24}),
+                  ball = outline(Sphere{2, {0, 0, 0}}, {Vec3::Zero(), 10, 24});
     CHECK(out.faces.size() <= triangles);
     CHECK(out.faces.size() < 6 * ball.faces.size());
     CHECK(out.faces.size() > ball.faces.size() / 2);
@@ -375,7 +410,8 @@ TEST_CASE("a surface of very many triangles is shown by a few thousand polygons,
     }
     CHECK(inwards == 0);
     double farthest = 0;
-    for (const Vec3& x : out.points) farthest = std::max(farthest, std::abs(shape_at(facets, x).gap));
+    for (const Vec3& x : out.points)
+      farthest = std::max(farthest, std::abs(shape_at(facets, x).gap));
     CHECK(farthest < 0.1 * facets.rounding);
   }
 }

@@ -25,10 +25,11 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
     m.fibres[0].law = fibre, m.volume = volume;
     return m;
   };
-  for (const Material& material : {with_laws(ExpPowFibre{0.3, 0.8, 2.5}, LogarithmicVolume{200}),
-                                   with_laws(PowLinearFibre{0.4, 1.04, 3}, SimoTaylorVolume{2e3}), test::table1(30, 1e-2),
-                                   test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4), with(Gent{0.3, 4}),
-                                   with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
+  for (const Material& material :
+       {with_laws(ExpPowFibre{0.3, 0.8, 2.5}, LogarithmicVolume{200}),
+        with_laws(PowLinearFibre{0.4, 1.04, 3}, SimoTaylorVolume{2e3}), test::table1(30, 1e-2),
+        test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4),
+        with(Gent{0.3, 4}), with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
     REQUIRE(packet_form(material));
     const auto a = fibre_directions(material);
     for (const auto& [n, formulation] : {std::pair{8, Formulation::mean_dilatation},
@@ -46,7 +47,8 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
         ElementNodes X(n, 3);
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < 3; ++k)
-            X(i, k) = 0.5 * reference(n).node[i][k] + spread * near(random), u[l](i, k) = spread * small(random);
+            X(i, k) = 0.5 * reference(n).node[i][k] + spread * near(random),
+                 u[l](i, k) = spread * small(random);
         geometry.push_back(element_geometry(X));
       }
       const ElementGeometry* pointers[8];
@@ -65,21 +67,25 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
           for (int k = 0; k < n_p; ++k) pressure(k, l) = near(random), p[k].set(l, pressure(k, l));
         PacketElement out(n, n_p);
         const double local = test::local_modulus(formulation, material);
-        packet_solid(formulation, material, local, together, fibre, moved.data(), given_pressure ? p.data() : nullptr, true, out);
+        packet_solid(formulation, material, local, together, fibre, moved.data(),
+                     given_pressure ? p.data() : nullptr, true, out);
         for (int l = 0; l < 8; ++l) {
           SolidElement one;
-          REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], given_pressure ? pressure.col(l).data() : nullptr, true,
-                        one));
+          REQUIRE(solid(formulation, material, local, geometry[l], a, u[l],
+                        given_pressure ? pressure.col(l).data() : nullptr, true, one));
           CHECK(out.W[l] == doctest::Approx(one.W).epsilon(1e-12));
           CHECK(out.J_min[l] == doctest::Approx(one.J_min).epsilon(1e-13));
           const double f = one.f.lpNorm<Eigen::Infinity>(), K = one.K.lpNorm<Eigen::Infinity>();
           double worst_f = 0, worst_K = 0, worst_dJ = 0;
           for (int i = 0; i < 3 * n; ++i) {
             worst_f = std::max(worst_f, std::abs(out.f[i][l] - one.f[i]));
-            for (int j = 0; j <= i; ++j) worst_K = std::max(worst_K, std::abs(out.K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
-            for (int k = 0; k < n_p; ++k) worst_dJ = std::max(worst_dJ, std::abs(out.dJ_du(k)[i][l] - one.dJ_du[k][i]));
+            for (int j = 0; j <= i; ++j)
+              worst_K = std::max(worst_K, std::abs(out.K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
+            for (int k = 0; k < n_p; ++k)
+              worst_dJ = std::max(worst_dJ, std::abs(out.dJ_du(k)[i][l] - one.dJ_du[k][i]));
           }
-          for (int k = 0; k < n_p; ++k) CHECK(std::abs(out.J_minus_1[k][l] - one.J_minus_1[k]) < 1e-14);
+          for (int k = 0; k < n_p; ++k)
+            CHECK(std::abs(out.J_minus_1[k][l] - one.J_minus_1[k]) < 1e-14);
           CHECK(worst_f <= 1e-12 * f);
           CHECK(worst_K <= 1e-12 * K);
           CHECK(worst_dJ <= 1e-13);

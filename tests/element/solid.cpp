@@ -7,12 +7,12 @@
 #include <cmath>
 #include <random>
 
+#include "core/tensor/dense.hpp"
+#include "core/tensor/stress.hpp"
 #include "mechanics/assembly/equilibrium.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/dense.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 
@@ -30,8 +30,9 @@ struct Kind {
   int n;
   Formulation formulation;
 };
-const Kind kinds[] = {{8, Formulation::mean_dilatation},  {8, Formulation::displacement},  {27, Formulation::linear_dilatation},
-                      {27, Formulation::mean_dilatation}, {27, Formulation::displacement}, {15, Formulation::linear_dilatation},
+const Kind kinds[] = {{8, Formulation::mean_dilatation},    {8, Formulation::displacement},
+                      {27, Formulation::linear_dilatation}, {27, Formulation::mean_dilatation},
+                      {27, Formulation::displacement},      {15, Formulation::linear_dilatation},
                       {15, Formulation::displacement}};
 
 One distorted(int n_nodes, double d, unsigned seed = 5) {
@@ -65,16 +66,16 @@ TEST_CASE("the internal force is the gradient of the stored energy") {
     const One one = distorted(n, 1e-2);
     const ElementNodes u = some_displacement(n, 1);
     SolidElement at, plus, minus;
-    REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, false,
-                  at));
+    REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material),
+                  one.geometry, one.a, u, nullptr, false, at));
     const double h = 1e-6, scale = at.f.lpNorm<Eigen::Infinity>();
     for (int i = 0; i < 3 * n; ++i) {
       ElementNodes up = u, down = u;
       up(i / 3, i % 3) += h, down(i / 3, i % 3) -= h;
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
-            plus);
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
-            minus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+            one.a, up, nullptr, false, plus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+            one.a, down, nullptr, false, minus);
       CHECK(std::abs((plus.W - minus.W) / (2 * h) - at.f[i]) <= 1e-7 * scale);
     }
   }
@@ -86,18 +87,19 @@ TEST_CASE("the tangent is the derivative of the force, and symmetric") {
       const One one = distorted(n, d);
       const ElementNodes u = some_displacement(n, 2);
       SolidElement at, plus, minus;
-      REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr,
-                    true, at));
+      REQUIRE(solid(formulation, one.material, test::local_modulus(formulation, one.material),
+                    one.geometry, one.a, u, nullptr, true, at));
       const double scale = at.K.lpNorm<Eigen::Infinity>(), h = 3e-6;
       CHECK((at.K - at.K.transpose()).lpNorm<Eigen::Infinity>() <= 1e-13 * scale);
       for (int j = 0; j < 3 * n; ++j) {
         ElementNodes up = u, down = u;
         up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
-        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
-              plus);
-        solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
-              minus);
-        CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <= 1e-7 * scale);
+        solid(formulation, one.material, test::local_modulus(formulation, one.material),
+              one.geometry, one.a, up, nullptr, false, plus);
+        solid(formulation, one.material, test::local_modulus(formulation, one.material),
+              one.geometry, one.a, down, nullptr, false, minus);
+        CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <=
+              1e-7 * scale);
       }
     }
   }
@@ -113,7 +115,8 @@ TEST_CASE(
       const ElementNodes u = some_displacement(n, 7);
       SolidElement at, plus, minus;
       REQUIRE(solid(formulation, one.material, local, one.geometry, one.a, u, nullptr, true, at));
-      const double force = at.f.lpNorm<Eigen::Infinity>(), scale = at.K.lpNorm<Eigen::Infinity>(), h = 3e-6;
+      const double force = at.f.lpNorm<Eigen::Infinity>(), scale = at.K.lpNorm<Eigen::Infinity>(),
+                   h = 3e-6;
       CHECK((at.K - at.K.transpose()).lpNorm<Eigen::Infinity>() <= 1e-13 * scale);
       for (int j = 0; j < 3 * n; j += n == 8 ? 1 : 5) {
         ElementNodes up = u, down = u;
@@ -121,7 +124,8 @@ TEST_CASE(
         solid(formulation, one.material, local, one.geometry, one.a, up, nullptr, false, plus);
         solid(formulation, one.material, local, one.geometry, one.a, down, nullptr, false, minus);
         CHECK(std::abs((plus.W - minus.W) / (2 * h) - at.f[j]) <= 1e-7 * force);
-        CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <= 1e-7 * scale);
+        CHECK(((plus.f - minus.f) / (2 * h) - at.K.col(j)).lpNorm<Eigen::Infinity>() <=
+              1e-7 * scale);
       }
       // the mean stress of its points is the volume's pressure, since the rest is isochoric
       for (const GaussState& s : gauss_states(formulation, one.material, one.geometry, one.a, u))
@@ -134,17 +138,19 @@ TEST_CASE("the dilatation's gradient is its derivative") {
     const One one = distorted(n, 1e-2);
     const ElementNodes u = some_displacement(n, 3);
     SolidElement at, plus, minus;
-    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, false, at);
+    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+          one.a, u, nullptr, false, at);
     const double h = 1e-6;
     for (int j = 0; j < 3 * n; ++j) {
       ElementNodes up = u, down = u;
       up(j / 3, j % 3) += h, down(j / 3, j % 3) -= h;
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, up, nullptr, false,
-            plus);
-      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, down, nullptr, false,
-            minus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+            one.a, up, nullptr, false, plus);
+      solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+            one.a, down, nullptr, false, minus);
       for (int k = 0; k < n_pressures(formulation, n); ++k)
-        CHECK((plus.J_minus_1[k] - minus.J_minus_1[k]) / (2 * h) == doctest::Approx(at.dJ_du[k][j]).epsilon(1e-7).scale(1));
+        CHECK((plus.J_minus_1[k] - minus.J_minus_1[k]) / (2 * h) ==
+              doctest::Approx(at.dJ_du[k][j]).epsilon(1e-7).scale(1));
     }
   }
 }
@@ -153,8 +159,8 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
   for (const auto& [n, formulation] : kinds) {
     const One one = distorted(n, 1e-2);
     SolidElement rest;
-    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, ElementNodes::Zero(n, 3),
-          nullptr, true, rest);
+    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+          one.a, ElementNodes::Zero(n, 3), nullptr, true, rest);
     const VecX eigen = symmetric_eigenvalues(rest.K);
     const double largest = eigen[3 * n - 1];
     int zeros = 0;
@@ -165,7 +171,8 @@ TEST_CASE("a rigid rotation costs nothing and K has six zero eigenvalues, no mor
     const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
     const ElementNodes u = one.X * R.transpose() - one.X;
     SolidElement turned;
-    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr, true, turned);
+    solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
+          one.a, u, nullptr, true, turned);
     CHECK(turned.W < 1e-13);
     CHECK(turned.f.lpNorm<Eigen::Infinity>() < 1e-11 * largest);
     // the tangent turns with the body: same eigenvalues
@@ -178,12 +185,16 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
   H << 0.2, 0.1, -0.05, 0.03, -0.1, 0.07, -0.02, 0.04, 0.05;
   const Material material = test::stable(40, 1e-2);
   for (const auto& [n, formulation] : kinds) {
-    // hex27: corners are moved before the other nodes are put between them, and then these too: curved edges and faces
+    // hex27: corners are moved before the other nodes are put between them, and then these too:
+    // curved edges and faces
     Mesh mesh = test::cube(3);
     test::distort(mesh, 0.08);
     if (n == 27) mesh = test::raised_block(mesh), test::distort(mesh, 0.02, 4);
-    if (n == 15) mesh = test::raised_block(mesh, CellType::tet15);  // straight edges: curved ones are beyond its Gauss points
-    Equilibrium body = test::equilibrium(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), {}).dofs);
+    if (n == 15)
+      mesh = test::raised_block(
+          mesh, CellType::tet15);  // straight edges: curved ones are beyond its Gauss points
+    Equilibrium body =
+        test::equilibrium(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), {}).dofs);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = H * mesh.X[i];
     REQUIRE(body.assemble(u, false));
@@ -197,12 +208,16 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
         ++inner;
         CHECK(body.f_int().segment<3>(3 * i).norm() < 1e-13 * body.f_int().norm());
       }
-    CHECK(inner == (n == 8 ? 8 : n == 27 ? 125 : 8 + 117 + 270 + 162));  // tetrahedra: corners, middles of edges, facets, cells
+    CHECK(inner == (n == 8    ? 8
+                    : n == 27 ? 125
+                              : 8 + 117 + 270 +
+                                    162));  // tetrahedra: corners, middles of edges, facets, cells
     const Mat3 F = Mat3::Identity() + H;
-    const Mat3 sigma = cauchy(F, response(material, F.transpose() * F, fibre_directions(material)).S);
+    const Mat3 sigma =
+        cauchy(F, response(material, F.transpose() * F, fibre_directions(material)).S);
     for (int e = 0; e < mesh.n_cells(); ++e)
-      for (const GaussState& g :
-           gauss_states(formulation, material, body.geometry(e), body.fibres(e), body.element_displacements(u, e)))
+      for (const GaussState& g : gauss_states(formulation, material, body.geometry(e),
+                                              body.fibres(e), body.element_displacements(u, e)))
         CHECK((g.sigma - sigma).norm() < 1e-11 * sigma.norm());
   }
 }
@@ -213,8 +228,8 @@ TEST_CASE("an element turned inside out is refused") {
     ElementNodes u = ElementNodes::Zero(n, 3);
     u.row(0) = Eigen::RowVector3d(3, 3, 3);
     SolidElement out;
-    CHECK_FALSE(solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry, one.a, u, nullptr,
-                      true, out));
+    CHECK_FALSE(solid(formulation, one.material, test::local_modulus(formulation, one.material),
+                      one.geometry, one.a, u, nullptr, true, out));
   }
 }
 
@@ -236,6 +251,7 @@ TEST_CASE("modes of the dilatation: orthonormal, and linear in X, in cells of an
     }
     CHECK((product - Eigen::Matrix4d::Identity()).norm() < 1e-13);
     const MatX by = PivotedQr(linear).solve_columns(mode);
-    CHECK((linear * by - mode).norm() < 1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
+    CHECK((linear * by - mode).norm() <
+          1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
   }
 }

@@ -1,4 +1,5 @@
-// Cells with viscous branches: eight at once as one at a time, the tangent as the derivative of the force, the state of the points.
+// Cells with viscous branches: eight at once as one at a time, the tangent as the derivative of the
+// force, the state of the points.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
@@ -15,14 +16,17 @@ struct CellKind {
   int n;
   Formulation formulation;
 };
-constexpr CellKind cells[] = {{8, Formulation::mean_dilatation},    {8, Formulation::displacement},
-                              {27, Formulation::linear_dilatation}, {27, Formulation::displacement},
-                              {15, Formulation::linear_dilatation}, {15, Formulation::displacement}};
+constexpr CellKind cells[] = {
+    {8, Formulation::mean_dilatation},    {8, Formulation::displacement},
+    {27, Formulation::linear_dilatation}, {27, Formulation::displacement},
+    {15, Formulation::linear_dilatation}, {15, Formulation::displacement}};
 
 std::vector<Material> materials() {
-  Material all = test::stable(40, 1e-3), apart = test::table1(30, 1e-2), isotropic = test::neo_hooke(0.4, 1e-3);
+  Material all = test::stable(40, 1e-3), apart = test::table1(30, 1e-2),
+           isotropic = test::neo_hooke(0.4, 1e-3);
   all.viscous = {{0.3, 0.5, BranchOf::all}, {10, 0.2, BranchOf::all}};
-  apart.viscous = {{0.1, 0.6, BranchOf::matrix}, {2, 0.4, BranchOf::fibres}, {50, 0.1, BranchOf::all}};
+  apart.viscous = {
+      {0.1, 0.6, BranchOf::matrix}, {2, 0.4, BranchOf::fibres}, {50, 0.1, BranchOf::all}};
   isotropic.spectrum = Spectrum{0.2, 0.1, 100};
   return {all, apart, isotropic};
 }
@@ -32,7 +36,8 @@ struct Draw {
   ElementNodes nodes(int n, double spread) {
     ElementNodes X(n, 3);
     for (int i = 0; i < n; ++i)
-      for (int k = 0; k < 3; ++k) X(i, k) = 0.5 * reference(n).node[i][k] + spread * in(-0.15, 0.15);
+      for (int k = 0; k < 3; ++k)
+        X(i, k) = 0.5 * reference(n).node[i][k] + spread * in(-0.15, 0.15);
     return X;
   }
   ElementNodes moves(int n, double spread) {
@@ -41,13 +46,16 @@ struct Draw {
       for (int k = 0; k < 3; ++k) u(i, k) = spread * in(-0.1, 0.1);
     return u;
   }
-  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  double in(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
 };
 
 double spread_of(int n) { return n == 8 ? 1 : n == 27 ? 0.4 : 0.06; }
 
 // points of one cell that has been through two increments, at the begin of a third
-ViscousPoints led(const Material& m, const ElementGeometry& geometry, std::span<const Vec3> a, Draw& draw, double seconds) {
+ViscousPoints led(const Material& m, const ElementGeometry& geometry, std::span<const Vec3> a,
+                  Draw& draw, double seconds) {
   ViscousPoints points({m}, {}, 1, geometry.n_gauss());
   const int n = geometry.n_nodes();
   ElementNodes before = ElementNodes::Zero(n, 3);
@@ -95,17 +103,20 @@ TEST_CASE("viscous cells: packets reproduce the scalar element, force and tangen
       const PacketMemory together{memory[0].amplified, H.data()};
       PacketElement out(n, n_p);
       const double local = test::local_modulus(formulation, material);
-      packet_solid(formulation, material, local, packed(pointers), fibre, moved.data(), nullptr, true, out, &together);
+      packet_solid(formulation, material, local, packed(pointers), fibre, moved.data(), nullptr,
+                   true, out, &together);
       for (int l = 0; l < 8; ++l) {
         SolidElement one, elastic;
-        REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], nullptr, true, one, &memory[l]));
+        REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], nullptr, true, one,
+                      &memory[l]));
         REQUIRE(solid(formulation, material, local, geometry[l], a, u[l], nullptr, true, elastic));
         CHECK(out.W[l] == doctest::Approx(elastic.W).epsilon(1e-12));
         CHECK((one.f - elastic.f).norm() > 1e-6 * elastic.f.norm());
         double worst_f = 0, worst_K = 0;
         for (int i = 0; i < 3 * n; ++i) {
           worst_f = std::max(worst_f, std::abs(out.f[i][l] - one.f[i]));
-          for (int j = 0; j <= i; ++j) worst_K = std::max(worst_K, std::abs(out.K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
+          for (int j = 0; j <= i; ++j)
+            worst_K = std::max(worst_K, std::abs(out.K[i * (i + 1) / 2 + j][l] - one.K(i, j)));
         }
         CHECK(worst_f <= 1e-12 * one.f.lpNorm<Eigen::Infinity>());
         CHECK(worst_K <= 1e-12 * one.K.lpNorm<Eigen::Infinity>());
@@ -126,7 +137,8 @@ TEST_CASE("viscous cells: the tangent is the derivative of the force") {
       const ElementNodes u = draw.moves(n, spread_of(n)), way = draw.moves(n, spread_of(n));
       const auto force = [&](double step) {
         SolidElement out;
-        REQUIRE(solid(formulation, material, 0, geometry, a, u + step * way, nullptr, false, out, &memory));
+        REQUIRE(solid(formulation, material, 0, geometry, a, u + step * way, nullptr, false, out,
+                      &memory));
         return out.f;
       };
       SolidElement at;
@@ -134,7 +146,9 @@ TEST_CASE("viscous cells: the tangent is the derivative of the force") {
       VecX d(3 * n);
       for (int i = 0; i < 3 * n; ++i) d[i] = way(i / 3, i % 3);
       const double h = 1e-3;
-      const VecX differences = (8 * (force(h) - force(-h)) - (force(2 * h) - force(-2 * h))) / (12 * h), exact = at.K * d;
+      const VecX differences =
+                     (8 * (force(h) - force(-h)) - (force(2 * h) - force(-2 * h))) / (12 * h),
+                 exact = at.K * d;
       CAPTURE(n);
       CHECK((differences - exact).norm() <= 1e-7 * exact.norm());
       CHECK((at.K - at.K.transpose()).norm() <= 1e-12 * at.K.norm());
@@ -142,7 +156,8 @@ TEST_CASE("viscous cells: the tangent is the derivative of the force") {
   }
 }
 
-TEST_CASE("viscous cells: work against the branches is that of the stress at the points, never negative in small cycles") {
+TEST_CASE(
+    "viscous cells: work against the branches is that of the stress at the points, never negative in small cycles") {
   Draw draw;
   for (const Material& material : materials()) {
     const auto a = fibre_directions(material);
@@ -158,10 +173,12 @@ TEST_CASE("viscous cells: work against the branches is that of the stress at the
       // mean of the forces at both ends, each with its own branch stresses
       const auto force = [&](const ElementNodes& q) {
         VecX f = VecX::Zero(24);
-        const auto states = gauss_states(Formulation::displacement, material, geometry, a, q, points.stresses(0));
+        const auto states =
+            gauss_states(Formulation::displacement, material, geometry, a, q, points.stresses(0));
         for (int g = 0; g < geometry.n_gauss(); ++g) {
           const Mat3 P = states[g].J * states[g].sigma * states[g].F.transpose().inverse();
-          const Eigen::Matrix<double, 8, 3> force = geometry.w[g] * geometry.dN_dX[g] * P.transpose();
+          const Eigen::Matrix<double, 8, 3> force =
+              geometry.w[g] * geometry.dN_dX[g] * P.transpose();
           for (int k = 0; k < 24; ++k) f[k] += force(k / 3, k % 3);
         }
         return f;
@@ -171,7 +188,8 @@ TEST_CASE("viscous cells: work against the branches is that of the stress at the
       points.accept(0, geometry, before, u);
       points.accepted();
       const VecX f1 = force(u);
-      for (int k = 0; k < 24; ++k) external += 0.5 * (f0[k] + f1[k]) * (u(k / 3, k % 3) - before(k / 3, k % 3));
+      for (int k = 0; k < 24; ++k)
+        external += 0.5 * (f0[k] + f1[k]) * (u(k / 3, k % 3) - before(k / 3, k % 3));
       before = u;
       double work = 0;
       for (int g = 0; g < geometry.n_gauss(); ++g) {

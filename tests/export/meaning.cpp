@@ -1,15 +1,16 @@
-// Cards and decks mean what Langer's law says: read as the other program documents it, at random laws and random states.
+// Cards and decks mean what Langer's law says: read as the other program documents it, at random
+// laws and random states.
 #include <doctest/doctest.h>
 
 #include <functional>
 #include <random>
 
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/stress.hpp"
 #include "export/cards.hpp"
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
 #include "support/foreign_laws.hpp"
-#include "core/tensor/kinematics.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 
@@ -17,7 +18,9 @@ namespace {
 
 class Dice {
  public:
-  double operator()(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(engine_);
+  }
   Mat3 state() {  // J between 0.98 and 1.02
     for (;;) {
       Mat3 F = Mat3::Identity();
@@ -31,9 +34,13 @@ class Dice {
 };
 Dice dice;
 
-Fibre family(double kappa = 0) { return {HgoFibre{dice(0.05, 1), dice(0.05, 2)}, dice(-90, 90), FibreSwitch::I4_bar, kappa}; }
+Fibre family(double kappa = 0) {
+  return {HgoFibre{dice(0.05, 1), dice(0.05, 2)}, dice(-90, 90), FibreSwitch::I4_bar, kappa};
+}
 Yeoh yeoh() { return {dice(0.1, 1), dice(0.1, 1), dice(0.1, 1)}; }
-Ogden ogden() { return {dice(0.1, 1), dice(1, 4), dice(0.01, 0.1), dice(4, 8), -dice(0.01, 0.1), -dice(1, 4)}; }
+Ogden ogden() {
+  return {dice(0.1, 1), dice(1, 4), dice(0.01, 0.1), dice(4, 8), -dice(0.01, 0.1), -dice(1, 4)};
+}
 
 struct Kind {
   std::string name;
@@ -240,15 +247,18 @@ void compare(const Card& card, const Material& m, const Mat3& F) {
   const std::vector<Vec3> a = fibre_directions(m);
   const double J = F.determinant();
   if (card.program == "FEBio") {
-    const Mat3 own = cauchy(F, response(m, C, J - 1, a).S, J), theirs = foreign::febio_stress(card.text, F);
+    const Mat3 own = cauchy(F, response(m, C, J - 1, a).S, J),
+               theirs = foreign::febio_stress(card.text, F);
     CHECK((own - theirs).norm() <= tolerance * own.norm());
     return;
   }
   // no switch in ANSYS: compared where all families are stretched, or act anyway
   for (std::size_t k = 0; card.program == "ANSYS" && k < a.size(); ++k)
-    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && acts(m.fibres[k]) && m.fibres[k].tension_switch != FibreSwitch::off)
+    if (a[k].dot(C * a[k]) * std::pow(J, -2. / 3) < 1 && acts(m.fibres[k]) &&
+        m.fibres[k].tension_switch != FibreSwitch::off)
       return;
-  const foreign::Energies theirs = card.program == "ANSYS" ? foreign::by_ansys(card.text, F) : foreign::by_keywords(card.text, F);
+  const foreign::Energies theirs = card.program == "ANSYS" ? foreign::by_ansys(card.text, F)
+                                                           : foreign::by_keywords(card.text, F);
   const double own = isochoric(m, C, a).W;
   // twelve digits of two components leave the third, their length's rest, to 1e-6
   const bool user = card.text.find("USER MATERIAL") != std::string::npos;
@@ -283,48 +293,58 @@ TEST_CASE("a card means Langer's law, or says what the program lacks and the nea
 TEST_CASE("the formulas tell FEBio's own Yeoh and Arruda-Boyce from the laws of that name") {
   const Mat3 F = Vec3(1.6, 1 / std::sqrt(1.6), 1 / std::sqrt(1.6)).asDiagonal();
   const auto ratio = [&](const std::string& text, const Material& m) {
-    const Mat3 own = cauchy(F, isochoric(m, right_cauchy_green(F), {}).S, 1), theirs = foreign::febio_stress(text, F);
+    const Mat3 own = cauchy(F, isochoric(m, right_cauchy_green(F), {}).S, 1),
+               theirs = foreign::febio_stress(text, F);
     return (theirs(0, 0) - theirs(1, 1)) / (own(0, 0) - own(1, 1));
   };
-  const std::string head = "<material id=\"1\" name=\"x\" type=\"", k = "\"><k>1</k><pressure_model>2</pressure_model>";
-  const Material table1{{Yeoh{0.269, 0.376, 0.415}}, {}, {}}, chains{{ArrudaBoyce{0.3, 1.2}}, {}, {}};
+  const std::string head = "<material id=\"1\" name=\"x\" type=\"",
+                    k = "\"><k>1</k><pressure_model>2</pressure_model>";
+  const Material table1{{Yeoh{0.269, 0.376, 0.415}}, {}, {}},
+      chains{{ArrudaBoyce{0.3, 1.2}}, {}, {}};
   // coefficients as they are: half the stress, and half as much again
-  CHECK(ratio(head + "Yeoh" + k + "<c1>0.269</c1><c2>0.376</c2><c3>0.415</c3></material>", table1) ==
-        doctest::Approx(0.503).epsilon(0.02));
+  CHECK(ratio(head + "Yeoh" + k + "<c1>0.269</c1><c2>0.376</c2><c3>0.415</c3></material>",
+              table1) == doctest::Approx(0.503).epsilon(0.02));
   CHECK(ratio(head + "Arruda-Boyce" + k + "<mu>0.3</mu><N>1.44</N></material>", chains) > 1.5);
 }
 
 TEST_CASE("a group of cells with directions of its own gets them in FEBio") {
   for (int draw = 0; draw < 40; ++draw) {
     const bool scattered = draw % 2 == 1;
-    Material m{{yeoh()}, {family(scattered ? 0.2 : 0), family(scattered ? 0.1 : 0)}, {QuadraticVolume{1e-3}}};
+    Material m{{yeoh()},
+               {family(scattered ? 0.2 : 0), family(scattered ? 0.1 : 0)},
+               {QuadraticVolume{1e-3}}};
     if (draw % 4 == 3) m.matrix = {NeoHooke{0.4}}, m.fibres[1] = m.fibres[0];
     std::vector<Vec3> a;
-    for (int k = 0; k < 2; ++k) a.push_back(Vec3(dice(-1, 1), dice(-1, 1), dice(-1, 1)).normalized());
+    for (int k = 0; k < 2; ++k)
+      a.push_back(Vec3(dice(-1, 1), dice(-1, 1), dice(-1, 1)).normalized());
     const ForeignLaw law = febio_material(m, a, 1, "law");
     CAPTURE(law.text);
     for (int state = 0; state < 10; ++state) {
       const Mat3 F = dice.state();
-      const Mat3 own = cauchy(F, response(m, right_cauchy_green(F), F.determinant() - 1, a).S, F.determinant());
+      const Mat3 own =
+          cauchy(F, response(m, right_cauchy_green(F), F.determinant() - 1, a).S, F.determinant());
       CHECK((own - foreign::febio_stress(law.text, F)).norm() <= 1e-11 * own.norm());
     }
   }
 }
 
-TEST_CASE("another law of volume change goes where a program has it, and is refused by name with the nearest where not") {
+TEST_CASE(
+    "another law of volume change goes where a program has it, and is refused by name with the nearest where not") {
   struct Case {
     Material m;
     Volume volume;
     std::string held_by, nearest;  // nearest: of Abaqus
   };
   const Fibre fibre{HgoFibre{0.3, 0.8}, 30};
-  const std::string square = "volume: {quadratic: {d: 0.002}}", other = "volume: {simo_taylor: {bulk_modulus: 1000}}";
-  for (const auto& [m, volume, held_by, nearest] : {Case{{{NeoHooke{0.3}}, {}, {}}, LogarithmicVolume{1000}, "F", square},
-                                                    Case{{{NeoHooke{0.3}}, {}, {}}, SimoTaylorVolume{1000}, "F", square},
-                                                    Case{{{NeoHooke{0.3}}, {fibre}, {}}, LogarithmicVolume{1000}, "F", other},
-                                                    Case{{{NeoHooke{0.3}}, {fibre}, {}}, SimoTaylorVolume{1000}, "AF", ""},
-                                                    Case{{{ArrudaBoyce{0.3, 2}}, {}, {}}, SimoTaylorVolume{1000}, "ANC", ""},
-                                                    Case{{{Gent{0.3, 30}}, {}, {}}, SimoTaylorVolume{1000}, "NF", ""}}) {
+  const std::string square = "volume: {quadratic: {d: 0.002}}",
+                    other = "volume: {simo_taylor: {bulk_modulus: 1000}}";
+  for (const auto& [m, volume, held_by, nearest] :
+       {Case{{{NeoHooke{0.3}}, {}, {}}, LogarithmicVolume{1000}, "F", square},
+        Case{{{NeoHooke{0.3}}, {}, {}}, SimoTaylorVolume{1000}, "F", square},
+        Case{{{NeoHooke{0.3}}, {fibre}, {}}, LogarithmicVolume{1000}, "F", other},
+        Case{{{NeoHooke{0.3}}, {fibre}, {}}, SimoTaylorVolume{1000}, "AF", ""},
+        Case{{{ArrudaBoyce{0.3, 2}}, {}, {}}, SimoTaylorVolume{1000}, "ANC", ""},
+        Case{{{Gent{0.3, 30}}, {}, {}}, SimoTaylorVolume{1000}, "NF", ""}}) {
     Material law = m;
     law.volume = volume;
     for (const Card& card : cards(law)) {

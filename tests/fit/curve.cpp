@@ -29,17 +29,20 @@ bool starts(const std::string& s, const std::string& with) {
 
 }  // namespace
 
-TEST_CASE("strain in percent, stretch, kPa and nominal stress are converted by the columns' names") {
+TEST_CASE(
+    "strain in percent, stretch, kPa and nominal stress are converted by the columns' names") {
   const Curve a = parse_curve("# a comment\nstrain,cauchy_stress_MPa\n0.1,0.5\n\n0.2,0.75\n", "a");
   CHECK(a.strain[0] == doctest::Approx(0.1).epsilon(1e-14));
   CHECK(a.strain[1] == doctest::Approx(0.2).epsilon(1e-14));
   CHECK(a.stress == std::vector{0.5, 0.75});
   CHECK(a.measure == StressMeasure::cauchy);
-  const Curve b = parse_curve("specimen , nominal_stress_kPa , stretch\r\nP1, 500, 1.25\r\nP1, +750, 1.5\r\n", "b");
+  const Curve b = parse_curve(
+      "specimen , nominal_stress_kPa , stretch\r\nP1, 500, 1.25\r\nP1, +750, 1.5\r\n", "b");
   CHECK(b.strain == std::vector{0.25, 0.5});
   CHECK(b.stress == std::vector{0.5, 0.75});
   CHECK(b.measure == StressMeasure::nominal);
-  const Curve c = parse_curve("\xEF\xBB\xBFstrain_percent,cauchy_stress_Pa\n25,5e5\n50,75e4\n", "c");
+  const Curve c =
+      parse_curve("\xEF\xBB\xBFstrain_percent,cauchy_stress_Pa\n25,5e5\n50,75e4\n", "c");
   CHECK(c.strain == std::vector{0.25, 0.5});
   CHECK(c.stress[1] == doctest::Approx(0.75).epsilon(1e-15));
 }
@@ -58,9 +61,10 @@ TEST_CASE("what is not a finite number is refused with line and column") {
 
 TEST_CASE("all bad cells are told at once, up to ten lines") {
   const std::string all = refusal("strain,cauchy_stress_MPa\nx,y\n0.1,0.2\n0.2,z\n");
-  CHECK(all ==
-        "c.csv:2:1: found x; expected a finite number\nc.csv:2:3: found y; expected a finite number\n"
-        "c.csv:4:5: found z; expected a finite number");
+  CHECK(
+      all ==
+      "c.csv:2:1: found x; expected a finite number\nc.csv:2:3: found y; expected a finite number\n"
+      "c.csv:4:5: found z; expected a finite number");
   std::string many = "strain,cauchy_stress_MPa\n";
   for (int i = 0; i < 1000; ++i) many += "0,?\n";
   const std::string told = refusal(many);
@@ -68,13 +72,19 @@ TEST_CASE("all bad cells are told at once, up to ten lines") {
 }
 
 TEST_CASE("columns that are missing, doubled or without unit are refused") {
-  starts(refusal("strain,stress\n0,0\n"), "c.csv:1:8: stress_unit: no unit for the column \"stress\"");
-  starts(refusal("strain,stress_MPa\n0,0\n"),
-         "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
-  starts(refusal("time,force\n0,0\n"), "c.csv:1:1: columns: found time, force; expected one column of strain");
-  starts(refusal("strain,cauchy_stress_psi\n0,0\n"), "c.csv:1:1: columns: found strain, cauchy_stress_psi");
-  starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"), "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
-  starts(refusal("strain,cauchy_stress_MPa\n0,0\n"), "c.csv: found 1 points; expected two at least");
+  starts(refusal("strain,stress\n0,0\n"),
+         "c.csv:1:8: stress_unit: no unit for the column \"stress\"");
+  starts(
+      refusal("strain,stress_MPa\n0,0\n"),
+      "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
+  starts(refusal("time,force\n0,0\n"),
+         "c.csv:1:1: columns: found time, force; expected one column of strain");
+  starts(refusal("strain,cauchy_stress_psi\n0,0\n"),
+         "c.csv:1:1: columns: found strain, cauchy_stress_psi");
+  starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"),
+         "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
+  starts(refusal("strain,cauchy_stress_MPa\n0,0\n"),
+         "c.csv: found 1 points; expected two at least");
   starts(refusal(""), "c.csv: found 0 points");
   starts(refusal(std::string("\0\1\2\xff\n", 5)), "c.csv:1:1: columns: found ");
 }
@@ -93,7 +103,8 @@ TEST_CASE("a range of strain keeps both ends") {
   const auto points = [](double from, double to) {
     TestFormat f;
     f.part.strain_from = from, f.part.strain_to = to;
-    return parse_tests("strain,cauchy_stress_MPa\n0,0\n0.25,1\n0.5,2\n0.75,3\n", "c", f)[0].stress_x;
+    return parse_tests("strain,cauchy_stress_MPa\n0,0\n0.25,1\n0.5,2\n0.75,3\n", "c", f)[0]
+        .stress_x;
   };
   CHECK(points(0.25, 0.5) == std::vector{1., 2.});
   CHECK_THROWS_AS(points(1, 2), Failure);

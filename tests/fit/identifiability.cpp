@@ -1,4 +1,5 @@
-// What data tell: the paper's single curve in numbers, closed forms of a linear model, coverage of intervals, advice.
+// What data tell: the paper's single curve in numbers, closed forms of a linear model, coverage of
+// intervals, advice.
 #include "identification/fit/identifiability.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +16,9 @@ using namespace langer;
 
 namespace {
 
-VecX vec(std::initializer_list<double> x) { return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size())); }
+VecX vec(std::initializer_list<double> x) {
+  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
+}
 
 // y = p0 + p1 x at x = 0 .. 9
 LeastSquares line(const VecX& y, double lower = -100, double upper = 100) {
@@ -25,7 +28,8 @@ LeastSquares line(const VecX& y, double lower = -100, double upper = 100) {
     for (int i = 0; i < 10; ++i) r[i] = p[0] + p[1] * i - y[i];
     return true;
   };
-  q.start = vec({0, 0}), q.lower = vec({lower, lower}), q.upper = vec({upper, upper}), q.typical = vec({1, 1});
+  q.start = vec({0, 0}), q.lower = vec({lower, lower}), q.upper = vec({upper, upper}),
+  q.typical = vec({1, 1});
   q.size = y.norm();
   return q;
 }
@@ -49,7 +53,8 @@ const std::vector<FreeParameter> five{{"matrix.yeoh.a1", 0.269, -10, 10},
 const VecX table1 = vec({0.269, 0.376, 0.415, -0.317, 0.319});
 
 // stresses of the law itself in place of measured ones
-FitProblem exact(const Material& law, const std::vector<FreeParameter>& free, std::vector<Test> tests) {
+FitProblem exact(const Material& law, const std::vector<FreeParameter>& free,
+                 std::vector<Test> tests) {
   FitProblem q{law, free, std::move(tests), Dilatation::incompressible};
   VecX p(static_cast<Eigen::Index>(free.size()));
   for (std::size_t i = 0; i < free.size(); ++i) p[static_cast<Eigen::Index>(i)] = free[i].start;
@@ -73,14 +78,16 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
   for (int i = 0; i < 10; ++i) y[i] = 2 + 0.5 * i + 0.1 * random.normal();
   const LeastSquares q = line(y);
   const LeastSquaresResult best = least_squares(q);
-  const Identifiability s = identifiability(best.J, best.p, sizes_of(q, best.p), best.at_bound, white_noise(0.1, 10));
+  const Identifiability s =
+      identifiability(best.J, best.p, sizes_of(q, best.p), best.at_bound, white_noise(0.1, 10));
   // sum x = 45, sum x^2 = 285, determinant 825
   CHECK(s.error[0] == doctest::Approx(0.1 * std::sqrt(285. / 825)).epsilon(1e-9));
   CHECK(s.error[1] == doctest::Approx(0.1 * std::sqrt(10. / 825)).epsilon(1e-9));
   CHECK(s.correlation(0, 1) == doctest::Approx(-45 / std::sqrt(2850.)).epsilon(1e-9));
   CHECK(s.singular[0] >= s.singular[1]);
   // the product of the singular values is the determinant of the scaled Jacobian
-  CHECK(s.singular[0] * s.singular[1] == doctest::Approx(std::sqrt(825.) * std::abs(best.p[0] * best.p[1]) / 0.01).epsilon(1e-9));
+  CHECK(s.singular[0] * s.singular[1] ==
+        doctest::Approx(std::sqrt(825.) * std::abs(best.p[0] * best.p[1]) / 0.01).epsilon(1e-9));
   ProfileOptions options;
   const auto all = profiles([&] { return line(y); }, best.p, s.error, 0.1, options);
   for (int i = 0; i < 2; ++i) {
@@ -90,10 +97,14 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
     CHECK(!profile.low_open);
     CHECK(std::is_sorted(profile.value.begin(), profile.value.end()));
     for (std::size_t k = 0; k < profile.value.size(); ++k)
-      CHECK(profile.rise[k] == doctest::Approx(std::pow((profile.value[k] - best.p[i]) / s.error[i], 2)).epsilon(1e-6).scale(1));
+      CHECK(profile.rise[k] ==
+            doctest::Approx(std::pow((profile.value[k] - best.p[i]) / s.error[i], 2))
+                .epsilon(1e-6)
+                .scale(1));
   }
   // a bound inside the interval ends it, and says so
-  const auto boxed = profiles([&] { return line(y, -100, best.p[0] + 0.5 * s.error[0]); }, best.p, s.error, 0.1, options);
+  const auto boxed = profiles([&] { return line(y, -100, best.p[0] + 0.5 * s.error[0]); }, best.p,
+                              s.error, 0.1, options);
   CHECK(boxed[0].high_open);
   CHECK(boxed[0].high == doctest::Approx(best.p[0] + 0.5 * s.error[0]));
   BootstrapOptions draws;
@@ -101,8 +112,10 @@ TEST_CASE("a straight line has the errors, correlation and profiles of the textb
   const Bootstrap b = bootstrap([&] { return line(y); }, best.p, white_noise(0.1, 10), draws);
   CHECK(b.failed == 0);
   for (int i = 0; i < 2; ++i) {
-    CHECK(b.low[i] == doctest::Approx(best.p[i] - 1.96 * s.error[i]).epsilon(0.1 * s.error[i] / std::abs(best.p[i])));
-    CHECK(b.high[i] == doctest::Approx(best.p[i] + 1.96 * s.error[i]).epsilon(0.1 * s.error[i] / std::abs(best.p[i])));
+    CHECK(b.low[i] == doctest::Approx(best.p[i] - 1.96 * s.error[i])
+                          .epsilon(0.1 * s.error[i] / std::abs(best.p[i])));
+    CHECK(b.high[i] == doctest::Approx(best.p[i] + 1.96 * s.error[i])
+                           .epsilon(0.1 * s.error[i] / std::abs(best.p[i])));
   }
 }
 
@@ -110,7 +123,8 @@ TEST_CASE("parameters that only act together are not determined, and the words s
   //   y depends on p0 + p1 alone
   MatX J(3, 3);
   J << 1, 1, 0, 2, 2, 0, 0, 0, 5;
-  const Identifiability s = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {false, false, false}, white_noise(0.1, 3));
+  const Identifiability s = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}),
+                                            {false, false, false}, white_noise(0.1, 3));
   CHECK(std::isnan(s.error[0]));
   CHECK(std::isnan(s.error[1]));
   CHECK(s.error[2] == doctest::Approx(0.02));
@@ -119,26 +133,32 @@ TEST_CASE("parameters that only act together are not determined, and the words s
   CHECK(words.find("b -") != std::string::npos);
   CHECK(words.find("c ") == std::string::npos);
   // on a bound: left out
-  const Identifiability held = identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {true, false, false}, white_noise(0.1, 3));
+  const Identifiability held =
+      identifiability(J, vec({1, 2, 3}), vec({1, 2, 3}), {true, false, false}, white_noise(0.1, 3));
   CHECK(std::isnan(held.error[0]));
   CHECK(held.error[1] == doctest::Approx(0.1 / std::sqrt(5.)));
   CHECK(held.combination.cols() == 2);
 }
 
-TEST_CASE("one test along the fibre: 44, 45, 8, 46 and 24 % at 1 % noise, one sloppy combination, of all but a3") {
-  const FitProblem q = exact(table1_hgo_yeoh(), five, {test_of_sheet(TestKind::uniaxial, 0, 0.6, 30)});
+TEST_CASE(
+    "one test along the fibre: 44, 45, 8, 46 and 24 % at 1 % noise, one sloppy combination, of all but a3") {
+  const FitProblem q =
+      exact(table1_hgo_yeoh(), five, {test_of_sheet(TestKind::uniaxial, 0, 0.6, 30)});
   const LeastSquares problem = least_squares_problem(q);
   MatX J;
   REQUIRE(jacobian(problem, table1, J));
   const double noise = 0.01 * largest_stress(q.tests[0]);
-  const Identifiability s = identifiability(J, table1, sizes_of(problem, table1), none_at_bound, white_noise(noise, J.rows()));
+  const Identifiability s = identifiability(J, table1, sizes_of(problem, table1), none_at_bound,
+                                            white_noise(noise, J.rows()));
   const double percent[] = {44, 45, 8, 46, 24};
-  for (int i = 0; i < 5; ++i) CHECK(100 * s.error[i] / std::abs(table1[i]) == doctest::Approx(percent[i]).epsilon(0.05));
+  for (int i = 0; i < 5; ++i)
+    CHECK(100 * s.error[i] / std::abs(table1[i]) == doctest::Approx(percent[i]).epsilon(0.05));
   CHECK(s.correlation(0, 3) == doctest::Approx(-0.9988).epsilon(2e-4));
   for (int i : {0, 1, 3, 4}) CHECK(s.correlation_worst[i] > 0.98);
   const std::string words = sloppy_words(s, {"a1", "a2", "a3", "c1", "c2"}, 4);
   CHECK(words.find("a3 ") == std::string::npos);
-  for (const char* name : {"a1 ", "a2 ", "c1 ", "c2 "}) CHECK(words.find(name) != std::string::npos);
+  for (const char* name : {"a1 ", "a2 ", "c1 ", "c2 "})
+    CHECK(words.find(name) != std::string::npos);
   CHECK(s.singular[0] / s.singular[4] > 100);
 }
 
@@ -155,7 +175,8 @@ TEST_CASE("the advice after one test along the fibre is a test across it") {
     const FitProblem more = exact(law, five, {test_of_sheet(TestKind::uniaxial, angle, 0.6, 30)});
     MatX J_more;
     REQUIRE(jacobian(least_squares_problem(more), table1, J_more));
-    candidates.push_back({std::to_string(static_cast<int>(angle)), J_more, 0.01 * largest_stress(more.tests[0])});
+    candidates.push_back(
+        {std::to_string(static_cast<int>(angle)), J_more, 0.01 * largest_stress(more.tests[0])});
   }
   const auto advice = advise(known, size, candidates);
   CHECK(advice[0].name == "90");
@@ -174,7 +195,8 @@ TEST_CASE("95 % intervals of noisy tests hold the true parameters 90 to 99 times
                                         {"fibres[0].hgo.c2", 0.30, 0, 5}};
   const VecX truth = vec({0.05, 0.05, 0.02, 0.10, 0.30});
   FitProblem q = exact(positive_hgo_yeoh(), free,
-                       {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20), test_of_sheet(TestKind::uniaxial, 90, 0.5, 20)});
+                       {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20),
+                        test_of_sheet(TestKind::uniaxial, 90, 0.5, 20)});
   const FitProblem clean = q;
   constexpr int seeds = 200;
   Eigen::VectorXi held = Eigen::VectorXi::Zero(5), held_by_profile = held;
@@ -189,10 +211,12 @@ TEST_CASE("95 % intervals of noisy tests hold the true parameters 90 to 99 times
     REQUIRE(best.converged);
     // the noise is estimated, as for real data; Student's factor for 35 degrees of freedom
     const double estimated = std::sqrt(2 * best.cost / 35);
-    const Identifiability s = identifiability(best.J, best.p, sizes_of(problem, best.p), best.at_bound, white_noise(estimated, 40));
+    const Identifiability s = identifiability(best.J, best.p, sizes_of(problem, best.p),
+                                              best.at_bound, white_noise(estimated, 40));
     for (int i = 0; i < 5; ++i) {
       held[i] += std::abs(best.p[i] - truth[i]) <= 2.0301 * s.error[i];
-      held_by_profile[i] += profile_rise(problem, i, truth[i], best.p, estimated) <= 2.0301 * 2.0301;
+      held_by_profile[i] +=
+          profile_rise(problem, i, truth[i], best.p, estimated) <= 2.0301 * 2.0301;
     }
   }
   for (int i = 0; i < 5; ++i) {
@@ -204,7 +228,8 @@ TEST_CASE("95 % intervals of noisy tests hold the true parameters 90 to 99 times
   }
 }
 
-TEST_CASE("bootstrap: percentiles of each parameter spread from its estimate as told, not beyond a bound; samples stay") {
+TEST_CASE(
+    "bootstrap: percentiles of each parameter spread from its estimate as told, not beyond a bound; samples stay") {
   VecX y(10);
   for (int i = 0; i < 10; ++i) y[i] = 1 + 0.5 * i + (i % 3 - 1) * 0.2;
   const VecX best = least_squares(line(y)).p;
@@ -219,14 +244,17 @@ TEST_CASE("bootstrap: percentiles of each parameter spread from its estimate as 
   CHECK(a.samples == b.samples);
   for (int i = 0; i < 2; ++i) {
     CHECK(a.low[i] < best[i]);
-    CHECK(b.low[i] - best[i] == doctest::Approx(wide.spread[i] * (a.low[i] - best[i])).epsilon(1e-12));
-    CHECK(b.high[i] - best[i] == doctest::Approx(wide.spread[i] * (a.high[i] - best[i])).epsilon(1e-12));
+    CHECK(b.low[i] - best[i] ==
+          doctest::Approx(wide.spread[i] * (a.low[i] - best[i])).epsilon(1e-12));
+    CHECK(b.high[i] - best[i] ==
+          doctest::Approx(wide.spread[i] * (a.high[i] - best[i])).epsilon(1e-12));
   }
   const double bound = best[0] + 1.2 * (a.high[0] - best[0]);
   CHECK(draw(wide, bound).high[0] == bound);
 }
 
-TEST_CASE("intervals grow most for the parameter that the correlation hides best: a level more than what a few values tell") {
+TEST_CASE(
+    "intervals grow most for the parameter that the correlation hides best: a level more than what a few values tell") {
   // a level, and a peak of three values in the middle of 100
   MatX columns = MatX::Zero(100, 2);
   columns.col(0).setOnes();
@@ -244,9 +272,12 @@ TEST_CASE("intervals grow most for the parameter that the correlation hides best
 }
 
 TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
-  const FitProblem q = exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
-                             {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});
-  const auto maker = [&] { return least_squares_problem(q); };
+  const FitProblem q =
+      exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
+            {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});
+  const auto maker = [&] {
+    return least_squares_problem(q);
+  };
   const VecX best = vec({0.05, 0.10}), error = vec({0.002, 0.004});
   BootstrapOptions one, three;
   one.samples = three.samples = 20, three.threads = 3;
@@ -256,19 +287,26 @@ TEST_CASE("profiles and bootstrap do not depend on the number of threads") {
   CHECK((a.samples.array() == b.samples.array()).all());
   ProfileOptions p1, p3;
   p3.threads = 3;
-  const auto x = profiles(maker, best, error, 0.005, p1), y = profiles(maker, best, error, 0.005, p3);
+  const auto x = profiles(maker, best, error, 0.005, p1),
+             y = profiles(maker, best, error, 0.005, p3);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(x[i].value == y[i].value);
     CHECK(x[i].high == y[i].high);
   }
 }
 
-TEST_CASE("profiles and bootstrap tell how far they are, growing to the whole, on any number of threads") {
-  const FitProblem q = exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
-                             {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});
-  const auto maker = [&] { return least_squares_problem(q); };
+TEST_CASE(
+    "profiles and bootstrap tell how far they are, growing to the whole, on any number of threads") {
+  const FitProblem q =
+      exact(positive_hgo_yeoh(), {{"matrix.yeoh.a1", 0.05, 0, 1}, {"fibres[0].hgo.c1", 0.10, 0, 1}},
+            {test_of_sheet(TestKind::uniaxial, 0, 0.5, 20)});
+  const auto maker = [&] {
+    return least_squares_problem(q);
+  };
   std::vector<double> told;
-  const auto listen = [&](double part) { told.push_back(part); };
+  const auto listen = [&](double part) {
+    told.push_back(part);
+  };
   BootstrapOptions draws;
   draws.samples = 10, draws.threads = 3, draws.progress = listen;
   bootstrap(maker, vec({0.05, 0.10}), white_noise(0.005, 20), draws);

@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "identification/fit/bounded_linear.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/fit/bounded_linear.hpp"
 
 using namespace langer;
 
@@ -16,7 +16,9 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-VecX vec(std::initializer_list<double> x) { return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size())); }
+VecX vec(std::initializer_list<double> x) {
+  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
+}
 
 // y = p0 exp(p1 x)
 struct Exponential {
@@ -30,7 +32,9 @@ struct Exponential {
     q.start = start, q.lower = lower, q.upper = upper, q.typical = VecX::Ones(2), q.size = y.norm();
     return q;
   }
-  double cost(double p0, double p1) const { return 0.5 * (p0 * (p1 * x.array()).exp().matrix() - y).squaredNorm(); }
+  double cost(double p0, double p1) const {
+    return 0.5 * (p0 * (p1 * x.array()).exp().matrix() - y).squaredNorm();
+  }
   double best_p0(double p1) const {  // closed form, p0 being linear
     const VecX e = (p1 * x.array()).exp();
     return e.dot(y) / e.squaredNorm();
@@ -54,7 +58,8 @@ TEST_CASE("the bounded linear problem is solved exactly: no better set of held v
     const MatX A = MatX::NullaryExpr(m, n, [&](Eigen::Index, Eigen::Index) { return x(rng); });
     const VecX b = VecX::NullaryExpr(m, [&](Eigen::Index) { return 3 * x(rng); });
     const VecX lower = VecX::NullaryExpr(n, [&](Eigen::Index) { return -std::abs(x(rng)); });
-    const VecX upper = VecX::NullaryExpr(n, [&](Eigen::Index) { return trial % 3 ? std::abs(x(rng)) : inf; });
+    const VecX upper =
+        VecX::NullaryExpr(n, [&](Eigen::Index) { return trial % 3 ? std::abs(x(rng)) : inf; });
     const VecX found = bounded_linear(A, b, lower, upper);
     CHECK((found.array() >= lower.array()).all());
     CHECK((found.array() <= upper.array()).all());
@@ -80,7 +85,8 @@ TEST_CASE("an exponential with its rate on the bound converges to the true const
   const Exponential e = growth();
   const double bound = 0.25;  // the free optimum lies near 0.3
   const double p0 = e.best_p0(bound);
-  for (const VecX& start : {vec({1, 0}), vec({5, -2}), vec({0.01, 0.25}), vec({-3, 0.2}), vec({20, 0.25})}) {
+  for (const VecX& start :
+       {vec({1, 0}), vec({5, -2}), vec({0.01, 0.25}), vec({-3, 0.2}), vec({20, 0.25})}) {
     const auto s = least_squares(e.problem(start, vec({-inf, -inf}), vec({inf, bound})));
     CHECK(s.converged);
     CHECK(s.kkt <= 1e-8);
@@ -98,7 +104,8 @@ TEST_CASE("an exponential with its factor on the bound converges to the true con
   double low = 0, high = 1;
   for (int i = 0; i < 200; ++i) {
     const double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-    (e.cost(bound, a) < e.cost(bound, b) ? high : low) = e.cost(bound, a) < e.cost(bound, b) ? b : a;
+    (e.cost(bound, a) < e.cost(bound, b) ? high : low) =
+        e.cost(bound, a) < e.cost(bound, b) ? b : a;
   }
   for (const VecX& start : {vec({0.1, 0}), vec({0.8, 1}), vec({0.8, -1}), vec({-1, 0.3})}) {
     const auto s = least_squares(e.problem(start, vec({-inf, -inf}), vec({bound, inf})));
@@ -127,7 +134,8 @@ TEST_CASE("Rosenbrock's valley is followed to its end, also along a bound") {
     r = vec({10 * (p[1] - p[0] * p[0]), 1 - p[0]});
     return true;
   };
-  q.start = vec({-1.2, 1}), q.lower = vec({-inf, -inf}), q.upper = vec({inf, inf}), q.typical = vec({1, 1});
+  q.start = vec({-1.2, 1}), q.lower = vec({-inf, -inf}), q.upper = vec({inf, inf}),
+  q.typical = vec({1, 1});
   CHECK((least_squares(q).p - vec({1, 1})).norm() <= 1e-10);
   // p0 <= 0.5: p1 = p0^2 keeps the first residual at zero
   q.upper = vec({0.5, inf});
@@ -154,8 +162,10 @@ TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm"
   CHECK(std::isnan(cov(2, 2)));
 }
 
-TEST_CASE("at a kink of the model a search ends where what is left is far below the standard errors, and only there") {
-  // f = p x + k x^2 |p - c|, and data whose optimum is the kink: from either side J^T r points to it and does not vanish
+TEST_CASE(
+    "at a kink of the model a search ends where what is left is far below the standard errors, and only there") {
+  // f = p x + k x^2 |p - c|, and data whose optimum is the kink: from either side J^T r points to
+  // it and does not vanish
   const double c = 2;
   const VecX x = VecX::LinSpaced(20, 0.05, 1), xx = x.cwiseAbs2();
   const VecX missed = -2 * (xx - xx.dot(x) / x.squaredNorm() * x);
@@ -169,7 +179,8 @@ TEST_CASE("at a kink of the model a search ends where what is left is far below 
       J = x + (p[0] < c ? -k : k) * xx;
       return true;
     };
-    q.start = vec({0.5}), q.lower = vec({-inf}), q.upper = vec({inf}), q.typical = vec({1}), q.size = (c * x + missed).norm();
+    q.start = vec({0.5}), q.lower = vec({-inf}), q.upper = vec({inf}), q.typical = vec({1}),
+    q.size = (c * x + missed).norm();
     return least_squares(q, {.iterations = 60, .kkt = 1e-11, .step = 1e-8, .good_enough = 1e-5});
   };
   const LeastSquaresResult slight = search(0.02), strong = search(0.2);
@@ -187,7 +198,8 @@ TEST_CASE("steps into a region without model are shortened, a start without mode
     r = vec({std::sqrt(std::abs(p[0])) - 2});
     return p[0] >= 0;
   };
-  q.start = vec({1e-3}), q.lower = vec({-100}), q.upper = vec({100}), q.typical = vec({1e-4}), q.size = 2;
+  q.start = vec({1e-3}), q.lower = vec({-100}), q.upper = vec({100}), q.typical = vec({1e-4}),
+  q.size = 2;
   const auto s = least_squares(q);
   CHECK(s.converged);
   CHECK(s.p[0] == doctest::Approx(4).epsilon(1e-10));
@@ -198,11 +210,13 @@ TEST_CASE("steps into a region without model are shortened, a start without mode
   CHECK(none.why == "the model does not exist at the start");
 }
 
-TEST_CASE("differences of fourth order give the Jacobian, also against a bound and from inside a narrow box") {
+TEST_CASE(
+    "differences of fourth order give the Jacobian, also against a bound and from inside a narrow box") {
   const Exponential e = growth();
   const double p0 = 1.3, p1 = 0.4;
-  for (const auto& [lower, upper] : {std::pair{-inf, inf}, std::pair{p1, inf}, std::pair{-inf, p1}, std::pair{p1 - 1e-4, 5.},
-                                     std::pair{-5., p1 + 1e-4}, std::pair{p1 - 1e-3, p1 + 2e-3}}) {
+  for (const auto& [lower, upper] :
+       {std::pair{-inf, inf}, std::pair{p1, inf}, std::pair{-inf, p1}, std::pair{p1 - 1e-4, 5.},
+        std::pair{-5., p1 + 1e-4}, std::pair{p1 - 1e-3, p1 + 2e-3}}) {
     const auto q = e.problem(vec({p0, p1}), vec({-inf, lower}), vec({inf, upper}));
     MatX J;
     REQUIRE(jacobian(q, q.start, J));
@@ -214,20 +228,23 @@ TEST_CASE("differences of fourth order give the Jacobian, also against a bound a
   }
 }
 
-TEST_CASE("the covariance of a straight line is the textbook's, and covers the truth as often as it says") {
+TEST_CASE(
+    "the covariance of a straight line is the textbook's, and covers the truth as often as it says") {
   const VecX x = VecX::LinSpaced(21, -1, 1);
   std::mt19937 rng(32);
   std::normal_distribution<double> noise(0, 0.1);
   int covered = 0;
   const int trials = 2000;
   for (int trial = 0; trial < trials; ++trial) {
-    const VecX y = 2 * x.array() + 1 + VecX::NullaryExpr(21, [&](Eigen::Index) { return noise(rng); }).array();
+    const VecX y =
+        2 * x.array() + 1 + VecX::NullaryExpr(21, [&](Eigen::Index) { return noise(rng); }).array();
     LeastSquares q;
     q.residual = [&](const VecX& p, VecX& r) {
       r = p[0] * VecX::Ones(21) + p[1] * x - y;
       return true;
     };
-    q.start = vec({0, 0}), q.lower = vec({-inf, -inf}), q.upper = vec({inf, inf}), q.typical = vec({1, 1}), q.size = y.norm();
+    q.start = vec({0, 0}), q.lower = vec({-inf, -inf}), q.upper = vec({inf, inf}),
+    q.typical = vec({1, 1}), q.size = y.norm();
     const auto s = least_squares(q);
     const MatX cov = covariance(s);
     if (trial == 0) {
@@ -236,14 +253,17 @@ TEST_CASE("the covariance of a straight line is the textbook's, and covers the t
       CHECK(cov(1, 1) == doctest::Approx(variance / x.squaredNorm()).epsilon(1e-9));
       CHECK(std::abs(cov(0, 1)) <= 1e-9 * cov(0, 0));
     }
-    covered += std::abs(s.p[1] - 2) <= 2.093 * std::sqrt(cov(1, 1));  // Student's t, 19 degrees of freedom, 95 %
+    covered += std::abs(s.p[1] - 2) <=
+               2.093 * std::sqrt(cov(1, 1));  // Student's t, 19 degrees of freedom, 95 %
   }
   // binomial: 3 standard deviations are 1.5 percent
   CHECK(std::abs(covered / double(trials) - 0.95) <= 0.015);
 }
 
-TEST_CASE("A start where a parameter has no first effect is no optimum unless both sides are higher") {
-  LeastSquares q;  // r = (p^2 - 1, 0.1 p^2): at p = 0 flat and a maximum of the cost, least at p^2 = 1/1.01
+TEST_CASE(
+    "A start where a parameter has no first effect is no optimum unless both sides are higher") {
+  LeastSquares
+      q;  // r = (p^2 - 1, 0.1 p^2): at p = 0 flat and a maximum of the cost, least at p^2 = 1/1.01
   q.residual = [](const VecX& p, VecX& r) {
     r = vec({p[0] * p[0] - 1, 0.1 * p[0] * p[0]});
     return true;
@@ -257,7 +277,8 @@ TEST_CASE("A start where a parameter has no first effect is no optimum unless bo
   q.lower = vec({0});
   CHECK(least_squares(q).p[0] == doctest::Approx(std::sqrt(1 / 1.01)).epsilon(1e-9));
 
-  // here the flat place is the optimum: reached from far, where J^T J alone tells nothing of the curvature
+  // here the flat place is the optimum: reached from far, where J^T J alone tells nothing of the
+  // curvature
   q.residual = [](const VecX& p, VecX& r) {
     r = vec({2 - std::cos(p[0]) + p[1], 1 + 0.3 * p[1]});
     return true;

@@ -1,4 +1,5 @@
-// Angles: periodic boxes, places of symmetry, and what is known of the other numbers there; ties between families.
+// Angles: periodic boxes, places of symmetry, and what is known of the other numbers there; ties
+// between families.
 #include "identification/fit/periodic.hpp"
 
 #include <doctest/doctest.h>
@@ -57,13 +58,15 @@ double apart(double a, double b) { return std::abs(std::remainder(a - b, 180)); 
 
 }  // namespace
 
-TEST_CASE("an angle is the same in every box of 180 degrees and more, with its errors and intervals") {
+TEST_CASE(
+    "an angle is the same in every box of 180 degrees and more, with its errors and intervals") {
   const std::vector<Test> tests = measured(goh(0.05, 0.2, 0.8, 62, 0.1), 0.0005, 1);
   const FitProblem narrow = goh_fit(tests, 50, 30, 80);
   const FitResult expected = fit(narrow, {.starts = 1});
   REQUIRE(expected.best.converged);
   const Profile known = profile_of(narrow, expected, 3);
-  for (const auto& [lower, upper] : {std::pair{-90., 90.}, {0., 180.}, {61., 241.}, {-125., 60.}, {-180., 180.}}) {
+  for (const auto& [lower, upper] :
+       {std::pair{-90., 90.}, {0., 180.}, {61., 241.}, {-125., 60.}, {-180., 180.}}) {
     const auto from = lower;
     CAPTURE(from);
     const FitProblem q = goh_fit(tests, std::clamp(50., lower, upper), lower, upper);
@@ -77,13 +80,15 @@ TEST_CASE("an angle is the same in every box of 180 degrees and more, with its e
     CHECK(apart(f.best.p[3], mirrored ? -expected.best.p[3] : expected.best.p[3]) <= 1e-4);
     CHECK(f.covariance(3, 3) == doctest::Approx(expected.covariance(3, 3)).epsilon(1e-4));
     const Profile p = profile_of(q, f, 3);
-    const double below = f.best.p[3] - p.low, above = p.high - f.best.p[3], centre = expected.best.p[3];
+    const double below = f.best.p[3] - p.low, above = p.high - f.best.p[3],
+                 centre = expected.best.p[3];
     CHECK((mirrored ? above : below) == doctest::Approx(centre - known.low).epsilon(1e-2));
     CHECK((mirrored ? below : above) == doctest::Approx(known.high - centre).epsilon(1e-2));
   }
 }
 
-TEST_CASE("at an angle of symmetry the angle leaves the covariance, the others' errors are those of a held angle") {
+TEST_CASE(
+    "at an angle of symmetry the angle leaves the covariance, the others' errors are those of a held angle") {
   int symmetric = 0;
   for (double truth : {0., 90.})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -97,14 +102,16 @@ TEST_CASE("at an angle of symmetry the angle leaves the covariance, the others' 
       held.law.fibres[0].alpha_deg = f.best.p[3];
       held.free.erase(held.free.begin() + 3);
       const FitResult without = fit(held, {.starts = 3});
-      // noise may put the optimum off the axis, farther than its own standard error: then the angle is an angle like others
+      // noise may put the optimum off the axis, farther than its own standard error: then the angle
+      // is an angle like others
       if (!f.symmetric[3]) continue;
       ++symmetric;
       CHECK(apart(f.best.p[3], truth) <= 1);
       CHECK(std::isnan(f.covariance(3, 3)));
       for (int i : {0, 1, 2}) {
         CAPTURE(i);
-        CHECK(std::sqrt(f.covariance(i, i)) == doctest::Approx(std::sqrt(without.covariance(i, i))).epsilon(0.02));
+        CHECK(std::sqrt(f.covariance(i, i)) ==
+              doctest::Approx(std::sqrt(without.covariance(i, i))).epsilon(0.02));
       }
       const Profile p = profile_of(q, f, 3);
       CHECK(p.low < f.best.p[3]);
@@ -119,13 +126,15 @@ TEST_CASE("at an angle of symmetry the angle leaves the covariance, the others' 
 }
 
 TEST_CASE("an angle of symmetry beside its bound has no standard error either") {
-  const FitProblem q = goh_fit(measured(goh(0.05, 0.2, 0.8, 90, 0.15), 0.0005, 1), 80, 0, 90 + 1e-7);
+  const FitProblem q =
+      goh_fit(measured(goh(0.05, 0.2, 0.8, 90, 0.15), 0.0005, 1), 80, 0, 90 + 1e-7);
   const FitResult f = fit(q, {.starts = 1});
   CHECK(apart(f.best.p[3], 90) <= 3);
   CHECK((f.best.at_bound[3] || f.symmetric[3] || f.covariance(3, 3) < 100));
 }
 
-TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is that of bounds 0 to 180") {
+TEST_CASE(
+    "porcine skin P12AC1: intervals hold their estimates, the angle's is that of bounds 0 to 180") {
   const std::string file = SOURCE_DIR "/../shared/data/porcine_skin_biaxial_P12AC1.csv";
   if (!std::filesystem::exists(file)) {
     MESSAGE("skipped: the measured specimen is not here");
@@ -134,14 +143,16 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
   TestFormat format;
   format.like.kind = TestKind::biaxial, format.like.measure = StressMeasure::nominal;
   format.strain = StrainMeasure::stretch;
-  format.strain_x = "lambda_x", format.strain_z = "lambda_y", format.stress_x = "P_x_MPa", format.stress_z = "P_y_MPa";
+  format.strain_x = "lambda_x", format.strain_z = "lambda_y", format.stress_x = "P_x_MPa",
+  format.stress_z = "P_y_MPa";
   format.split = "protocol";
   const std::vector<Test> tests = tests_of(read_table(file), format);
   const FitProblem one = goh_fit(tests, 80, 0, 180), other = goh_fit(tests, 80, -90, 90);
   const FitResult a = fit(one, {.starts = 6}), b = fit(other, {.starts = 6});
   const Profile x = profile_of(one, a, 3), y = profile_of(other, b, 3);
-  MESSAGE("GOH: residuals correlated by " << a.noise.rho << ", 900 values count as " << a.noise.effective << "; alpha "
-                                          << b.best.p[3] << ", interval " << y.low << " to " << y.high);
+  MESSAGE("GOH: residuals correlated by " << a.noise.rho << ", 900 values count as "
+                                          << a.noise.effective << "; alpha " << b.best.p[3]
+                                          << ", interval " << y.low << " to " << y.high);
   CHECK(a.noise.rho > 0.8);
   CHECK(a.noise.effective < 90);
   CHECK(apart(a.best.p[3], b.best.p[3]) <= 0.05);
@@ -151,12 +162,14 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
   CHECK(b.best.p[3] - y.low == doctest::Approx(a.best.p[3] - x.low).epsilon(0.02));
   FitProblem yeoh = other;
   yeoh.law = {{Yeoh{0.01, 0.1, 0.1}}, {hgo_fibre(0.1, 1, 80)}, volume};
-  yeoh.free = {{"matrix.yeoh.a1", 0.01, 0, 10},  {"matrix.yeoh.a2", 0.1, 0, 10},  {"matrix.yeoh.a3", 0.1, 0, 10},
-               {"fibres[0].hgo.c1", 0.1, 0, 10}, {"fibres[0].hgo.c2", 1, 0, 100}, {"fibres[0].alpha", 80, -90, 90}};
+  yeoh.free = {{"matrix.yeoh.a1", 0.01, 0, 10}, {"matrix.yeoh.a2", 0.1, 0, 10},
+               {"matrix.yeoh.a3", 0.1, 0, 10},  {"fibres[0].hgo.c1", 0.1, 0, 10},
+               {"fibres[0].hgo.c2", 1, 0, 100}, {"fibres[0].alpha", 80, -90, 90}};
   const FitResult c = fit(yeoh, {.starts = 2});
   for (const auto& [q, f] : {std::pair{&other, &b}, {&yeoh, &c}}) {
     const FitProblem& problem = *q;
-    const Bootstrap samples = bootstrap([&] { return least_squares_problem(problem); }, f->best.p, f->noise, {.samples = 60});
+    const Bootstrap samples = bootstrap([&] { return least_squares_problem(problem); }, f->best.p,
+                                        f->noise, {.samples = 60});
     for (Eigen::Index i = 0; i < f->best.p.size(); ++i) {
       const std::string& key = problem.free[static_cast<std::size_t>(i)].key;
       CAPTURE(key);
@@ -166,8 +179,11 @@ TEST_CASE("porcine skin P12AC1: intervals hold their estimates, the angle's is t
   }
 }
 
-TEST_CASE("two families tied to each other: symmetric angles, shared c1, c2 and kappa come back and stay tied") {
-  const Material start{{NeoHooke{0.1}}, {hgo_fibre(0.1, 1, 30, FibreSwitch::I4_bar, 0.2), hgo_fibre(3, 3, 3)}, volume};
+TEST_CASE(
+    "two families tied to each other: symmetric angles, shared c1, c2 and kappa come back and stay tied") {
+  const Material start{{NeoHooke{0.1}},
+                       {hgo_fibre(0.1, 1, 30, FibreSwitch::I4_bar, 0.2), hgo_fibre(3, 3, 3)},
+                       volume};
   const std::vector<Tie> ties{{"fibres[1].alpha", "fibres[0].alpha", -1, 0},
                               {"fibres[1].hgo.c1", "fibres[0].hgo.c1", 1, 0},
                               {"fibres[1].hgo.c2", "fibres[0].hgo.c2", 1, 0},
@@ -175,7 +191,8 @@ TEST_CASE("two families tied to each other: symmetric angles, shared c1, c2 and 
   for (double alpha : {25., 41., 70.}) {
     CAPTURE(alpha);
     const Material truth{{NeoHooke{0.05}},
-                         {hgo_fibre(0.2, 2, alpha, FibreSwitch::I4_bar, 0.1), hgo_fibre(0.2, 2, -alpha, FibreSwitch::I4_bar, 0.1)},
+                         {hgo_fibre(0.2, 2, alpha, FibreSwitch::I4_bar, 0.1),
+                          hgo_fibre(0.2, 2, -alpha, FibreSwitch::I4_bar, 0.1)},
                          volume};
     FitProblem q = goh_fit(measured(truth, 0, 1), 40, 1, 89);
     q.law = start, q.ties = ties;

@@ -1,4 +1,5 @@
-// Residuals that are correlated along curves: what they count as, and that intervals hold what they say.
+// Residuals that are correlated along curves: what they count as, and that intervals hold what they
+// say.
 #include "identification/fit/residual_noise.hpp"
 
 #include <doctest/doctest.h>
@@ -20,7 +21,8 @@ MatX dense(const ResidualNoise& n, Eigen::Index m) {
   for (Eigen::Index size : n.curves) {
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index j = 0; j < size; ++j)
-        V(at + i, at + j) += n.deviation * n.deviation * std::pow(n.rho, static_cast<double>(std::abs(i - j)));
+        V(at + i, at + j) +=
+            n.deviation * n.deviation * std::pow(n.rho, static_cast<double>(std::abs(i - j)));
     at += size;
   }
   return V;
@@ -46,28 +48,34 @@ VecX drawn(const std::vector<Eigen::Index>& curves, double rho, Random& random) 
 }  // namespace
 
 TEST_CASE("Student's factor at 95 %") {
-  for (const auto& [freedom, factor] : {std::pair{2., 4.303}, {3., 3.182}, {5., 2.571}, {10., 2.228}, {30., 2.042}, {120., 1.980}})
+  for (const auto& [freedom, factor] :
+       {std::pair{2., 4.303}, {3., 3.182}, {5., 2.571}, {10., 2.228}, {30., 2.042}, {120., 1.980}})
     CHECK(student_95(freedom) == doctest::Approx(factor).epsilon(freedom < 4 ? 0.01 : 0.001));
-  CHECK(student_95(std::numeric_limits<double>::infinity()) == doctest::Approx(1.959964).epsilon(1e-6));
+  CHECK(student_95(std::numeric_limits<double>::infinity()) ==
+        doctest::Approx(1.959964).epsilon(1e-6));
 }
 
 TEST_CASE("covariance, variance along a direction and likelihood are those of the dense matrices") {
   Random random(4);
   ResidualNoise noise;
   noise.curves = {7, 1, 12}, noise.deviation = 0.3, noise.rho = 0.8, noise.white = 0.1;
-  const MatX J = normal(60, random).reshaped(20, 3), V = dense(noise, 20), inverse = (J.transpose() * J).inverse();
+  const MatX J = normal(60, random).reshaped(20, 3), V = dense(noise, 20),
+             inverse = (J.transpose() * J).inverse();
   const MatX expected = inverse * J.transpose() * V * J * inverse;
   CHECK((covariance(J, {false, false, false}, noise) - expected).norm() <= 1e-12 * expected.norm());
   const MatX two = J.leftCols(2), inverse_2 = (two.transpose() * two).inverse();
-  const MatX expected_2 = inverse_2 * two.transpose() * V * two * inverse_2, got = covariance(J, {false, false, true}, noise);
+  const MatX expected_2 = inverse_2 * two.transpose() * V * two * inverse_2,
+             got = covariance(J, {false, false, true}, noise);
   CHECK((got.topLeftCorner(2, 2) - expected_2).norm() <= 1e-12 * expected_2.norm());
   CHECK(std::isnan(got(2, 2)));
   const VecX v = normal(20, random);
   CHECK(along(noise, v).variance == doctest::Approx(v.dot(V * v)).epsilon(1e-12));
-  // the factor is the ratio of the errors, and that of Student's factors, which is one for a noise that is told
+  // the factor is the ratio of the errors, and that of Student's factors, which is one for a noise
+  // that is told
   const VecX factor = interval_factors(J, {false, false, false}, noise);
   for (int i = 0; i < 3; ++i)
-    CHECK(factor[i] == doctest::Approx(std::sqrt(expected(i, i) / inverse(i, i)) / noise.total()).epsilon(1e-9));
+    CHECK(factor[i] ==
+          doctest::Approx(std::sqrt(expected(i, i) / inverse(i, i)) / noise.total()).epsilon(1e-9));
   //   -2 ln L of the autoregression, with the deviation that is best for each rho
   const VecX r = drawn({7, 1, 12}, 0.8, random);
   double lowest = 1e300;
@@ -77,18 +85,21 @@ TEST_CASE("covariance, variance along a direction and likelihood are those of th
     const MatX R = dense(unit, 20);
     // per innovation: |R| (1 - rho^2)^20 is the product of the curves' (1 - rho^2)
     const double Q = (1 - unit.rho * unit.rho) * r.dot(R.inverse() * r);
-    lowest = std::min(lowest, 20 * std::log(Q / 20) + std::log(R.determinant()) - 20 * std::log(1 - unit.rho * unit.rho));
+    lowest = std::min(lowest, 20 * std::log(Q / 20) + std::log(R.determinant()) -
+                                  20 * std::log(1 - unit.rho * unit.rho));
   }
   CHECK(minus_two_log_likelihood(r, noise) == doctest::Approx(lowest).epsilon(1e-4));
   noise.rho = 0;
-  CHECK(minus_two_log_likelihood(r, noise) == doctest::Approx(20 * std::log(r.squaredNorm() / 20)).epsilon(1e-12));
+  CHECK(minus_two_log_likelihood(r, noise) ==
+        doctest::Approx(20 * std::log(r.squaredNorm() / 20)).epsilon(1e-12));
 }
 
 TEST_CASE("correlation and size of known noise are found, whatever the parameters took from it") {
   const std::vector<Eigen::Index> curves{60, 60, 60, 60};
   MatX J(240, 4);
   for (int i = 0; i < 240; ++i)
-    for (int j = 0; j < 4; ++j) J(i, j) = std::pow((i % 60 + 1) / 60., j + 1) * (i / 60 == j ? 2 : 1);
+    for (int j = 0; j < 4; ++j)
+      J(i, j) = std::pow((i % 60 + 1) / 60., j + 1) * (i / 60 == j ? 2 : 1);
   const MatX hat = J * (J.transpose() * J).inverse() * J.transpose();
   for (double rho : {0., 0.3, 0.6, 0.9, 0.97}) {
     CAPTURE(rho);
@@ -105,18 +116,21 @@ TEST_CASE("correlation and size of known noise are found, whatever the parameter
   }
 }
 
-TEST_CASE("the effective number: all of white values, (1 - rho)/(1 + rho) of long curves, one of a curve that is but one drift") {
+TEST_CASE(
+    "the effective number: all of white values, (1 - rho)/(1 + rho) of long curves, one of a curve that is but one drift") {
   Random random(2);
   const std::vector<Eigen::Index> curves{20000};
   const ResidualNoise n = residual_noise(drawn(curves, 0.9, random), MatX(20000, 0), curves, 1);
   CHECK(n.rho == doctest::Approx(0.9).epsilon(0.02));
   CHECK(n.effective == doctest::Approx(20000 * (1 - n.rho) / (1 + n.rho)).epsilon(0.01));
   const std::vector<Eigen::Index> short_ones(10, 30);
-  const ResidualNoise drift = residual_noise(drawn(short_ones, 0.999, random), MatX(300, 0), short_ones, 1);
+  const ResidualNoise drift =
+      residual_noise(drawn(short_ones, 0.999, random), MatX(300, 0), short_ones, 1);
   CHECK(drift.effective >= 10);
   CHECK(drift.effective <= 20);
   // rounding of exact data is no noise
-  CHECK(residual_noise(1e-7 * drawn(short_ones, 0.9, random), MatX(300, 0), short_ones, 1).rho == 0);
+  CHECK(residual_noise(1e-7 * drawn(short_ones, 0.9, random), MatX(300, 0), short_ones, 1).rho ==
+        0);
 }
 
 TEST_CASE("the bootstrap holds the estimate where residuals have a mean and a trend") {
@@ -126,13 +140,15 @@ TEST_CASE("the bootstrap holds the estimate where residuals have a mean and a tr
     VecX x(40), y(40);
     const double offset = 2 * random.normal(), bend = random.normal();
     for (int i = 0; i < 40; ++i)
-      x[i] = (i % 20 + 1) / 20., y[i] = 3 * x[i] + offset + bend * x[i] * x[i] * (i < 20 ? 1 : 0.5) + 0.05 * random.normal();
+      x[i] = (i % 20 + 1) / 20.,
+      y[i] = 3 * x[i] + offset + bend * x[i] * x[i] * (i < 20 ? 1 : 0.5) + 0.05 * random.normal();
     LeastSquares q;
     q.residual = [x, y](const VecX& p, VecX& r) {
       r = p[0] * x - y;
       return true;
     };
-    q.start = q.typical = VecX::Ones(1), q.lower = VecX::Constant(1, -100), q.upper = -q.lower, q.size = y.norm();
+    q.start = q.typical = VecX::Ones(1), q.lower = VecX::Constant(1, -100), q.upper = -q.lower,
+    q.size = y.norm();
     const LeastSquaresResult best = least_squares(q);
     const ResidualNoise noise = residual_noise(best.r, best.J, {20, 20}, 1);
     const Bootstrap b = bootstrap([&] { return q; }, best.p, noise, {.samples = 200});
@@ -152,20 +168,24 @@ TEST_CASE("95 % intervals under correlated noise hold the true parameters 90 to 
   for (double rho : {0., 0.5, 0.9}) {
     Eigen::VectorXi held = Eigen::VectorXi::Zero(5), held_white = held, held_by_profile = held;
     for (int seed = 0; seed < seeds; ++seed) {
-      const FitProblem q = test::noisy(exact, 0.005 * test::largest_of(exact), rho, static_cast<std::uint64_t>(seed));
+      const FitProblem q = test::noisy(exact, 0.005 * test::largest_of(exact), rho,
+                                       static_cast<std::uint64_t>(seed));
       const FitResult f = fit(q, {.starts = 1});
       REQUIRE(f.best.converged);
       const LeastSquares problem = least_squares_problem(q);
       const VecX factor = interval_factors(f.columns, f.left_out, f.noise);
       const MatX white = covariance(f.best);
       for (int i = 0; i < 5; ++i) {
-        const double truth = q.free[static_cast<std::size_t>(i)].start, off = std::abs(f.best.p[i] - truth);
+        const double truth = q.free[static_cast<std::size_t>(i)].start,
+                     off = std::abs(f.best.p[i] - truth);
         // error = (J_i beyond the others)^-1: white error times the factor, Student's included
-        const double white_error =
-            std::sqrt(covariance(f.best.J, f.left_out, white_noise(f.noise.deviation, f.best.r.size()))(i, i));
+        const double white_error = std::sqrt(covariance(
+            f.best.J, f.left_out, white_noise(f.noise.deviation, f.best.r.size()))(i, i));
         held[i] += off <= 1.96 * factor[i] * white_error;
         held_white[i] += off <= 1.96 * std::sqrt(white(i, i));
-        if (seed < 100) held_by_profile[i] += profile_rise(problem, i, truth, f.best.p, f.noise.deviation * factor[i]) <= 3.8415;
+        if (seed < 100)
+          held_by_profile[i] +=
+              profile_rise(problem, i, truth, f.best.p, f.noise.deviation * factor[i]) <= 3.8415;
       }
     }
     for (int i = 0; i < 5; ++i) {

@@ -1,4 +1,5 @@
-// Rubber of Treloar and of Kawabata and others, where the measured tests are at hand: the table of docs/identification_results.md.
+// Rubber of Treloar and of Kawabata and others, where the measured tests are at hand: the table of
+// docs/identification_results.md.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -24,8 +25,11 @@ std::vector<Test> treloar(const std::vector<std::string>& modes) {
   for (const std::string& mode : modes) {
     TestFormat f;
     f.like.name = mode, f.like.measure = StressMeasure::nominal;
-    f.like.kind = mode == "uniaxial" ? TestKind::uniaxial : mode == "equibiaxial" ? TestKind::equibiaxial : TestKind::pure_shear;
-    f.strain = StrainMeasure::stretch, f.strain_x = "lambda_1", f.stress_x = "P_1_MPa", f.where = {{"mode", mode}};
+    f.like.kind = mode == "uniaxial"      ? TestKind::uniaxial
+                  : mode == "equibiaxial" ? TestKind::equibiaxial
+                                          : TestKind::pure_shear;
+    f.strain = StrainMeasure::stretch, f.strain_x = "lambda_1", f.stress_x = "P_1_MPa",
+    f.where = {{"mode", mode}};
     all.push_back(tests_of(read_table(folder + "treloar1944.csv"), f)[0]);
   }
   return all;
@@ -33,14 +37,16 @@ std::vector<Test> treloar(const std::vector<std::string>& modes) {
 
 std::vector<Test> kawabata() {
   TestFormat f;
-  f.like.kind = TestKind::biaxial, f.like.measure = StressMeasure::nominal, f.strain = StrainMeasure::stretch;
+  f.like.kind = TestKind::biaxial, f.like.measure = StressMeasure::nominal,
+  f.strain = StrainMeasure::stretch;
   f.strain_x = "lambda_1", f.strain_z = "lambda_2", f.stress_x = "P_1_MPa", f.stress_z = "P_2_MPa";
   return tests_of(read_table(folder + "kawabata1981_biaxial.csv"), f);
 }
 
 // parameters and R2 to the digits given
-void gives(const char* name, const Material& law, const std::vector<FreeParameter>& free, const std::vector<Test>& tests,
-           const std::vector<double>& expected, double r2, double digits = 2e-3) {
+void gives(const char* name, const Material& law, const std::vector<FreeParameter>& free,
+           const std::vector<Test>& tests, const std::vector<double>& expected, double r2,
+           double digits = 2e-3) {
   CAPTURE(name);
   const FitResult f = fit({law, free, tests}, {.starts = 20});
   CHECK(f.best.converged);
@@ -52,28 +58,37 @@ void gives(const char* name, const Material& law, const std::vector<FreeParamete
   CHECK(f.quality.r2 == doctest::Approx(r2).epsilon(6e-4));
 }
 
-const Material yeoh{{Yeoh{0.2, 0, 0}}, {}, volume}, gent{{Gent{0.3, 90}}, {}, volume}, chains{{ArrudaBoyce{0.3, 5}}, {}, volume};
+const Material yeoh{{Yeoh{0.2, 0, 0}}, {}, volume}, gent{{Gent{0.3, 90}}, {}, volume},
+    chains{{ArrudaBoyce{0.3, 5}}, {}, volume};
 const Material ogden{{Ogden{0.4, 2, 1e-3, 6, -0.01, -2}}, {}, volume};
-const std::vector<FreeParameter> of_yeoh{
-    {"matrix.yeoh.a1", 0.2, -10, 10}, {"matrix.yeoh.a2", 0, -10, 10}, {"matrix.yeoh.a3", 0, -10, 10}};
-const std::vector<FreeParameter> of_gent{{"matrix.gent.mu", 0.3, 0, 10}, {"matrix.gent.Jm", 90, 70, 200}};
+const std::vector<FreeParameter> of_yeoh{{"matrix.yeoh.a1", 0.2, -10, 10},
+                                         {"matrix.yeoh.a2", 0, -10, 10},
+                                         {"matrix.yeoh.a3", 0, -10, 10}};
+const std::vector<FreeParameter> of_gent{{"matrix.gent.mu", 0.3, 0, 10},
+                                         {"matrix.gent.Jm", 90, 70, 200}};
 const std::vector<FreeParameter> of_chains{{"matrix.arruda_boyce.mu", 0.3, 0, 10},
                                            {"matrix.arruda_boyce.locking_stretch", 5, 1, 20}};
 
 }  // namespace
 
-TEST_CASE("Neo-Hooke and Mooney-Rivlin fitted to single tests of Treloar are those published, where they can be") {
+TEST_CASE(
+    "Neo-Hooke and Mooney-Rivlin fitted to single tests of Treloar are those published, where they can be") {
   if (!here("treloar1944.csv")) return;
-  // Steinmann, Hossain, Possart (2012), as quoted in a public example; docs/identification_results.md has those that differ, and why
+  // Steinmann, Hossain, Possart (2012), as quoted in a public example;
+  // docs/identification_results.md has those that differ, and why
   const auto neo_hooke = [](const char* mode) {
-    return 2 *
-           fit({{{NeoHooke{0.2}}, {}, volume}, {{"matrix.neo_hooke.a1", 0.2, 0, 10}}, treloar({mode})}, {.starts = 1}).best.p[0];
+    return 2 * fit({{{NeoHooke{0.2}}, {}, volume},
+                    {{"matrix.neo_hooke.a1", 0.2, 0, 10}},
+                    treloar({mode})},
+                   {.starts = 1})
+                   .best.p[0];
   };
   CHECK(neo_hooke("uniaxial") == doctest::Approx(0.5673).epsilon(0.01));
   CHECK(neo_hooke("pure_shear") == doctest::Approx(0.3360).epsilon(0.02));
   const auto mooney_rivlin = [](const char* mode) {
     return fit({{{MooneyRivlin{0.2, 0}}, {}, volume},
-                {{"matrix.mooney_rivlin.c10", 0.2, -10, 10}, {"matrix.mooney_rivlin.c01", 0, -10, 10}},
+                {{"matrix.mooney_rivlin.c10", 0.2, -10, 10},
+                 {"matrix.mooney_rivlin.c01", 0, -10, 10}},
                 treloar({mode})},
                {.starts = 1})
         .best.p;
@@ -81,7 +96,8 @@ TEST_CASE("Neo-Hooke and Mooney-Rivlin fitted to single tests of Treloar are tho
   const VecX equibiaxial = mooney_rivlin("equibiaxial"), shear = mooney_rivlin("pure_shear");
   CHECK(equibiaxial[0] == doctest::Approx(0.1713).epsilon(0.003));
   CHECK(equibiaxial[1] == doctest::Approx(0.0047).epsilon(0.02));
-  CHECK(shear[0] + shear[1] == doctest::Approx(0.2348 - 0.065).epsilon(0.01));  // pure shear tells the sum alone
+  CHECK(shear[0] + shear[1] ==
+        doctest::Approx(0.2348 - 0.065).epsilon(0.01));  // pure shear tells the sum alone
 }
 
 TEST_CASE("Yeoh, Gent, Arruda-Boyce and Ogden on Treloar's three tests together") {

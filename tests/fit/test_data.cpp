@@ -62,7 +62,9 @@ TEST_CASE("one file of several protocols: split into tests, or one of them chose
 TEST_CASE("strain measures and units become stretches and MPa") {
   TestFormat f;
   f.strain_x = "e", f.stress_x = "s", f.stress_unit = StressUnit::Pa;
-  const auto read = [&](const std::string& cell) { return tests_of(parse_table("e,s\n0,0\n" + cell + ",5e4\n", "t"), f)[0]; };
+  const auto read = [&](const std::string& cell) {
+    return tests_of(parse_table("e,s\n0,0\n" + cell + ",5e4\n", "t"), f)[0];
+  };
   CHECK(read("0.25").first[1] == 1.25);
   CHECK(read("0.25").stress_x[1] == doctest::Approx(0.05).epsilon(1e-15));
   f.strain_unit = StrainUnit::percent;
@@ -78,10 +80,13 @@ TEST_CASE("strain measures and units become stretches and MPa") {
 TEST_CASE("what does not fit is refused with its place") {
   TestFormat f = biaxial();
   f.strain_z = "lambda";
-  holds(refusal(two_protocols, f), "t.csv:2:1: columns.strain_z: no column \"lambda\"; expected one of protocol, lx, lz");
+  holds(refusal(two_protocols, f),
+        "t.csv:2:1: columns.strain_z: no column \"lambda\"; expected one of protocol, lx, lz");
   f = biaxial();
   f.stress_unit = StressUnit::MPa;
-  holds(refusal(two_protocols, f), "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries");
+  holds(
+      refusal(two_protocols, f),
+      "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries");
   f = biaxial();
   f.split = "specimen";
   holds(refusal(two_protocols, f), "split: no column \"specimen\"");
@@ -89,18 +94,23 @@ TEST_CASE("what does not fit is refused with its place") {
   f.where = {{"protocol", "c"}};
   holds(refusal(two_protocols, f), "found 0 points in the range; expected two at least");
   f = biaxial();
-  holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n1.1,-2,x,0\n", f), "t.csv:3:5: found the stretch -2; expected a stretch > 0");
-  holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n1.1,2,x,0\n", f), "t.csv:3:7: found x; expected a finite number");
+  holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n1.1,-2,x,0\n", f),
+        "t.csv:3:5: found the stretch -2; expected a stretch > 0");
+  holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n1.1,2,x,0\n", f),
+        "t.csv:3:7: found x; expected a finite number");
   holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0\n", f), "t.csv:2:1: found 3 cells; expected 4");
   f.stress_x = "lx", f.stress_z = "";
   holds(refusal("lx,lz,px_kPa,pz_kPa\n1,1,0,0\n", f), "stress_unit: no unit for the column \"lx\"");
 }
 
-TEST_CASE("a record: cut in time, at rest at its start, over its largest, its first cycle as history") {
-  const std::string text = "t_s,u_mm,force_N\n0,0,9\n0.5,1,0.5\n1,1,1.5\n2,2,3\n3,3,5\n4,2,3\n5,3,4\n6,3,7\n";
+TEST_CASE(
+    "a record: cut in time, at rest at its start, over its largest, its first cycle as history") {
+  const std::string text =
+      "t_s,u_mm,force_N\n0,0,9\n0.5,1,0.5\n1,1,1.5\n2,2,3\n3,3,5\n4,2,3\n5,3,4\n6,3,7\n";
   TestFormat f;
   f.strain_x = "u_mm", f.stress_x = "force_N", f.time = "t_s";
-  f.strain_unit = StrainUnit::mm, f.gauge_length = 9, f.stress_unit = StressUnit::N, f.strain = StrainMeasure::engineering;
+  f.strain_unit = StrainUnit::mm, f.gauge_length = 9, f.stress_unit = StressUnit::N,
+  f.strain = StrainMeasure::engineering;
   f.part.time_from = 0.5, f.part.time_to = 5, f.part.compare_from = 3.5;
   f.rest_at_start = f.normalised = true;
   const Test t = parse_tests(text, "record.csv", f).at(0);
@@ -119,6 +129,7 @@ TEST_CASE("forces that are normalised need no sizes, others do") {
   f.strain_x = "strain", f.stress_x = "force_N";
   CHECK_THROWS_AS(parse_tests("strain,force_N\n0,0\n0.1,2\n", "l.csv", f), Failure);
   f.normalised = true;
-  CHECK(parse_tests("strain,force_N\n0,0\n0.1,2\n", "l.csv", f).at(0).stress_x == std::vector<double>{0, 1});
+  CHECK(parse_tests("strain,force_N\n0,0\n0.1,2\n", "l.csv", f).at(0).stress_x ==
+        std::vector<double>{0, 1});
   CHECK_THROWS_AS(parse_tests("strain,force_N\n0,0\n0.1,0\n", "l.csv", f), Failure);
 }

@@ -1,4 +1,5 @@
-// Parameters from uniaxial curves: known ones come back, and Table 1 of the paper with the reason for each column.
+// Parameters from uniaxial curves: known ones come back, and Table 1 of the paper with the reason
+// for each column.
 #include "support/uniaxial.hpp"
 
 #include <doctest/doctest.h>
@@ -33,10 +34,13 @@ Curve made_by(const Material& material, StressMeasure measure = StressMeasure::c
   return c;
 }
 
-FreeParameter free(const char* key, double start, double lower = -10, double upper = 10) { return {key, start, lower, upper}; }
+FreeParameter free(const char* key, double start, double lower = -10, double upper = 10) {
+  return {key, start, lower, upper};
+}
 
 std::vector<FreeParameter> yeoh_parameters(double lower = -10) {
-  return {free("matrix.yeoh.a1", 0.1, lower), free("matrix.yeoh.a2", 0.1, lower), free("matrix.yeoh.a3", 0.1, lower)};
+  return {free("matrix.yeoh.a1", 0.1, lower), free("matrix.yeoh.a2", 0.1, lower),
+          free("matrix.yeoh.a3", 0.1, lower)};
 }
 
 std::vector<FreeParameter> hgo_yeoh_parameters(double lower = -10) {
@@ -47,7 +51,8 @@ std::vector<FreeParameter> hgo_yeoh_parameters(double lower = -10) {
 }
 
 std::vector<FreeParameter> hgo_parameters() {
-  return {free("matrix.neo_hooke.a1", 0.1), free("fibres[0].hgo.c1", 0.1), free("fibres[0].hgo.c2", 0.1, 0, 5)};
+  return {free("matrix.neo_hooke.a1", 0.1), free("fibres[0].hgo.c1", 0.1),
+          free("fibres[0].hgo.c2", 0.1, 0, 5)};
 }
 
 const Volume volume{QuadraticVolume{1e-6}};
@@ -62,11 +67,14 @@ Curve abdomen() {
   return test::parse_curve(text.str(), path);
 }
 
-double stress_at(const Material& m, double strain) { return uniaxial_incompressible(m, 1 + strain).sigma; }
+double stress_at(const Material& m, double strain) {
+  return uniaxial_incompressible(m, 1 + strain).sigma;
+}
 
 }  // namespace
 
-TEST_CASE("known parameters come back from their own curve, along and off the fibre, nominal and compressible") {
+TEST_CASE(
+    "known parameters come back from their own curve, along and off the fibre, nominal and compressible") {
   struct Case {
     double alpha;
     StressMeasure measure;
@@ -81,7 +89,8 @@ TEST_CASE("known parameters come back from their own curve, along and off the fi
     Material law = hgo_yeoh;
     law.fibres[0].alpha_deg = c.alpha;
     law.volume = truth.volume;
-    const FitResult f = fit_uniaxial(made_by(truth, c.measure, c.dilatation), law, hgo_yeoh_parameters(), {c.dilatation, 4, 1});
+    const FitResult f = fit_uniaxial(made_by(truth, c.measure, c.dilatation), law,
+                                     hgo_yeoh_parameters(), {c.dilatation, 4, 1});
     REQUIRE(f.best.converged);
     const double expected[] = {0.05, 0.05, 0.02, 0.10, 0.30};
     for (int i = 0; i < 5; ++i) CHECK(std::abs(f.best.p[i] - expected[i]) <= 1e-6 * expected[i]);
@@ -93,14 +102,16 @@ TEST_CASE("known parameters come back from their own curve, along and off the fi
 TEST_CASE("a fitted fibre angle comes back") {
   Material law = hgo_yeoh;
   const FitResult f =
-      fit_uniaxial(made_by(positive_hgo_yeoh(25)), Material{{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.1, 0.3, 5)}, volume},
+      fit_uniaxial(made_by(positive_hgo_yeoh(25)),
+                   Material{{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.1, 0.3, 5)}, volume},
                    {free("fibres[0].alpha", 5, 0, 90), free("fibres[0].hgo.c1", 0.5, 0, 5)}, {});
   CHECK(f.best.converged);
   CHECK(f.best.p[0] == doctest::Approx(25).epsilon(1e-6));
   CHECK(f.best.p[1] == doctest::Approx(0.1).epsilon(1e-6));
 }
 
-TEST_CASE("the same seed gives the same answer to the last bit, and every start of this curve finds it") {
+TEST_CASE(
+    "the same seed gives the same answer to the last bit, and every start of this curve finds it") {
   const Curve curve = abdomen();
   const auto run = [&](unsigned seed) {
     return fit_uniaxial(curve, hgo_yeoh, hgo_yeoh_parameters(), {.starts = 10, .seed = seed});
@@ -109,7 +120,8 @@ TEST_CASE("the same seed gives the same answer to the last bit, and every start 
   CHECK((a.starts - b.starts).norm() == 0);
   CHECK((a.best.p - b.best.p).norm() == 0);
   CHECK((a.starts - c.starts).norm() > 0);
-  for (int k = 0; k < 10; ++k) CHECK((a.starts.row(k).head(5).transpose() - a.best.p).norm() <= 1e-6);
+  for (int k = 0; k < 10; ++k)
+    CHECK((a.starts.row(k).head(5).transpose() - a.best.p).norm() <= 1e-6);
 }
 
 TEST_CASE("the reconstructed curve is Table 1's HGO-Yeoh law to the digits it is written with") {
@@ -121,7 +133,8 @@ TEST_CASE("the reconstructed curve is Table 1's HGO-Yeoh law to the digits it is
     CHECK(std::abs(stress_at(table1_hgo_yeoh(), curve.strain[i]) - curve.stress[i]) <= 5.01e-7);
 }
 
-TEST_CASE("Table 1, HGO-Yeoh: refitted within 0.5 percent on average and 2.5 percent at most, with the printed parameters") {
+TEST_CASE(
+    "Table 1, HGO-Yeoh: refitted within 0.5 percent on average and 2.5 percent at most, with the printed parameters") {
   const FitResult f = fit_uniaxial(abdomen(), hgo_yeoh, hgo_yeoh_parameters());
   CHECK(f.best.converged);
   CHECK(f.best.kkt <= 1e-8);
@@ -140,7 +153,9 @@ TEST_CASE("Table 1, Yeoh: the printed column is 3/2 of a least-squares fit with 
   const Material printed{{Yeoh{-0.059, 0.291, 0.016}}, {}, volume};
   Material scaled{{Yeoh{-0.059 / 1.5, 0.291 / 1.5, 0.016 / 1.5}}, {}, volume};
   const auto error = [&](const Material& m) {
-    return curve_error(uniaxial_curve(m, curve.strain, StressMeasure::cauchy, Dilatation::incompressible).value(), curve.stress);
+    return curve_error(
+        uniaxial_curve(m, curve.strain, StressMeasure::cauchy, Dilatation::incompressible).value(),
+        curve.stress);
   };
   // as printed: 1.718 MPa at 60 percent where the curve has 1.056
   CHECK(std::abs(stress_at(printed, 0.6) - 1.718) <= 5e-4);
@@ -161,7 +176,9 @@ TEST_CASE("Table 1, HGO: the printed column is -3/2 of a least-squares fit with 
   const Material printed{{NeoHooke{0.312}}, {hgo_fibre(-0.297, 0.087, 0)}, volume};
   const Material turned{{NeoHooke{-0.312 / 1.5}}, {hgo_fibre(0.297 / 1.5, 0.087, 0)}, volume};
   const auto error = [&](const Material& m) {
-    return curve_error(uniaxial_curve(m, curve.strain, StressMeasure::cauchy, Dilatation::incompressible).value(), curve.stress);
+    return curve_error(
+        uniaxial_curve(m, curve.strain, StressMeasure::cauchy, Dilatation::incompressible).value(),
+        curve.stress);
   };
   CHECK(std::abs(stress_at(printed, 0.6) + 1.724) <= 5e-4);  // it pushes where the skin pulls
   CHECK(std::abs(error(turned).mean_percent - 2.5) <= 0.2);
@@ -182,14 +199,16 @@ TEST_CASE("with every modulus positive the best fit of the curve has no fibre") 
   CHECK(f.best.cost == doctest::Approx(cost).epsilon(1e-12));
 }
 
-TEST_CASE("one percent of noise leaves errors of 44, 45, 8, 46 and 24 percent: one test along the fibre does not identify it") {
+TEST_CASE(
+    "one percent of noise leaves errors of 44, 45, 8, 46 and 24 percent: one test along the fibre does not identify it") {
   // standard errors of the linearised problem for noise of 1 percent of the largest stress
   const Curve curve = abdomen();
   const FitResult f = fit_uniaxial(curve, hgo_yeoh, hgo_yeoh_parameters());
   const MatX J = f.best.J;
   const MatX cov = std::pow(0.01 * curve.stress.back(), 2) * (J.transpose() * J).inverse();
   const double percent[] = {44, 45, 8, 46, 24};
-  for (int i = 0; i < 5; ++i) CHECK(std::abs(100 * std::sqrt(cov(i, i)) / std::abs(f.best.p[i]) - percent[i]) <= 0.5);
+  for (int i = 0; i < 5; ++i)
+    CHECK(std::abs(100 * std::sqrt(cov(i, i)) / std::abs(f.best.p[i]) - percent[i]) <= 0.5);
 }
 
 TEST_CASE("too few points and a curve without stress are refused") {

@@ -45,13 +45,16 @@ void measure(const Material& law, Test& test) {
 
 }  // namespace
 
-TEST_CASE("viscous fit: branches on decades and the elastic law together are found from exact histories of any kind") {
+TEST_CASE(
+    "viscous fit: branches on decades and the elastic law together are found from exact histories of any kind") {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> gamma(0.05, 0.8);
-  for (const TestKind kind :
-       {TestKind::uniaxial, TestKind::equibiaxial, TestKind::biaxial, TestKind::pure_shear, TestKind::simple_shear}) {
+  for (const TestKind kind : {TestKind::uniaxial, TestKind::equibiaxial, TestKind::biaxial,
+                              TestKind::pure_shear, TestKind::simple_shear}) {
     Material law = test::stable(35, 1e-6);
-    law.viscous = {{0.1, gamma(random), BranchOf::all}, {1, gamma(random), BranchOf::all}, {10, gamma(random), BranchOf::all}};
+    law.viscous = {{0.1, gamma(random), BranchOf::all},
+                   {1, gamma(random), BranchOf::all},
+                   {10, gamma(random), BranchOf::all}};
     FitProblem problem;
     problem.tests = {history(kind, kind == TestKind::simple_shear ? 0.4 : 1.3, 0.2, 60, true)};
     measure(law, problem.tests[0]);
@@ -66,11 +69,13 @@ TEST_CASE("viscous fit: branches on decades and the elastic law together are fou
     CAPTURE(static_cast<int>(kind));
     CHECK(found.best.p[0] == doctest::Approx(0.05).epsilon(1e-6));
     for (std::size_t i = 0; i < 3; ++i)
-      CHECK(found.best.p[static_cast<Eigen::Index>(i) + 1] == doctest::Approx((*law.viscous)[i].gamma).epsilon(1e-6));
+      CHECK(found.best.p[static_cast<Eigen::Index>(i) + 1] ==
+            doctest::Approx((*law.viscous)[i].gamma).epsilon(1e-6));
   }
 }
 
-TEST_CASE("viscous fit: a branch that is not there gets nothing, a relaxation time that is asked for is found") {
+TEST_CASE(
+    "viscous fit: a branch that is not there gets nothing, a relaxation time that is asked for is found") {
   Material law = test::neo_hooke(0.2, 1e-6);
   law.viscous = {{0.3, 0.5, BranchOf::all}, {8, 0, BranchOf::all}};
   FitProblem problem;
@@ -90,7 +95,8 @@ TEST_CASE("viscous fit: a branch that is not there gets nothing, a relaxation ti
   CHECK(std::abs(found.best.p[3]) < 1e-6);
 }
 
-TEST_CASE("viscous fit: the stress of a slack direction is zero at every time, with fibres off the axes") {
+TEST_CASE(
+    "viscous fit: the stress of a slack direction is zero at every time, with fibres off the axes") {
   Material law = test::stable(25, 1e-6);
   law.viscous = {{0.2, 0.5, BranchOf::matrix}, {3, 0.7, BranchOf::fibres}};
   const auto a = specimen_fibres(law, 0);
@@ -112,11 +118,13 @@ TEST_CASE("viscous fit: times are read, and refused where they go back") {
   TestFormat format;
   format.strain_x = "strain", format.stress_x = "cauchy_stress_MPa", format.time = "t_s";
   const auto tests =
-      parse_tests("t_s,strain,cauchy_stress_MPa\n0,0,0\n0.5,0.1,0.02\n0.5,0.2,0.05\n9,0.2,0.04\n", "relax.csv", format);
+      parse_tests("t_s,strain,cauchy_stress_MPa\n0,0,0\n0.5,0.1,0.02\n0.5,0.2,0.05\n9,0.2,0.04\n",
+                  "relax.csv", format);
   REQUIRE(tests.size() == 1);
   CHECK(tests[0].time == std::vector<double>{0, 0.5, 0.5, 9});
   try {
-    parse_tests("t_s,strain,cauchy_stress_MPa\n0,0,0\n0.5,0.1,0.02\n0.4,0.2,0.05\n", "relax.csv", format);
+    parse_tests("t_s,strain,cauchy_stress_MPa\n0,0,0\n0.5,0.1,0.02\n0.4,0.2,0.05\n", "relax.csv",
+                format);
     FAIL("accepted");
   } catch (const Failure& failure) {
     CHECK(std::string(failure.what()).find("relax.csv:4:1") != std::string::npos);

@@ -1,8 +1,8 @@
 // Text -> CSV -> tests of two kinds, by their columns' names or as told.
 #include <cmath>
 
-#include "identification/fit/test_data.hpp"
 #include "fuzz.hpp"
+#include "identification/fit/test_data.hpp"
 
 namespace {
 void finite(const std::vector<double>& values) {
@@ -21,8 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   TestFormat uniaxial, biaxial;
   uniaxial.strain_x = "strain", uniaxial.stress_x = "cauchy_stress_MPa";
-  biaxial.like.kind = TestKind::biaxial, biaxial.strain = StrainMeasure::stretch, biaxial.stress_unit = StressUnit::kPa;
-  biaxial.strain_x = "lx", biaxial.strain_z = "lz", biaxial.stress_x = "sx", biaxial.stress_z = "sz", biaxial.split = "test";
+  biaxial.like.kind = TestKind::biaxial, biaxial.strain = StrainMeasure::stretch,
+  biaxial.stress_unit = StressUnit::kPa;
+  biaxial.strain_x = "lx", biaxial.strain_z = "lz", biaxial.stress_x = "sx",
+  biaxial.stress_z = "sz", biaxial.split = "test";
   TestFormat sized;
   sized.width = 10, sized.thickness = 2, sized.gauge_length = 40, sized.toe = 0.01;
   for (const TestFormat& format : {uniaxial, biaxial, sized})

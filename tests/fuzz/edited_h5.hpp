@@ -1,5 +1,6 @@
-// The bytes of libFuzzer as edits of a good HDF5 file: what another program may have done to it. The file stays one that HDF5
-// itself reads, as HDF5 1.10 crashes on damaged bytes (our files carry a checksum against those; tests/store/damage.cpp).
+// The bytes of libFuzzer as edits of a good HDF5 file: what another program may have done to it.
+// The file stays one that HDF5 itself reads, as HDF5 1.10 crashes on damaged bytes (our files carry
+// a checksum against those; tests/store/damage.cpp).
 #pragma once
 
 #include <hdf5.h>
@@ -26,7 +27,22 @@ class Bytes {
   }
   double number() {
     constexpr double inf = std::numeric_limits<double>::infinity();
-    const double odd[] = {0, -0.0, 1, -1, 2, 3, 0.5, 1e-300, 1e300, -1e300, inf, -inf, std::nan(""), 2147483648.0, 9.3e18, 255};
+    const double odd[] = {0,
+                          -0.0,
+                          1,
+                          -1,
+                          2,
+                          3,
+                          0.5,
+                          1e-300,
+                          1e300,
+                          -1e300,
+                          inf,
+                          -inf,
+                          std::nan(""),
+                          2147483648.0,
+                          9.3e18,
+                          255};
     const std::size_t k = below(24);
     return k < 16 ? odd[k] : static_cast<double>(static_cast<int>(below(65536)) - 32768);
   }
@@ -57,7 +73,8 @@ inline void put(hid_t file, const std::string& path, Bytes& bytes) {
   const auto n = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
   if (n > 0 && H5Tget_class(type) == H5T_STRING) {
     std::vector<char> text(n * H5Tget_size(type));
-    if (H5Tis_variable_str(type) <= 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0) {
+    if (H5Tis_variable_str(type) <= 0 &&
+        H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0) {
       text[bytes.below(text.size())] = static_cast<char>(bytes.below(256));
       H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
     }
@@ -77,23 +94,28 @@ inline void replace(hid_t file, const std::string& path, Bytes& bytes) {
   hsize_t extent[4], most[4];
   const int rank = static_cast<int>(bytes.below(4));
   for (int i = 0; i < rank; ++i) extent[i] = bytes.below(14), most[i] = H5S_UNLIMITED;
-  const hid_t types[] = {H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_STD_U8LE, H5T_IEEE_F32BE, H5T_C_S1, H5T_STD_I32BE};
+  const hid_t types[] = {H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_STD_U8LE,
+                         H5T_IEEE_F32BE, H5T_C_S1,      H5T_STD_I32BE};
   const hid_t space = rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, extent, extent);
-  const hid_t dataset = H5Dcreate2(file, path.c_str(), types[bytes.below(6)], space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t dataset = H5Dcreate2(file, path.c_str(), types[bytes.below(6)], space, H5P_DEFAULT,
+                                   H5P_DEFAULT, H5P_DEFAULT);
   (void)most;
   if (dataset >= 0) H5Dclose(dataset);
   H5Sclose(space);
 }
 
 inline void spoil_attribute(hid_t file, const std::string& path, Bytes& bytes) {
-  const hid_t object = path.empty() || path == "." ? H5Oopen(file, "/", H5P_DEFAULT) : H5Oopen(file, path.c_str(), H5P_DEFAULT);
+  const hid_t object = path.empty() || path == "." ? H5Oopen(file, "/", H5P_DEFAULT)
+                                                   : H5Oopen(file, path.c_str(), H5P_DEFAULT);
   if (object < 0) return;
   std::size_t attributes = 0;
-  const auto count = [](hid_t, const char*, const H5A_info_t*, void* n) -> herr_t { return ++*static_cast<std::size_t*>(n), 0; };
+  const auto count = [](hid_t, const char*, const H5A_info_t*, void* n) -> herr_t {
+    return ++*static_cast<std::size_t*>(n), 0;
+  };
   H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, count, &attributes);
   if (attributes > 0) {
-    const hid_t attribute =
-        H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, bytes.below(attributes), H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute = H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC,
+                                           bytes.below(attributes), H5P_DEFAULT, H5P_DEFAULT);
     char name[128] = "";
     H5Aget_name(attribute, sizeof name, name);
     const hid_t type = H5Aget_type(attribute);
@@ -134,7 +156,8 @@ inline void write_edited(const std::string& good, const std::string& path, Bytes
         spoil_attribute(file, ".", bytes);
         break;
       case 4:
-        H5Lmove(file, object.c_str(), file, all[bytes.below(all.size())].c_str(), H5P_DEFAULT, H5P_DEFAULT);
+        H5Lmove(file, object.c_str(), file, all[bytes.below(all.size())].c_str(), H5P_DEFAULT,
+                H5P_DEFAULT);
         break;
       default:
         put(file, object, bytes);

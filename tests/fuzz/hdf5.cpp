@@ -1,4 +1,5 @@
-// material.h5, solution.h5 and curves.h5 as edited by others -> values, or a refusal. The first byte chooses the file.
+// material.h5, solution.h5 and curves.h5 as edited by others -> values, or a refusal. The first
+// byte chooses the file.
 #include "edited_h5.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
@@ -19,8 +20,15 @@ std::string good_file(int kind, const std::string& path) {
     Curves curves;
     curves.curves.push_back({"force", "u", "mm", "F", "N", {0, 1, 2}, {0, 2, 5}});
     curves.columns = {{"u", "mm", {0, 1, 2}}, {"F", "N", {0, 2, 5}}};
-    curves.maps.push_back(
-        {"map", "u_y", "mm", 1, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {1, 2, 3, 4}, {{0, 1, 2, 3}}, {{1, 0}}, {{"A", {0.5, 0.5}}}});
+    curves.maps.push_back({"map",
+                           "u_y",
+                           "mm",
+                           1,
+                           {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                           {1, 2, 3, 4},
+                           {{0, 1, 2, 3}},
+                           {{1, 0}},
+                           {{"A", {0.5, 0.5}}}});
     curves.summary = {{"force", 5, "N"}};
     write_curves(path, curves, example::identity());
   }

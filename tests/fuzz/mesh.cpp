@@ -1,8 +1,8 @@
 // mesh.h5 as edited by others -> a mesh whose indices all lead somewhere.
 #include "edited_h5.hpp"
+#include "results/store/mesh_file.hpp"
 #include "sound_mesh.hpp"
 #include "store/example.hpp"
-#include "results/store/mesh_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;

@@ -6,9 +6,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace langer;
   const std::string text(reinterpret_cast<const char*>(data), size);
   fuzz::reads_or_refuses("", [&] {
-    const auto steps =
-        pipeline::expand(pipeline::read_pipeline(parse_yaml(text, "input.yaml", "/nonexistent")), [](const std::string& path) {
-          if (path.size() % 5 == 4) throw Failure(Exit::input, Error{{path}, "", "there is no such file", "", ""});
+    const auto steps = pipeline::expand(
+        pipeline::read_pipeline(parse_yaml(text, "input.yaml", "/nonexistent")),
+        [](const std::string& path) {
+          if (path.size() % 5 == 4)
+            throw Failure(Exit::input, Error{{path}, "", "there is no such file", "", ""});
           return parse_yaml("{a: {b: [1, 2]}, c: 3}", path, "");
         });
     for (const pipeline::Step& step : steps)

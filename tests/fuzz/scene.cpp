@@ -1,4 +1,5 @@
-// Text -> a scene: read, written and read again as the same, then composed on a block and on a section.
+// Text -> a scene: read, written and read again as the same, then composed on a block and on a
+// section.
 #include "scene/model/scene.hpp"
 #include "core/config/reader.hpp"
 #include "core/config/writer.hpp"
@@ -34,17 +35,22 @@ const Mesh& section() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  const auto read = [&] { return read_config<SolveConfig>(parse_yaml(text, "input.yaml", "/nonexistent")); };
+  const auto read = [&] {
+    return read_config<SolveConfig>(parse_yaml(text, "input.yaml", "/nonexistent"));
+  };
   fuzz::reads_or_refuses("input.yaml", [&] {
     const std::string written = to_text(to_tree(read().config));
-    if (to_text(to_tree(read_config<SolveConfig>(parse_yaml(written, "input.yaml", "")).config)) != written) std::abort();
+    if (to_text(to_tree(read_config<SolveConfig>(parse_yaml(written, "input.yaml", "")).config)) !=
+        written)
+      std::abort();
   });
   for (const Mesh* mesh : {&block(), &section()})
     fuzz::reads_or_refuses("input.yaml", [&] {
       const auto loaded = read();
       Material skin;
       skin.matrix = {NeoHooke{0.01}}, skin.volume = QuadraticVolume{1e-3};
-      make_scene(loaded.config, *mesh, loaded.config.material ? *loaded.config.material : skin, loaded.where);
+      make_scene(loaded.config, *mesh, loaded.config.material ? *loaded.config.material : skin,
+                 loaded.where);
     });
   return 0;
 }

@@ -1,4 +1,5 @@
-// A mesh that a reader let through has indices that all lead somewhere; otherwise the fuzzer is told.
+// A mesh that a reader let through has indices that all lead somewhere; otherwise the fuzzer is
+// told.
 #pragma once
 
 #include <cstdlib>
@@ -19,7 +20,8 @@ inline void need_sound(const Mesh& mesh) {
   for (const auto& [name, nodes] : mesh.node_sets)
     for (int node : nodes) need(node >= 0 && node < mesh.n_nodes());
   for (const auto& [name, facets] : mesh.facet_sets)
-    for (const Facet& f : facets) need(f.cell >= 0 && f.cell < mesh.n_cells() && f.local >= 0 && f.local < 6);
+    for (const Facet& f : facets)
+      need(f.cell >= 0 && f.cell < mesh.n_cells() && f.local >= 0 && f.local < 6);
 }
 
 }  // namespace langer::fuzz

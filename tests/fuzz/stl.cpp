@@ -6,12 +6,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace langer;
   fuzz::reads_or_refuses("input.stl", [&] {
-    const Triangles surface = parse_surface(std::string(reinterpret_cast<const char*>(data), size), "input.stl");
+    const Triangles surface =
+        parse_surface(std::string(reinterpret_cast<const char*>(data), size), "input.stl");
     const int n = static_cast<int>(surface.points.size());
     fuzz::need(!surface.corners.empty());
     for (const Vec3& x : surface.points) fuzz::need(x.allFinite());
     for (const auto& [a, b, c] : surface.corners)
-      fuzz::need(a >= 0 && a < n && b >= 0 && b < n && c >= 0 && c < n && a != b && b != c && c != a);
+      fuzz::need(a >= 0 && a < n && b >= 0 && b < n && c >= 0 && c < n && a != b && b != c &&
+                 c != a);
   });
   return 0;
 }

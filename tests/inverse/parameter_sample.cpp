@@ -1,4 +1,5 @@
-// Sets of parameters that a fit leaves open: those of its bootstrap, or drawn by its covariance within the bounds; ties follow.
+// Sets of parameters that a fit leaves open: those of its bootstrap, or drawn by its covariance
+// within the bounds; ties follow.
 #include "identification/inverse/parameter_sample.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +37,8 @@ TEST_CASE("sets drawn by a covariance have it, the same number is the same set, 
   for (int k = 1; k <= n; ++k) {
     REQUIRE(why_no_samples(file, k).empty());
     const ParameterSample sample = sample_of(file, k);
-    const Eigen::Vector2d d(yeoh(sample).a1 - 0.05, std::get<HgoFibre>(sample.law.fibres[0].law).c1 - 0.1);
+    const Eigen::Vector2d d(yeoh(sample).a1 - 0.05,
+                            std::get<HgoFibre>(sample.law.fibres[0].law).c1 - 0.1);
     sum += d * d.transpose(), mean += d;
     CHECK(yeoh(sample).a2 == 2 * yeoh(sample).a1);
     CHECK(yeoh(sample).a3 == 0.02);
@@ -53,7 +55,8 @@ TEST_CASE("sets drawn by a covariance have it, the same number is the same set, 
 TEST_CASE("sets stay within bounds, a bootstrap gives its own, and what has no set says why") {
   MaterialFile file = fitted();
   file.fit->parameters[1].lower = 0.095;
-  for (int k = 1; k <= 50; ++k) CHECK(std::get<HgoFibre>(sample_of(file, k).law.fibres[0].law).c1 >= 0.095);
+  for (int k = 1; k <= 50; ++k)
+    CHECK(std::get<HgoFibre>(sample_of(file, k).law.fibres[0].law).c1 >= 0.095);
   file.fit->sets.resize(2, 2);
   file.fit->sets << 0.04, 0.11, 0.06, 0.09;
   CHECK(yeoh(sample_of(file, 2)).a1 == 0.06);

@@ -11,10 +11,10 @@
 
 #include "core/base/random.hpp"
 #include "identification/inverse/inverse_fit.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "identification/setup/fit_config_io.hpp"
 #include "identification/setup/fit_report.hpp"
 #include "identification/statistics/study.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -23,7 +23,8 @@ namespace {
 
 struct Folder {
   ~Folder() { fs::remove_all(path); }
-  const std::string path = (fs::temp_directory_path() / ("langer_candidates_" + std::to_string(getpid()))).string();
+  const std::string path =
+      (fs::temp_directory_path() / ("langer_candidates_" + std::to_string(getpid()))).string();
 } const own;
 
 void write(const std::string& name, const std::string& text) {
@@ -40,7 +41,8 @@ constexpr const char* solve_yaml =
     "stability: off\npath: {steps: 10}\n";
 constexpr const char* two_numbers =
     "parameters: [{key: matrix.yeoh.a1, lower: 0.001, upper: 1}, {key: matrix.yeoh.a2, lower: 0, upper: 1}]\n";
-constexpr const char* law = "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\n";
+constexpr const char* law =
+    "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\n";
 
 // Yeoh's law in tension to 1.2, 2 % noise of the largest stress
 void write_tension() {
@@ -51,7 +53,8 @@ void write_tension() {
   };
   for (int i = 1; i <= 20; ++i) {
     Random random(11, static_cast<std::uint64_t>(i));
-    text += fmt::format("{},{}\n", 1 + 0.01 * i, nominal(1 + 0.01 * i) + 0.02 * nominal(1.2) * random.normal());
+    text += fmt::format("{},{}\n", 1 + 0.01 * i,
+                        nominal(1 + 0.01 * i) + 0.02 * nominal(1.2) * random.normal());
   }
   write("tension.csv", text);
 }
@@ -64,7 +67,8 @@ void write_force(double deviation) {
   std::string text = "travel_mm,force_N\n";
   for (std::size_t i = 0; i < path.t.size(); ++i) {
     Random random(5, i);
-    text += fmt::format("{},{}\n", path.t[i], path.values(static_cast<Eigen::Index>(i), 0) + deviation * random.normal());
+    text += fmt::format("{},{}\n", path.t[i],
+                        path.values(static_cast<Eigen::Index>(i), 0) + deviation * random.normal());
   }
   write("force.csv", text);
 }
@@ -79,7 +83,8 @@ Fitted fitted(const std::string& yaml) {
   FitProblem problem = fit_problem(loaded.config);
   std::optional<InverseFit> scenes;
   if (loaded.config.has_scenes())
-    scenes.emplace(Voice{"fit", true, false}, loaded.config, loaded.where, problem, std::vector<std::string>{}, "");
+    scenes.emplace(Voice{"fit", true, false}, loaded.config, loaded.where, problem,
+                   std::vector<std::string>{}, "");
   Fitted found{scenes ? scenes->search() : fit(problem, {.starts = 3}), {}};
   const SceneCandidates next = scene_candidates(loaded.config, problem, found.fit, loaded.where);
   CHECK(next.without.empty());
@@ -96,26 +101,30 @@ const AdviceRecord& named(const StudyRecord& study, const char* part) {
 
 }  // namespace
 
-TEST_CASE("what the advice foretells of an indentation is what a fit with it achieves, within a factor of 1.5") {
+TEST_CASE(
+    "what the advice foretells of an indentation is what a fit with it achieves, within a factor of 1.5") {
   write("solve.yaml", solve_yaml);
   write_tension();
   write_force(1e-3);
-  const std::string study = "study: {profiles: false, bootstrap: 0, stability: false, candidates: [";
+  const std::string study =
+      "study: {profiles: false, bootstrap: 0, stability: false, candidates: [";
   const Fitted alone = fitted(
       std::string("data: [{file: tension.csv}]\n") + law + two_numbers + study +
       "{kind: uniaxial, fibre_angle: 0}, {kind: scene, name: sphere, solve: solve.yaml, points: 10, standard_deviation: 1.0e-3,"
       " vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.5, -1]}]}]}\n");
-  const AdviceRecord &deep = named(alone.study, "to[1] -1"), &shallow = named(alone.study, "to[1] -0.5");
+  const AdviceRecord &deep = named(alone.study, "to[1] -1"),
+                     &shallow = named(alone.study, "to[1] -0.5");
   CHECK(alone.study.identifiability->advice.size() == 3);
   CHECK(deep.worst < shallow.worst);
   CHECK(alone.study.identifiability->advice.front().test == deep.test);
   // with it: the tension weighs what its residuals show
   const double noise = alone.fit.noise.total();
-  const Fitted both =
-      fitted(fmt::format("data: [{{file: tension.csv, standard_deviation: {}}}, {{kind: scene, solve: solve.yaml, file: force.csv, "
-                         "columns: {{u_ind: travel_mm, force: force_N}}, standard_deviation: 1.0e-3}}]\n",
-                         noise) +
-             law + two_numbers + study + "]}\ndraft: false\n");
+  const Fitted both = fitted(
+      fmt::format(
+          "data: [{{file: tension.csv, standard_deviation: {}}}, {{kind: scene, solve: solve.yaml, file: force.csv, "
+          "columns: {{u_ind: travel_mm, force: force_N}}, standard_deviation: 1.0e-3}}]\n",
+          noise) +
+      law + two_numbers + study + "]}\ndraft: false\n");
   for (Eigen::Index i = 0; i < 2; ++i) {
     const double achieved = std::sqrt(both.fit.covariance(i, i)) / both.fit.best.p[i];
     const double before = std::sqrt(alone.fit.covariance(i, i)) / alone.fit.best.p[i];
@@ -129,20 +138,29 @@ TEST_CASE("what the advice foretells of an indentation is what a fit with it ach
   }
 }
 
-TEST_CASE("tests that are made together tell at least what each tells, and observed places add to a force") {
+TEST_CASE(
+    "tests that are made together tell at least what each tells, and observed places add to a force") {
   write("solve.yaml", solve_yaml);
   write_tension();
-  const std::string begin = std::string("data: [{file: tension.csv}]\n") + law + two_numbers +
-                            "study: {profiles: false, bootstrap: 0, stability: false, candidates: [";
+  const std::string begin =
+      std::string("data: [{file: tension.csv}]\n") + law + two_numbers +
+      "study: {profiles: false, bootstrap: 0, stability: false, candidates: [";
   const std::string scene = "{kind: scene, solve: solve.yaml, points: 10, ";
-  const Fitted found =
-      fitted(begin + scene + "name: one, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " + scene +
-             "name: two, together: true, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " + scene +
-             "name: places, measured: [u_x, u_y], places: [[2, 0], [3, 0], [4, 0]], standard_deviation: 0.01}, " + scene +
-             "name: point, measured: [u_y], on: beside, standard_deviation: 0.01}]}\n");
-  const double small = named(found.study, "one, contacts.sphere.motion[0].to[1] -0.6").worst,
-               large = named(found.study, "one, contacts.sphere.motion[0].to[1] -1").worst,
-               both = named(found.study, "two, contacts.sphere.motion[0].to[1] -0.6 and contacts.sphere.motion[0].to[1] -1").worst;
+  const Fitted found = fitted(
+      begin + scene +
+      "name: one, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " +
+      scene +
+      "name: two, together: true, vary: [{key: \"contacts.sphere.motion[0].to[1]\", values: [-0.6, -1]}]}, " +
+      scene +
+      "name: places, measured: [u_x, u_y], places: [[2, 0], [3, 0], [4, 0]], standard_deviation: 0.01}, " +
+      scene + "name: point, measured: [u_y], on: beside, standard_deviation: 0.01}]}\n");
+  const double
+      small = named(found.study, "one, contacts.sphere.motion[0].to[1] -0.6").worst,
+      large = named(found.study, "one, contacts.sphere.motion[0].to[1] -1").worst,
+      both =
+          named(found.study,
+                "two, contacts.sphere.motion[0].to[1] -0.6 and contacts.sphere.motion[0].to[1] -1")
+              .worst;
   CHECK(both < std::min(small, large));
   CHECK(named(found.study, "places").worst < named(found.study, "point").worst);
   CHECK(named(found.study, "point").gain > 0);
@@ -154,7 +172,8 @@ TEST_CASE("candidates that do not fit their scene are named at their key") {
   const auto refusal = [](const std::string& candidate) {
     try {
       fitted(std::string("data: [{file: tension.csv}]\n") + law + two_numbers +
-             "study: {profiles: false, bootstrap: 0, stability: false, candidates: [" + candidate + "]}\n");
+             "study: {profiles: false, bootstrap: 0, stability: false, candidates: [" + candidate +
+             "]}\n");
     } catch (const Failure& failure) {
       return std::string(failure.what());
     }
@@ -164,8 +183,16 @@ TEST_CASE("candidates that do not fit their scene are named at their key") {
     CAPTURE(said);
     CHECK(said.find(part) != std::string::npos);
   };
-  holds(refusal("{kind: scene, solve: solve.yaml, measured: [reaction_x], on: nowhere}"), "the scene has no set \"nowhere\"");
-  holds(refusal("{kind: scene, solve: solve.yaml, measured: [u_y], places: [[9, 0]]}"), "no top of the scene at (9, 0)");
-  holds(refusal("{kind: scene, solve: solve.yaml, vary: [{key: contacts.sphere.rigid.sphere.radios, values: [1]}]}"), "radios");
-  holds(refusal("{kind: scene, solve: solve.yaml, vary: [{key: contacts.sphere.rigid.sphere.radius, values: [-1]}]}"), "radius");
+  holds(refusal("{kind: scene, solve: solve.yaml, measured: [reaction_x], on: nowhere}"),
+        "the scene has no set \"nowhere\"");
+  holds(refusal("{kind: scene, solve: solve.yaml, measured: [u_y], places: [[9, 0]]}"),
+        "no top of the scene at (9, 0)");
+  holds(
+      refusal(
+          "{kind: scene, solve: solve.yaml, vary: [{key: contacts.sphere.rigid.sphere.radios, values: [1]}]}"),
+      "radios");
+  holds(
+      refusal(
+          "{kind: scene, solve: solve.yaml, vary: [{key: contacts.sphere.rigid.sphere.radius, values: [-1]}]}"),
+      "radius");
 }

@@ -1,4 +1,5 @@
-// Parameters from scenes: what is read of a path, what a file may say, fits of data that were made up, what is refused.
+// Parameters from scenes: what is read of a path, what a file may say, fits of data that were made
+// up, what is refused.
 #include "identification/inverse/inverse_fit.hpp"
 
 #include <doctest/doctest.h>
@@ -8,10 +9,10 @@
 #include <fstream>
 
 #include "identification/inverse/scene_data.hpp"
-#include "mechanics/mesh/select.hpp"
-#include "scene/run/body_mesh.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "identification/setup/fit_config_io.hpp"
+#include "mechanics/mesh/select.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/body_mesh.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -21,7 +22,8 @@ namespace {
 // of this process: ctest runs the cases side by side
 struct Folder {
   ~Folder() { fs::remove_all(path); }
-  const std::string path = (fs::temp_directory_path() / ("langer_inverse_" + std::to_string(getpid()))).string();
+  const std::string path =
+      (fs::temp_directory_path() / ("langer_inverse_" + std::to_string(getpid()))).string();
 } const own;
 const std::string& folder = own.path;
 
@@ -40,7 +42,8 @@ constexpr const char* solve_yaml =
 
 constexpr const char* law =
     "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.02}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
-constexpr const char* three = "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\n";
+constexpr const char* three =
+    "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\n";
 
 Loaded<FitConfig> read(const std::string& yaml) {
   write("solve.yaml", solve_yaml);
@@ -60,12 +63,15 @@ ForwardPath truth(double a1 = 0.012) {
   return run.solve(input);
 }
 
-void write_force(const std::string& name, const ForwardPath& path, double touch = 0, double offset = 0, double compliance = 0) {
-  std::string text = fmt::format("travel_mm,force_mN,beside_um\n{},{},0\n", touch + compliance * offset, 1e3 * offset);
+void write_force(const std::string& name, const ForwardPath& path, double touch = 0,
+                 double offset = 0, double compliance = 0) {
+  std::string text = fmt::format("travel_mm,force_mN,beside_um\n{},{},0\n",
+                                 touch + compliance * offset, 1e3 * offset);
   for (std::size_t i = 0; i < path.t.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const double force = path.values(k, 0);
-    text += fmt::format("{},{},{}\n", path.t[i] + touch + compliance * force, 1e3 * (force + offset), 1e3 * path.values(k, 1));
+    text += fmt::format("{},{},{}\n", path.t[i] + touch + compliance * force,
+                        1e3 * (force + offset), 1e3 * path.values(k, 1));
   }
   write(name, text);
 }
@@ -75,13 +81,16 @@ struct Found {
   FitRecord record;
   int runs = 0;
 };
-Found fitted(const std::string& yaml, const std::string& journal = "", std::vector<std::string>* said = nullptr) {
+Found fitted(const std::string& yaml, const std::string& journal = "",
+             std::vector<std::string>* said = nullptr) {
   const auto loaded = read(yaml);
   FitProblem problem = fit_problem(loaded.config);
-  InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {}, journal.empty() ? "" : folder + "/" + journal);
+  InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {},
+                     journal.empty() ? "" : folder + "/" + journal);
   Found found{inverse.search()};
   found.record = FitRecord{};
-  for (std::size_t i = 0; i < problem.free.size(); ++i) found.record.parameters.push_back({problem.free[i].key, "-"});
+  for (std::size_t i = 0; i < problem.free.size(); ++i)
+    found.record.parameters.push_back({problem.free[i].key, "-"});
   const auto lines = inverse.add_curves(found.fit, found.record);
   if (said) *said = lines;
   found.runs = inverse.runs();
@@ -107,9 +116,12 @@ constexpr const char* force =
 
 }  // namespace
 
-TEST_CASE("A cubic along a path is read exactly, with its rate, from either side of a kink, and rest is zero") {
+TEST_CASE(
+    "A cubic along a path is read exactly, with its rate, from either side of a kink, and rest is zero") {
   const std::vector<double> t{0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 1};
-  const auto cubic = [](double x) { return x * (1 + x * (2 - 3 * x)); };
+  const auto cubic = [](double x) {
+    return x * (1 + x * (2 - 3 * x));
+  };
   const auto of = [&](const std::vector<std::pair<Eigen::Index, double>>& weights, bool kinked) {
     double sum = 0;
     for (const auto& [i, w] : weights) {
@@ -124,7 +136,8 @@ TEST_CASE("A cubic along a path is read exactly, with its rate, from either side
     CHECK(of(smooth.value, false) == doctest::Approx(cubic(x)).epsilon(1e-12));
     CHECK(of(smooth.rate, false) == doctest::Approx(1 + 4 * x - 9 * x * x).epsilon(1e-11));
     const PathPlace kink = place_on(t, {0, 0.5, 1}, x);
-    CHECK(of(kink.value, true) == doctest::Approx(x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x)).epsilon(1e-12));
+    CHECK(of(kink.value, true) ==
+          doctest::Approx(x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x)).epsilon(1e-12));
   }
   CHECK(place_on(t, {0, 1}, -0.1).value.empty());
   CHECK(place_on(t, {0, 1}, 1.04).exists);
@@ -144,12 +157,14 @@ TEST_CASE("A history that comes back is followed in its order") {
   CHECK_FALSE(over.find(2.1, piece, 0.01));
 }
 
-TEST_CASE("The stretch of a path that a value lies on is told by the order of the values, through noise of what they are read by") {
+TEST_CASE(
+    "The stretch of a path that a value lies on is told by the order of the values, through noise of what they are read by") {
   Abscissa over;
   over.t = {0, 0.5, 1}, over.s = {0, 2, 0};
   using Stretches = std::vector<std::size_t>;
   CHECK(over.stretches({0.5, 1, 1.5, 2, 1.5, 1, 0.5}, 0) == Stretches{0, 0, 0, 0, 1, 1, 1});
-  CHECK(over.stretches({0.5, 1, 0.99, 1.5, 1.9, 1.7, 1.71, 0.2}, 0) == Stretches{0, 0, 0, 0, 0, 1, 1, 1});  // the turn was not read
+  CHECK(over.stretches({0.5, 1, 0.99, 1.5, 1.9, 1.7, 1.71, 0.2}, 0) ==
+        Stretches{0, 0, 0, 0, 0, 1, 1, 1});  // the turn was not read
   CHECK(over.stretches({2, 1.5, 0.5}, 0)[1] == 1);
   CHECK(over.stretches({0.5, 1, 0.995}, 0) == Stretches{0, 0, 0});  // it does not turn by itself
   over.t = {0, 0.25, 0.5, 0.75, 1}, over.s = {0, 2, 0.5, 2, 0};
@@ -157,7 +172,8 @@ TEST_CASE("The stretch of a path that a value lies on is told by the order of th
   CHECK(over.stretches({1, 2.1, 1}, 0.01)[1] == 4);
 }
 
-TEST_CASE("A law is found from loading and unloading with friction, whose forces differ at the same travel") {
+TEST_CASE(
+    "A law is found from loading and unloading with friction, whose forces differ at the same travel") {
   write("solve.yaml", solve_yaml);
   std::string scene = solve_yaml;
   scene.replace(scene.find("motion: [{t: 1, to: [0, -1, 0]}]"), 32,
@@ -175,20 +191,23 @@ TEST_CASE("A law is found from loading and unloading with friction, whose forces
   write("cycle.csv", text);
   const Found found = fitted(
       "data: [{kind: scene, solve: there_and_back.yaml, file: cycle.csv, columns: {u_ind: travel_mm, force: force_N}}]\n" +
-      std::string(law) + "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\ndraft: false\n");
+      std::string(law) +
+      "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\ndraft: false\n");
   CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
   CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
 }
 
 TEST_CASE("A law is found from the travel of an indenter that is pushed, measured over its force") {
-  const ForwardPath path = truth();  // of one that is moved: without friction the states are the same
+  const ForwardPath path =
+      truth();  // of one that is moved: without friction the states are the same
   std::string text = "travel_mm,force_N\n";
   for (std::size_t i = 0; i < path.t.size(); ++i)
     text += fmt::format("{},{}\n", path.t[i], path.values(static_cast<Eigen::Index>(i), 0));
   write("pushed.csv", text);
   std::string scene = solve_yaml;
   scene.replace(scene.find("motion: [{t: 1, to: [0, -1, 0]}]"), 32,
-                fmt::format("control: {{force: {}}}", path.values(static_cast<Eigen::Index>(path.t.size()) - 1, 0)));
+                fmt::format("control: {{force: {}}}",
+                            path.values(static_cast<Eigen::Index>(path.t.size()) - 1, 0)));
   scene.replace(scene.find("steps: 5"), 8, "first: 0.1, largest: 0.1");
   write("pushed.yaml", scene);
   const std::string data =
@@ -214,28 +233,33 @@ TEST_CASE("The force on one of two indenters is over its own travel and against 
       "material: {matrix: {yeoh: {a1: 0.012, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nstability: off\npath: {steps: 4}\n";
   write("two.yaml", scene);
   auto loaded = read_config<SolveConfig>(load_yaml(folder + "/two.yaml"));
-  Run run(body_mesh(loaded.config, "", loaded.where), loaded.config, loaded.config.material, loaded.where);
+  Run run(body_mesh(loaded.config, "", loaded.where), loaded.config, loaded.config.material,
+          loaded.where);
   std::string text = "travel_mm,force_N\n";
   RunListener each;
   each.of_whole = [&](StepRecord& whole, const SolveReport&) {
-    const Vec3 force(whole.scalars.at("force_b_x"), whole.scalars.at("force_b_y"), whole.scalars.at("force_b_z"));
+    const Vec3 force(whole.scalars.at("force_b_x"), whole.scalars.at("force_b_y"),
+                     whole.scalars.at("force_b_z"));
     text += fmt::format("{},{}\n", 0.5 * whole.t, -force.dot(Vec3(0.6, -0.8, 0)));
   };
   REQUIRE(run.follow(each).path.complete);
   write("two.csv", text);
   const Found found = fitted(
       "data: [{kind: scene, solve: two.yaml, file: two.csv, columns: {u_ind: travel_mm, force: force_N}, on: b}]\n" +
-      std::string("law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n") +
+      std::string(
+          "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n") +
       "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}]\ndraft: false\n");
   REQUIRE(found.fit.best.converged);
   CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-5));
   CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-5));
 }
 
-TEST_CASE("A place on the surface is found where its shape functions put it, on a block and on a section") {
-  for (const char* yaml : {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
-                           "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",
-                           "geometry: {section: {of: axisymmetric, size: [6, 2], divisions: [5, 2]}}\n"}) {
+TEST_CASE(
+    "A place on the surface is found where its shape functions put it, on a block and on a section") {
+  for (const char* yaml :
+       {"geometry: {block: {size: [6, 2, 4], divisions: [5, 2, 3]}}\n",
+        "geometry: {block: {size: [6, 2, 4], divisions: [3, 1, 2]}}\ncells: hex27\n",
+        "geometry: {section: {of: axisymmetric, size: [6, 2], divisions: [5, 2]}}\n"}) {
     CAPTURE(yaml);
     SolveConfig config;
     config.mesh = read_config<MeshConfig>(parse_yaml(yaml, "mesh.yaml")).config;
@@ -246,7 +270,8 @@ TEST_CASE("A place on the surface is found where its shape functions put it, on 
         Observation at{Observation::Of::displacement, 0};
         REQUIRE(find_place(mesh, {x, y, z}, at));
         Vec3 found = Vec3::Zero();
-        for (std::size_t k = 0; k < at.nodes.size(); ++k) found += at.weights[k] * mesh.X[static_cast<std::size_t>(at.nodes[k])];
+        for (std::size_t k = 0; k < at.nodes.size(); ++k)
+          found += at.weights[k] * mesh.X[static_cast<std::size_t>(at.nodes[k])];
         CHECK((found - Vec3(x, 2, z)).norm() < 1e-9);
       }
     Observation none;
@@ -254,12 +279,14 @@ TEST_CASE("A place on the surface is found where its shape functions put it, on 
   }
 }
 
-TEST_CASE("Three numbers of Yeoh's law are found again from the force on a sphere, from starts on either side") {
+TEST_CASE(
+    "Three numbers of Yeoh's law are found again from the force on a sphere, from starts on either side") {
   write_force("force.csv", truth());
-  for (const char* start : {"{a1: 0.05, a2: 0.01, a3: 0.05}", "{a1: 0.004, a2: 0.004, a3: 0.001}"}) {
+  for (const char* start :
+       {"{a1: 0.05, a2: 0.01, a3: 0.05}", "{a1: 0.004, a2: 0.004, a3: 0.001}"}) {
     CAPTURE(start);
-    const std::string from =
-        std::string("law: {matrix: {yeoh: ") + start + "}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
+    const std::string from = std::string("law: {matrix: {yeoh: ") + start +
+                             "}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
     const Found found = fitted(std::string(force) + "}]\n" + from + three + "jobs: 2\n");
     REQUIRE(found.fit.best.converged);
     CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-6));
@@ -272,7 +299,8 @@ TEST_CASE("Three numbers of Yeoh's law are found again from the force on a spher
   }
 }
 
-TEST_CASE("The results do not depend on the number of scenes side by side, and a fit goes on with the runs that it has kept") {
+TEST_CASE(
+    "The results do not depend on the number of scenes side by side, and a fit goes on with the runs that it has kept") {
   write_force("force.csv", truth());
   const std::string yaml = std::string(force) + "}]\n" + law + three + "draft: false\n";
   fs::remove(folder + "/kept.runs");
@@ -292,11 +320,13 @@ TEST_CASE("Touch offset, force offset and compliance of the machine are found be
     const char* key;
     double touch, offset, compliance, value;
   };
-  for (const Machine& machine : {Machine{"touch_offset", 0.02, 0, 0, 0.02}, Machine{"force_offset", 0, 0.003, 0, 0.003},
-                                 Machine{"compliance", 0, 0, 0.05, 0.05}}) {
+  for (const Machine& machine :
+       {Machine{"touch_offset", 0.02, 0, 0, 0.02}, Machine{"force_offset", 0, 0.003, 0, 0.003},
+        Machine{"compliance", 0, 0, 0.05, 0.05}}) {
     CAPTURE(machine.value);
     write_force("force.csv", path, machine.touch, machine.offset, machine.compliance);
-    const Found found = fitted(std::string(force) + "}]\n" + true_rest + "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0]." +
+    const Found found = fitted(std::string(force) + "}]\n" + true_rest +
+                               "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0]." +
                                machine.key + "\"}]\ndraft: false\n");
     REQUIRE(found.fit.best.converged);
     CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
@@ -310,7 +340,8 @@ TEST_CASE("The derivative by what the machine adds is that of the model") {
       std::string(force) + ", compliance: 0.3, touch_offset: 0.013}]\n" + law +
       "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0].touch_offset\"}, {key: \"data[0].force_offset\"}, {key: \"data[0].compliance\"}]\n");
   const FitProblem problem = fit_problem(loaded.config);
-  SceneTests scenes(loaded.config, loaded.where, problem, {}, std::make_shared<RunCache>(), {1, true});
+  SceneTests scenes(loaded.config, loaded.where, problem, {}, std::make_shared<RunCache>(),
+                    {1, true});
   VecX p(4);
   p << 0.015, 0.013, 0.002, 0.3;
   MatX J;
@@ -340,7 +371,8 @@ TEST_CASE("The derivatives of the runs are those of differences between runs") {
   MatX J, Q;
   REQUIRE(exact.slope(p, J));
   REQUIRE(quotients.slope(p, Q));
-  for (Eigen::Index i = 0; i < 3; ++i) CHECK((J.col(i) - Q.col(i)).norm() < 1e-3 * J.col(i).norm());  // one-sided differences
+  for (Eigen::Index i = 0; i < 3; ++i)
+    CHECK((J.col(i) - Q.col(i)).norm() < 1e-3 * J.col(i).norm());  // one-sided differences
   CHECK(exact.runs() == 1);
   CHECK(quotients.runs() == 4);
 }
@@ -351,15 +383,21 @@ TEST_CASE("What a scene does not have, and files that do not fit it, are named w
     return "data: [" + data + "]\n" + law + parameters;
   };
   const std::string scene = "{kind: scene, solve: solve.yaml, file: force.csv, ";
-  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: forze_mN}}")), "no column \"forze_mN\"");
-  holds(refusal(with(scene + "columns: {u_ind: force_mN, force: force_mN}}")), "the unit mN of the column \"force_mN\"");
-  holds(refusal(with(scene + "columns: {u_ind: travel_mm, u_y: beside_um}, on: nowhere}")), "the scene has no set \"nowhere\"");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: forze_mN}}")),
+        "no column \"forze_mN\"");
+  holds(refusal(with(scene + "columns: {u_ind: force_mN, force: force_mN}}")),
+        "the unit mN of the column \"force_mN\"");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, u_y: beside_um}, on: nowhere}")),
+        "the scene has no set \"nowhere\"");
   holds(refusal(with(scene + "columns: {displacement: travel_mm, force: force_mN}, moved: top}")),
         "no imposed displacement on \"top\"");
-  holds(refusal(with(scene + "columns: {time: travel_mm, force: force_mN}}")), "the unit mm of the column");
-  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}", "parameters: [{key: contacts.cone.friction}]\n")),
+  holds(refusal(with(scene + "columns: {time: travel_mm, force: force_mN}}")),
+        "the unit mm of the column");
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}",
+                     "parameters: [{key: contacts.cone.friction}]\n")),
         "no scene has a contact \"cone\"");
-  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}", "parameters: [{key: matrix.gent.mu}]\n")),
+  holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}",
+                     "parameters: [{key: matrix.gent.mu}]\n")),
         "the law has no number");
   write("force.csv", "travel_mm,force_mN\n0.5,10\n1.2,40\n");
   const std::string longer = refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}"));

@@ -1,4 +1,5 @@
-// Derivatives of whole runs, as a config asks for them, against central differences of runs with other numbers.
+// Derivatives of whole runs, as a config asks for them, against central differences of runs with
+// other numbers.
 #include "identification/inverse/sensitivity.hpp"
 
 #include <doctest/doctest.h>
@@ -15,11 +16,15 @@ namespace {
 
 const std::string skin =
     "{matrix: {yeoh: {a1: 0.05, a2: 0.05, a3: 0.02}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 30, switch: \"off\"}], volume: "
-    "{quadratic: {d: 1.0e-3}}}\n";  // a difference over the switch of the fibres is none of a derivative
-const std::string fat = "{matrix: {yeoh: {a1: 0.02, a2: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}\n";
+    "{quadratic: {d: 1.0e-3}}}\n";  // a difference over the switch of the fibres is none of a
+                                    // derivative
+const std::string fat =
+    "{matrix: {yeoh: {a1: 0.02, a2: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}\n";
 
-std::string block(const std::string& cells, const std::string& divisions, const std::string& more = "") {
-  return "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: " + divisions + "}}\n  cells: " + cells +
+std::string block(const std::string& cells, const std::string& divisions,
+                  const std::string& more = "") {
+  return "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: " +
+         divisions + "}}\n  cells: " + cells +
          "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.4}}}}\n" + more +
          "supports: [{on: bottom, hold: [x, y, z]}]\n";
 }
@@ -27,7 +32,8 @@ std::string ball(double friction, const std::string& motion = "[{t: 1, to: [0, -
   return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: " +
          std::to_string(friction) + ", motion: " + motion + "}}\n";
 }
-const std::string four = "path: {steps: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n";
+const std::string four =
+    "path: {steps: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n";
 
 std::string listed(const std::vector<std::string>& keys) {
   std::string list;
@@ -45,7 +51,8 @@ void change(SolveConfig& config, const std::string& key, double by) {
   Material* material = &*config.material;
   std::string rest = key;
   for (auto& [name, body] : config.materials)
-    if (key.starts_with("materials." + name + ".")) material = &*body.material, rest = key.substr(11 + name.size());
+    if (key.starts_with("materials." + name + "."))
+      material = &*body.material, rest = key.substr(11 + name.size());
   for (const MaterialParameter& p : parameters(*material))
     if (p.key == rest) *p.value += by;
 }
@@ -85,7 +92,8 @@ double norm(const std::vector<Vec3>& a) {
   for (const Vec3& v : a) sum += v.squaredNorm();
   return std::sqrt(sum);
 }
-std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double over = 1) {
+std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
+                             double over = 1) {
   std::vector<Vec3> out;
   for (std::size_t i = 0; i < a.size(); ++i) out.emplace_back((a[i] - b[i]) / over);
   return out;
@@ -105,8 +113,11 @@ void check(const std::string& text, const std::vector<std::string>& keys, double
   for (std::size_t i = 0; i < keys.size(); ++i) {
     CAPTURE(keys[i]);
     const double value = value_of(config, keys[i]);
-    // a force hardly depends on d, and that in proportion: what rounding leaves of a difference wants a longer one
-    const double h = keys[i].ends_with("alpha") ? 1e-2 : keys[i].ends_with("quadratic.d") ? 3e-2 * value : 3e-4 * value;
+    // a force hardly depends on d, and that in proportion: what rounding leaves of a difference
+    // wants a longer one
+    const double h = keys[i].ends_with("alpha")         ? 1e-2
+                     : keys[i].ends_with("quadratic.d") ? 3e-2 * value
+                                                        : 3e-4 * value;
     SolveConfig more = config, less = config;
     change(more, keys[i], h), change(less, keys[i], -h);
     const Steps plus = steps_of(more), minus = steps_of(less);
@@ -116,7 +127,8 @@ void check(const std::string& text, const std::vector<std::string>& keys, double
       if (!same_status(plus[s], minus[s])) break;
       ++compared;
       const StepRecord& d = found[s][i];
-      const auto du = difference(plus[s].u, minus[s].u, 2 * h), dr = difference(plus[s].reaction, minus[s].reaction, 2 * h);
+      const auto du = difference(plus[s].u, minus[s].u, 2 * h),
+                 dr = difference(plus[s].reaction, minus[s].reaction, 2 * h);
       CHECK(norm(difference(d.u, du)) <= tolerance * norm(du));
       CHECK(norm(difference(d.reaction, dr)) <= tolerance * norm(dr));
       const Vec3 dF = (plus[s].force_ind - minus[s].force_ind) / (2 * h);
@@ -132,18 +144,25 @@ const std::vector<std::string> some{"matrix.yeoh.a1", "fibres[0].hgo.c1", "fibre
 
 }  // namespace
 
-TEST_CASE("derivatives of a run are those of runs: whole, half turn and quarter, with friction and without") {
+TEST_CASE(
+    "derivatives of a run are those of runs: whole, half turn and quarter, with friction and without") {
   for (const char* symmetry : {"none", "half_turn"})
-    check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) + four + "symmetry: " + symmetry + "\n", some, 1e-5);
-  check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0.3) + four + "symmetry: half_turn\n",
-        {"matrix.yeoh.a1", "fibres[0].alpha", "contacts.ball.friction"}, 1e-3);
+    check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) + four +
+              "symmetry: " + symmetry + "\n",
+          some, 1e-5);
+  check(
+      block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0.3) + four + "symmetry: half_turn\n",
+      {"matrix.yeoh.a1", "fibres[0].alpha", "contacts.ball.friction"}, 1e-3);
   check(block("hex8", "[6, 2, 6]") + "material: " + fat + ball(0.3) + four + "symmetry: quarter\n",
         {"matrix.yeoh.a1", "contacts.ball.friction"}, 1e-3);
 }
 
-TEST_CASE("derivatives of a run are those of runs: hex27, layers, a section, a hexahedron for a mesh, KINSOL, a pushed indenter") {
-  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four, {"matrix.yeoh.a1", "volume.quadratic.d"}, 1e-5);
-  check(block("hex8", "[6, 4, 6]", "  bodies: [{name: fat, thickness: 1.5}, {name: skin, thickness: 1.5}]\n") +
+TEST_CASE(
+    "derivatives of a run are those of runs: hex27, layers, a section, a hexahedron for a mesh, KINSOL, a pushed indenter") {
+  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four,
+        {"matrix.yeoh.a1", "volume.quadratic.d"}, 1e-5);
+  check(block("hex8", "[6, 4, 6]",
+              "  bodies: [{name: fat, thickness: 1.5}, {name: skin, thickness: 1.5}]\n") +
             "material: " + skin + "materials: {fat: {material: " + fat + "}}\n" + ball(0) + four,
         {"matrix.yeoh.a1", "materials.fat.matrix.yeoh.a1"}, 1e-5);
   check(
@@ -154,35 +173,40 @@ TEST_CASE("derivatives of a run are those of runs: hex27, layers, a section, a h
   const std::string pulled =
       "mesh: {geometry: {block: {size: [3, 1, 2], divisions: [3, 2, 2]}}}\nsupports: [{on: x_min, hold: [x]}, {on: bottom, hold: [y]}, "
       "{on: z_min, hold: [z]}]\nloads: [{on: x_max, displacement: {x: 0.9}}]\n";
-  check(pulled + "material: " + skin + four, {"matrix.yeoh.a1", "fibres[0].hgo.c2", "fibres[0].alpha"}, 1e-5);
+  check(pulled + "material: " + skin + four,
+        {"matrix.yeoh.a1", "fibres[0].hgo.c2", "fibres[0].alpha"}, 1e-5);
   check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) +
             "path: {steps: 4}\nsolver: {kinsol: {relative: 1.0e-12}}\nstability: off\n",
         some, 1e-5);
 }
 
 // scalars of the last step against differences of runs
-void check_scalar(const std::string& text, const std::string& scalar, const std::string& derivative, const std::string& key,
-                  double tolerance) {
+void check_scalar(const std::string& text, const std::string& scalar, const std::string& derivative,
+                  const std::string& key, double tolerance) {
   CAPTURE(scalar);
   const SolveConfig config = test::config_of(text + listed({key}));
   std::vector<Steps> found;
-  const double told = steps_of(config, &found).back().scalars.at(derivative), value = value_of(config, key), h = 3e-4 * value;
+  const double told = steps_of(config, &found).back().scalars.at(derivative),
+               value = value_of(config, key), h = 3e-4 * value;
   SolveConfig more = config, less = config;
   change(more, key, h), change(less, key, -h);
   const auto last = [&](const SolveConfig& other) {
     const StepRecord end = steps_of(other).back();
-    return scalar == "apex" ? end.u[static_cast<std::size_t>(test::mesh_in(config).node_sets.at("apex")[0])][1]
-                            : end.scalars.at(scalar);
+    return scalar == "apex"
+               ? end.u[static_cast<std::size_t>(test::mesh_in(config).node_sets.at("apex")[0])][1]
+               : end.scalars.at(scalar);
   };
   const double difference = (last(more) - last(less)) / (2 * h);
   CHECK(told == doctest::Approx(difference).epsilon(tolerance));
 }
 
-TEST_CASE("derivatives of torques, of pushed indenters with friction and of what a suction lifts are those of runs") {
+TEST_CASE(
+    "derivatives of torques, of pushed indenters with friction and of what a suction lifts are those of runs") {
   std::string disc = block("hex8", "[6, 2, 6]");
-  disc.insert(disc.find("sets: {") + 7, "disc: {of: top, within: {cylinder: {axis: y, radius: 2}}}, ");
-  check_scalar(disc + "material: " + skin + "loads: [{on: disc, rotation: {angle: 20}}]\n" + four, "torque_disc",
-               "d_torque_disc_N_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
+  disc.insert(disc.find("sets: {") + 7,
+              "disc: {of: top, within: {cylinder: {axis: y, radius: 2}}}, ");
+  check_scalar(disc + "material: " + skin + "loads: [{on: disc, rotation: {angle: 20}}]\n" + four,
+               "torque_disc", "d_torque_disc_N_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
   check_scalar(
       block("hex8", "[6, 2, 6]") + "material: " + skin +
           "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: 0.2, motion: [{t: 0.5, "
@@ -202,22 +226,26 @@ TEST_CASE("derivatives of torques, of pushed indenters with friction and of what
       "apex", "d_u_y_apex_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
 }
 
-TEST_CASE("a number that breaks the symmetry of a scene takes the symmetry away, or is refused where that is named") {
+TEST_CASE(
+    "a number that breaks the symmetry of a scene takes the symmetry away, or is refused where that is named") {
   const std::string straight =
       "{matrix: {yeoh: {a1: 0.05, a2: 0.05}}, fibres: [{hgo: {c1: 0.1, c2: 0.3}, alpha: 0}], volume: {quadratic: {d: 1.0e-3}}}\n";
   const std::string scene = block("hex8", "[6, 2, 6]") + "material: " + straight + ball(0) + four;
   const auto kept = [&](const std::string& symmetry, const std::vector<std::string>& keys) {
-    const SolveConfig config = test::config_of(scene + "symmetry: " + symmetry + "\n" + listed(keys));
+    const SolveConfig config =
+        test::config_of(scene + "symmetry: " + symmetry + "\n" + listed(keys));
     return Run(test::mesh_in(config), config, config.material, test::nowhere).reduction.words();
   };
   CHECK(kept("auto", {"matrix.yeoh.a1"}).find("mirror x and mirror z") != std::string::npos);
   CHECK(kept("auto", {"fibres[0].alpha"}).find("half turn") != std::string::npos);
-  CHECK_THROWS_WITH_AS(kept("quarter", {"fibres[0].alpha"}), doctest::Contains("sensitivity"), Failure);
+  CHECK_THROWS_WITH_AS(kept("quarter", {"fibres[0].alpha"}), doctest::Contains("sensitivity"),
+                       Failure);
 }
 
 TEST_CASE("numbers that a scene does not have are refused with those that it has") {
   const auto said = [](const std::string& key) {
-    const SolveConfig config = test::config_of(block("hex8", "[4, 2, 4]") + "material: " + fat + ball(0) + four + listed({key}));
+    const SolveConfig config = test::config_of(block("hex8", "[4, 2, 4]") + "material: " + fat +
+                                               ball(0) + four + listed({key}));
     try {
       const Run run(test::mesh_in(config), config, config.material, test::nowhere);
     } catch (const Failure& failure) {
@@ -228,14 +256,16 @@ TEST_CASE("numbers that a scene does not have are refused with those that it has
   };
   CHECK(said("matrix.yeoh.a1") == "accepted");
   CHECK(said("matrix.yeho.a1").find("did you mean \"matrix.yeoh.a1\"?") != std::string::npos);
-  CHECK(said("fibres[0].alpha").find("expected a number of the scene: matrix.yeoh.a1") != std::string::npos);
+  CHECK(said("fibres[0].alpha").find("expected a number of the scene: matrix.yeoh.a1") !=
+        std::string::npos);
   CHECK(said("contacts.ball.friction").find("friction above 0") != std::string::npos);
 }
 
 TEST_CASE("a run continued from any of its steps has the same derivatives to the last digit") {
-  const SolveConfig config = test::config_of(block("hex8", "[6, 2, 6]") + "material: " + skin +
-                                             ball(0.3, "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.3, -0.5, 0]}]") + four +
-                                             listed({"matrix.yeoh.a1", "contacts.ball.friction"}));
+  const SolveConfig config =
+      test::config_of(block("hex8", "[6, 2, 6]") + "material: " + skin +
+                      ball(0.3, "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.3, -0.5, 0]}]") + four +
+                      listed({"matrix.yeoh.a1", "contacts.ball.friction"}));
   std::vector<Steps> derivatives;
   const Steps whole = steps_of(config, &derivatives);
   for (std::size_t at : {0u, 1u, 2u}) {
@@ -255,8 +285,10 @@ TEST_CASE("a run continued from any of its steps has the same derivatives to the
   }
 }
 
-TEST_CASE("the tangents of derivatives serve the increments behind them, whose states change by no more than their tolerance") {
-  const std::string scene = block("hex8", "[8, 3, 8]") + "material: " + skin + ball(0.3, "[{t: 1, to: [0, -0.8, 0]}]") +
+TEST_CASE(
+    "the tangents of derivatives serve the increments behind them, whose states change by no more than their tolerance") {
+  const std::string scene = block("hex8", "[8, 3, 8]") + "material: " + skin +
+                            ball(0.3, "[{t: 1, to: [0, -0.8, 0]}]") +
                             "path: {steps: 10}\nstability: off\n";
   long tangents[2];
   Vec3 force[2];
@@ -265,7 +297,9 @@ TEST_CASE("the tangents of derivatives serve the increments behind them, whose s
     Run run(test::mesh_in(config), config, config.material, test::nowhere);
     Sensitivity sensitivity(run, config, test::nowhere);
     RunListener each;
-    each.of_whole = [&, asked](StepRecord& whole, const SolveReport&) { force[asked] = whole.force_ind; };
+    each.of_whole = [&, asked](StepRecord& whole, const SolveReport&) {
+      force[asked] = whole.force_ind;
+    };
     REQUIRE(run.follow(sensitivity.along(each)).path.complete);
     tangents[asked] = run.statics.cost().factorizations;
   }
@@ -286,7 +320,9 @@ TEST_CASE("derivatives by numbers that are 0 or almost 0 have all their digits")
     std::string law = goh;
     law.replace(law.find("A2"), 2, small ? "1.0e-11" : "0");
     law.replace(law.find("KAPPA"), 5, small ? "1.0e-9" : "0");
-    steps_of(test::config_of(block("hex8", "[4, 2, 4]") + "material: " + law + ball(0) + four + listed(keys)), &found[small]);
+    steps_of(test::config_of(block("hex8", "[4, 2, 4]") + "material: " + law + ball(0) + four +
+                             listed(keys)),
+             &found[small]);
   }
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const StepRecord &zero = found[0].back()[i], &small = found[1].back()[i];

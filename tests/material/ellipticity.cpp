@@ -1,4 +1,5 @@
-// Strong ellipticity: the modulus at rest, the definition by differences of the energy, and where Table 1's law loses it.
+// Strong ellipticity: the modulus at rest, the definition by differences of the energy, and where
+// Table 1's law loses it.
 #include "mechanics/material/ellipticity.hpp"
 
 #include <doctest/doctest.h>
@@ -8,37 +9,45 @@
 #include <cmath>
 #include <random>
 
+#include "core/tensor/kinematics.hpp"
 #include "material/catalogue.hpp"
 #include "mechanics/material/uniaxial.hpp"
-#include "core/tensor/kinematics.hpp"
 
 using namespace langer;
 
 namespace {
 
-double stiffness(const Material& m, const Mat3& F) { return smallest_shear_stiffness(m, F, fibre_directions(m)).value; }
+double stiffness(const Material& m, const Mat3& F) {
+  return smallest_shear_stiffness(m, F, fibre_directions(m)).value;
+}
 
-Mat3 uniaxial_state(const Material& m, double lambda) { return uniaxial_incompressible(m, lambda).stretch.asDiagonal(); }
+Mat3 uniaxial_state(const Material& m, double lambda) {
+  return uniaxial_incompressible(m, lambda).stretch.asDiagonal();
+}
 
 }  // namespace
 
-TEST_CASE("at rest the smallest shear stiffness of the matrix is its shear modulus, in every direction") {
+TEST_CASE(
+    "at rest the smallest shear stiffness of the matrix is its shear modulus, in every direction") {
   const Material m{{Yeoh{0.3, 0.7, 0.1}}, {}, {QuadraticVolume{1}}};
   CHECK(stiffness(m, Mat3::Identity()) == doctest::Approx(0.6).epsilon(1e-14));
   const Mat3 R = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   CHECK(stiffness(m, R) == doctest::Approx(0.6).epsilon(1e-14));
 }
 
-TEST_CASE("the stiffness is the second derivative of the energy along a shear of the deformed state, and none is smaller") {
+TEST_CASE(
+    "the stiffness is the second derivative of the energy along a shear of the deformed state, and none is smaller") {
   std::mt19937 rng(41);
   std::uniform_real_distribution<double> x(-0.3, 0.3);
   // laws of the invariants, and one of the stretches, whose stiffness is found in another way
-  for (const Material& m : {table1_hgo_yeoh(30), Material{{Ogden{0.2, 3, -0.05, -2}}, {}, {QuadraticVolume{1}}}})
+  for (const Material& m :
+       {table1_hgo_yeoh(30), Material{{Ogden{0.2, 3, -0.05, -2}}, {}, {QuadraticVolume{1}}}})
     for (int trial = 0; trial < 10; ++trial) {
       const auto a = fibre_directions(m);
       const Mat3 H = Mat3::NullaryExpr([&] { return x(rng); });
       const Mat3 F = deformation_gradient(H) / std::cbrt(deformation_gradient(H).determinant());
-      if (!a.empty() && std::abs((F * a[0]).squaredNorm() - 1) < 0.02) continue;  // the fibre's switch
+      if (!a.empty() && std::abs((F * a[0]).squaredNorm() - 1) < 0.02)
+        continue;  // the fibre's switch
       const ShearStiffness s = smallest_shear_stiffness(m, F, a);
       CHECK(std::abs(s.n.dot(s.m)) <= 1e-12);
       const auto second_derivative = [&](const Vec3& n, const Vec3& across) {
@@ -71,7 +80,8 @@ TEST_CASE("Table 1's HGO-Yeoh law loses strong ellipticity where c1 < 0 takes ov
     const Material m = table1_hgo_yeoh(angle[i]);
     lost_between(lambda[i] - 0.01, lambda[i], m, [&](double l) { return uniaxial_state(m, l); });
   }
-  lost_between(1.84, 1.85, table1_hgo_yeoh(), [](double l) { return Mat3(Vec3(l, 1 / (l * l), l).asDiagonal()); });
+  lost_between(1.84, 1.85, table1_hgo_yeoh(),
+               [](double l) { return Mat3(Vec3(l, 1 / (l * l), l).asDiagonal()); });
   lost_between(1.09, 1.10, table1_hgo_yeoh(45), [](double gamma) {
     Mat3 F = Mat3::Identity();
     F(0, 2) = gamma;

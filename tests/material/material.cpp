@@ -6,10 +6,10 @@
 
 #include <random>
 
-#include "material/catalogue.hpp"
 #include "core/tensor/invariants.hpp"
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/stress.hpp"
+#include "material/catalogue.hpp"
 
 using namespace langer;
 
@@ -27,7 +27,8 @@ Mat3 random_rotation(std::mt19937& rng) {
   return Eigen::Quaterniond(x(rng), x(rng), x(rng), x(rng)).normalized().toRotationMatrix();
 }
 
-// any fibre close to its switch makes a difference quotient across the kink of D: such samples are skipped
+// any fibre close to its switch makes a difference quotient across the kink of D: such samples are
+// skipped
 bool near_switch(const std::vector<Vec3>& a, const Mat3& C) {
   const double m = std::cbrt(1 / (1 + determinant_minus_1(C - Mat3::Identity())));
   for (const Vec3& d : a)
@@ -57,7 +58,9 @@ TEST_CASE("S is the derivative of W and D the symmetric derivative of S, for eve
       for (int q = 0; q < 6; ++q) {
         Vec6 step = Vec6::Zero();  // of E, so that C changes by twice as much
         step[q] = q < 3 ? h : h / 2;
-        const auto at = [&](double n) { return response(named.material, C + 2 * n * tensor(step), a); };
+        const auto at = [&](double n) {
+          return response(named.material, C + 2 * n * tensor(step), a);
+        };
         const Response p1 = at(1), m1 = at(-1), p2 = at(2), m2 = at(-2);
         S[q] = (8 * (p1.W - m1.W) - (p2.W - m2.W)) / (12 * h);
         D.col(q) = (8 * (p1.S - m1.S) - (p2.S - m2.S)) / (12 * h);
@@ -79,7 +82,8 @@ TEST_CASE("the material at rest is free of stress, in every frame") {
     }
 }
 
-TEST_CASE("the tangent at rest is that of the moduli: 2 a1 in shear, 2/d in volume, c1 along the fibre") {
+TEST_CASE(
+    "the tangent at rest is that of the moduli: 2 a1 in shear, 2/d in volume, c1 along the fibre") {
   const double a1 = 0.3, c1 = 0.2, d = 0.5;
   const Material material{{NeoHooke{a1}}, {hgo_fibre(c1, 0.3, 0)}, {QuadraticVolume{d}}};
   const Mat6 D = response(material, Mat3::Identity(), fibre_directions(material)).D;
@@ -102,11 +106,13 @@ TEST_CASE("a rotation of the deformed body changes no energy and turns the stres
       const Response r = response(named.material, right_cauchy_green(F), a);
       const Response turned = response(named.material, right_cauchy_green(R * F), a);
       CHECK(turned.W == doctest::Approx(r.W).epsilon(1e-12));
-      CHECK((cauchy(R * F, turned.S) - R * cauchy(F, r.S) * R.transpose()).norm() <= 1e-12 * cauchy(F, r.S).norm());
+      CHECK((cauchy(R * F, turned.S) - R * cauchy(F, r.S) * R.transpose()).norm() <=
+            1e-12 * cauchy(F, r.S).norm());
     }
 }
 
-TEST_CASE("rotations about the fibre and half turns across it are symmetries of the material, others are not") {
+TEST_CASE(
+    "rotations about the fibre and half turns across it are symmetries of the material, others are not") {
   std::mt19937 rng(24);
   const Material material = positive_hgo_yeoh(30, 0.5);
   const auto a = fibre_directions(material);
@@ -118,9 +124,11 @@ TEST_CASE("rotations about the fibre and half turns across it are symmetries of 
     if (near_switch(a, C) || linear_bar(invariants(C), structural_tensor(a[0])) < 1) continue;
     ++seen;
     const Response r = response(material, C, a);
-    const auto turned = [&](const Mat3& Q) { return response(material, right_cauchy_green(F * Q), a); };
-    for (const Mat3& Q :
-         {Eigen::AngleAxisd(0.1 + seen, a[0]).toRotationMatrix(), Eigen::AngleAxisd(std::acos(-1), across).toRotationMatrix()}) {
+    const auto turned = [&](const Mat3& Q) {
+      return response(material, right_cauchy_green(F * Q), a);
+    };
+    for (const Mat3& Q : {Eigen::AngleAxisd(0.1 + seen, a[0]).toRotationMatrix(),
+                          Eigen::AngleAxisd(std::acos(-1), across).toRotationMatrix()}) {
       CHECK(turned(Q).W == doctest::Approx(r.W).epsilon(1e-12));
       CHECK((cauchy(F * Q, turned(Q).S) - cauchy(F, r.S)).norm() <= 1e-12 * cauchy(F, r.S).norm());
     }
@@ -133,7 +141,8 @@ TEST_CASE("turning the specimen with its fibres turns the stress") {
   const Mat3 Q = random_rotation(rng), F = deformation_gradient(random_gradient(rng, 0.2));
   const Material material = positive_hgo_yeoh(20, 0.5);
   const Response r = response(material, right_cauchy_green(F), fibre_directions(material));
-  const Response q = response(material, Q * right_cauchy_green(F) * Q.transpose(), fibre_directions(material, Q));
+  const Response q =
+      response(material, Q * right_cauchy_green(F) * Q.transpose(), fibre_directions(material, Q));
   CHECK((tensor(q.S) - Q * tensor(r.S) * Q.transpose()).norm() <= 1e-13 * r.S.norm());
 }
 
@@ -154,12 +163,15 @@ TEST_CASE("a shortened fibre bears nothing, with the switch off it does") {
   CHECK(response(material, C, fibre_directions(material)).S[0] < alone.S[0]);
 }
 
-TEST_CASE("the stress is continuous where the switch looks at I4_bar, and jumps where it looks at I4 while J is not 1") {
+TEST_CASE(
+    "the stress is continuous where the switch looks at I4_bar, and jumps where it looks at I4 while J is not 1") {
   Material material = positive_hgo_yeoh(0, 0.5);
   const auto a = fibre_directions(material);
   const double J = 1.1;
   const auto jump = [&](double I4) {  // of S across I4
-    const auto S = [&](double x) { return response(material, Vec3(x, J * J / x, 1).asDiagonal(), a).S; };
+    const auto S = [&](double x) {
+      return response(material, Vec3(x, J * J / x, 1).asDiagonal(), a).S;
+    };
     return (S(I4 * (1 + 1e-9)) - S(I4 * (1 - 1e-9))).norm();
   };
   CHECK(jump(std::pow(J, 2. / 3)) <= 1e-7);
@@ -167,29 +179,36 @@ TEST_CASE("the stress is continuous where the switch looks at I4_bar, and jumps 
   // 2 c1 x exp(c2 x^2) |dI4_bar/dC|,  x = I4_bar - 1 = J^(-2/3) - 1
   const double x = std::pow(J, -2. / 3) - 1;
   const Invariants v = invariants(Vec3(1, J * J, 1).asDiagonal());
-  const double expected = 2 * 0.1 * std::abs(x) * std::exp(0.3 * x * x) * dlinear_bar_dC(v, structural_tensor(a[0])).norm();
+  const double expected = 2 * 0.1 * std::abs(x) * std::exp(0.3 * x * x) *
+                          dlinear_bar_dC(v, structural_tensor(a[0])).norm();
   CHECK(jump(1) == doctest::Approx(expected).epsilon(1e-6));
 }
 
-TEST_CASE("the isochoric part has no mean Cauchy stress, and its stress alone equals that with tangent") {
+TEST_CASE(
+    "the isochoric part has no mean Cauchy stress, and its stress alone equals that with tangent") {
   std::mt19937 rng(26);
   for (const NamedMaterial& named : catalogue()) {
     CAPTURE(named.name);
     const Mat3 F = deformation_gradient(random_gradient(rng, 0.25)), C = right_cauchy_green(F);
     const auto a = fibre_directions(named.material);
-    const Response r = isochoric(named.material, C, a), stress_only = isochoric(named.material, C, a, false);
+    const Response r = isochoric(named.material, C, a),
+                   stress_only = isochoric(named.material, C, a, false);
     CHECK(std::abs(mean_stress(cauchy(F, r.S))) <= 1e-14 * von_mises(cauchy(F, r.S)) + 1e-16);
     CHECK((r.S - stress_only.S).norm() <= 1e-15 * r.S.norm());
     CHECK(stress_only.D.norm() == 0);
   }
 }
 
-TEST_CASE("a fibre modulus of zero is the matrix alone, and two equal families are one of twice the modulus") {
+TEST_CASE(
+    "a fibre modulus of zero is the matrix alone, and two equal families are one of twice the modulus") {
   std::mt19937 rng(27);
   const Mat3 C = right_cauchy_green(deformation_gradient(random_gradient(rng, 0.25)));
-  const auto of = [&](const Material& m) { return response(m, C, fibre_directions(m)); };
+  const auto of = [&](const Material& m) {
+    return response(m, C, fibre_directions(m));
+  };
   const Volume volume{QuadraticVolume{0.5}};
-  const Material matrix{{Yeoh{0.1, 0.1, 0.1}}, {}, volume}, none{matrix.matrix, {hgo_fibre(0, 0.3, 10)}, volume};
+  const Material matrix{{Yeoh{0.1, 0.1, 0.1}}, {}, volume},
+      none{matrix.matrix, {hgo_fibre(0, 0.3, 10)}, volume};
   CHECK((of(none).D - of(matrix).D).norm() == 0);
   const Material two{matrix.matrix, {hgo_fibre(0.1, 0.3, 10), hgo_fibre(0.1, 0.3, 10)}, volume};
   const Material one{matrix.matrix, {hgo_fibre(0.2, 0.3, 10)}, volume};
@@ -199,7 +218,8 @@ TEST_CASE("a fibre modulus of zero is the matrix alone, and two equal families a
 
 TEST_CASE("J - 1 given by the caller carries the pressure of a nearly incompressible state") {
   const Material material = table1_hgo_yeoh(0, 1e-6);
-  // dilatation of 1e-13 in a large shear: kappa (J - 1) = 2e-7 MPa, three digits of which det C - 1 would lose
+  // dilatation of 1e-13 in a large shear: kappa (J - 1) = 2e-7 MPa, three digits of which det C - 1
+  // would lose
   Mat3 H = Mat3::Zero();
   H(0, 2) = 0.5, H(1, 1) = 1e-13;
   const Mat3 F = deformation_gradient(H);

@@ -17,8 +17,10 @@ std::vector<std::string> keys(Material m) {
 
 TEST_CASE("every number of a law has its YAML path, its name and its unit") {
   Material m = table1_hgo_yeoh(30);
-  CHECK(keys(m) == std::vector<std::string>{"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3", "fibres[0].hgo.c1",
-                                            "fibres[0].hgo.c2", "fibres[0].alpha", "fibres[0].kappa", "volume.quadratic.d"});
+  CHECK(keys(m) == std::vector<std::string>{"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3",
+                                            "fibres[0].hgo.c1", "fibres[0].hgo.c2",
+                                            "fibres[0].alpha", "fibres[0].kappa",
+                                            "volume.quadratic.d"});
   const auto all = parameters(m);
   CHECK(all[3].name == "c1");
   CHECK(all[3].unit == "MPa");
@@ -28,7 +30,9 @@ TEST_CASE("every number of a law has its YAML path, its name and its unit") {
 }
 
 TEST_CASE("terms that stand twice are told apart by index, and names by a number") {
-  Material m{{Yeoh{1, 2, 3}, Yeoh{4, 5, 6}}, {hgo_fibre(0.1, 1, 10), hgo_fibre(0.2, 1, 20)}, {QuadraticVolume{1}}};
+  Material m{{Yeoh{1, 2, 3}, Yeoh{4, 5, 6}},
+             {hgo_fibre(0.1, 1, 10), hgo_fibre(0.2, 1, 20)},
+             {QuadraticVolume{1}}};
   const auto k = keys(m);
   CHECK(k[0] == "matrix[0].yeoh.a1");
   CHECK(k[3] == "matrix[1].yeoh.a1");
@@ -40,13 +44,16 @@ TEST_CASE("terms that stand twice are told apart by index, and names by a number
 }
 
 TEST_CASE("a number of a fibre law with the word of its family's angle takes the name of the law") {
-  Material m{{NeoHooke{0.1}}, {{ExpPowFibre{0.3, 0.8, 2.5}, 20}, {PowLinearFibre{3, 1.1, 3}, 40}}, LogarithmicVolume{1e3}};
+  Material m{{NeoHooke{0.1}},
+             {{ExpPowFibre{0.3, 0.8, 2.5}, 20}, {PowLinearFibre{3, 1.1, 3}, 40}},
+             LogarithmicVolume{1e3}};
   std::vector<std::string> names;
   for (const MaterialParameter& p : parameters(m)) names.push_back(p.name);
   CHECK(keys(m)[2] == "fibres[0].exp_pow.alpha");
   CHECK(keys(m).back() == "volume.logarithmic.bulk_modulus");
-  CHECK(names == std::vector<std::string>{"a1", "ksi", "exp_pow_alpha", "beta", "alpha", "kappa", "E", "lam0", "beta_2", "alpha_2",
-                                          "kappa_2", "bulk_modulus"});
+  CHECK(names == std::vector<std::string>{"a1", "ksi", "exp_pow_alpha", "beta", "alpha", "kappa",
+                                          "E", "lam0", "beta_2", "alpha_2", "kappa_2",
+                                          "bulk_modulus"});
 }
 
 TEST_CASE("energy and stress of a state are linear in what is called a modulus, in every law") {

@@ -8,8 +8,8 @@
 #include <ctime>
 
 #include "core/base/random.hpp"
-#include "mechanics/material/at_rest.hpp"
 #include "material/catalogue.hpp"
+#include "mechanics/material/at_rest.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "support/slow_build.hpp"
 
@@ -23,7 +23,9 @@ std::vector<double> amounts(double to, int n) {
   return x;
 }
 
-double stress(double alpha, Path path, double amount) { return on_path(positive_hgo_yeoh(alpha), path, amount).cauchy; }
+double stress(double alpha, Path path, double amount) {
+  return on_path(positive_hgo_yeoh(alpha), path, amount).cauchy;
+}
 
 }  // namespace
 
@@ -48,7 +50,8 @@ TEST_CASE("the work of a path is the derivative of the energy, in every test and
         CAPTURE(static_cast<int>(path));
         CAPTURE(x);
         constexpr double h = 1e-5;
-        const double dW = (on_path(m.material, path, x + h).W - on_path(m.material, path, x - h).W) / (2 * h);
+        const double dW =
+            (on_path(m.material, path, x + h).W - on_path(m.material, path, x - h).W) / (2 * h);
         const double work = on_path(m.material, path, x).work * (path == Path::equibiaxial ? 2 : 1);
         CHECK(work == doctest::Approx(dW).epsilon(1e-7).scale(1));
       }
@@ -56,7 +59,9 @@ TEST_CASE("the work of a path is the derivative of the energy, in every test and
 
 TEST_CASE("Table 1 along the fibre: the stress peaks at 1.627 and is negative from 1.73") {
   const Material m = table1_hgo_yeoh();
-  const auto sigma = [&](double l) { return on_path(m, Path::uniaxial, l - 1).cauchy; };
+  const auto sigma = [&](double l) {
+    return on_path(m, Path::uniaxial, l - 1).cauchy;
+  };
   CHECK(sigma(1.627) == doctest::Approx(1.091).epsilon(5e-4));
   CHECK(sigma(1.627) > sigma(1.6265));
   CHECK(sigma(1.627) > sigma(1.6275));
@@ -72,7 +77,9 @@ TEST_CASE("Table 1 loses strong ellipticity where an independent scan found it")
     return path_stability(table1_hgo_yeoh(alpha), path, amounts(to, 51)).ellipticity_loss;
   };
   // the scan named the first unstable state on a grid of 0.01
-  const auto on_grid = [&](double alpha, Path path, double to) { return std::ceil(100 * lost(alpha, path, to)) / 100; };
+  const auto on_grid = [&](double alpha, Path path, double to) {
+    return std::ceil(100 * lost(alpha, path, to)) / 100;
+  };
   CHECK(on_grid(0, Path::uniaxial, 1) == 0.64);
   CHECK(on_grid(15, Path::uniaxial, 2) == 0.64);
   CHECK(on_grid(45, Path::uniaxial, 2) == 1.43);
@@ -84,7 +91,8 @@ TEST_CASE("Table 1 loses strong ellipticity where an independent scan found it")
   CHECK(lost(45, Path::simple_shear, 1.5) == doctest::Approx(1.093).epsilon(1e-3));
 }
 
-TEST_CASE("the map: losses by direction, the plane of stretches, the safe radius, whatever the number of threads") {
+TEST_CASE(
+    "the map: losses by direction, the plane of stretches, the safe radius, whatever the number of threads") {
   StabilityOptions options;
   options.points = 21, options.angles = {0, 45}, options.stretches = 9, options.threads = 3;
   const StabilityMap map = stability_map(table1_hgo_yeoh(30), options);  // turned to 0 and 45
@@ -110,14 +118,17 @@ TEST_CASE("the map: losses by direction, the plane of stretches, the safe radius
       CHECK(std::isinf(s.ellipticity_loss));
       if (path == Path::uniaxial) CHECK(std::isinf(s.slope_loss));
     }
-  CHECK(safe_hencky({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}, 1.2) == 0);  // unstable at rest
+  CHECK(safe_hencky({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}, 1.2) ==
+        0);  // unstable at rest
 }
 
 namespace {
 
 // moduli >= 0, up to two families with any exponent and dispersion: polyconvex
 Material polyconvex(Random& random) {
-  const auto up_to = [&](double x) { return x * random.uniform(); };
+  const auto up_to = [&](double x) {
+    return x * random.uniform();
+  };
   Material m;
   switch (random.below(3)) {
     case 0:
@@ -147,23 +158,27 @@ TEST_CASE("a law that is polyconvex is nowhere said to be unstable, however stif
     const auto a = fibre_directions(m);
     CAPTURE(trial);
     for (int state = 0; state < 10; ++state) {
-      const Mat3 F = Mat3::Identity() + 0.5 * Mat3::NullaryExpr([&] { return random.uniform() - 0.5; });
+      const Mat3 F =
+          Mat3::Identity() + 0.5 * Mat3::NullaryExpr([&] { return random.uniform() - 0.5; });
       if (F.determinant() < 0.1) continue;
       const double s = smallest_shear_stiffness(m, F / std::cbrt(F.determinant()), a).value;
       CHECK_FALSE(std::isless(s, 0));  // no number is no loss
     }
     if (trial % 20) continue;
     CHECK(std::isinf(safe_hencky(m, 1.2)));
-    for (Path path : all_paths) CHECK(std::isinf(path_stability(m, path, amounts(1, 11)).ellipticity_loss));
+    for (Path path : all_paths)
+      CHECK(std::isinf(path_stability(m, path, amounts(1, 11)).ellipticity_loss));
   }
 }
 
 TEST_CASE("a stiff fibre hides no loss of the matrix across it") {
-  // along the fibre the tangent is 1e12 times as stiff as the matrix, whose shear modulus is negative
+  // along the fibre the tangent is 1e12 times as stiff as the matrix, whose shear modulus is
+  // negative
   const Material m{{Yeoh{-0.01, 0, 0}}, {Fibre{HgoFibre{1, 5}, 0}}, {QuadraticVolume{1e-3}}};
   const Mat3 F = Vec3(1.9, 1 / std::sqrt(1.9), 1 / std::sqrt(1.9)).asDiagonal();
   const ShearStiffness s = smallest_shear_stiffness(m, F, fibre_directions(m));
-  CHECK(s.value == doctest::Approx(-0.02 / 1.9).epsilon(1e-6));  // waves in the plane across the fibre, n.b n = 1 / 1.9
+  CHECK(s.value == doctest::Approx(-0.02 / 1.9)
+                       .epsilon(1e-6));  // waves in the plane across the fibre, n.b n = 1 / 1.9
 }
 
 TEST_CASE("where a law has no number it is not said to be lost") {
@@ -171,18 +186,21 @@ TEST_CASE("where a law has no number it is not said to be lost") {
   const PathStability s = path_stability(m, Path::uniaxial, amounts(1, 51));
   CHECK(std::isinf(s.slope_loss));
   CHECK(std::isinf(s.ellipticity_loss));
-  CHECK(s.end == doctest::Approx(std::sqrt(1 + std::sqrt(3.)) - 1).epsilon(1e-3));  // 100 (lambda^2 - 1)^2 = 300
+  CHECK(s.end == doctest::Approx(std::sqrt(1 + std::sqrt(3.)) - 1)
+                     .epsilon(1e-3));  // 100 (lambda^2 - 1)^2 = 300
   const HenckyReach reach = hencky_reach(m, 1.2);
   CHECK(std::isinf(reach.safe));
   CHECK(reach.end < 1.2);
 }
 
-TEST_CASE("the map takes seconds where fibres are stiff, and a law without stiffness at rest loses nothing on it") {
+TEST_CASE(
+    "the map takes seconds where fibres are stiff, and a law without stiffness at rest loses nothing on it") {
   for (double a1 : {0.01, 0.}) {
     const std::clock_t began = std::clock();
     StabilityOptions options;
     options.points = 51, options.stretches = 41;
-    const StabilityMap map = stability_map({{Yeoh{a1, 0.03, 0}}, {Fibre{HgoFibre{0.02, 10}, 0}}, {QuadraticVolume{1e-3}}}, options);
+    const StabilityMap map = stability_map(
+        {{Yeoh{a1, 0.03, 0}}, {Fibre{HgoFibre{0.02, 10}, 0}}, {QuadraticVolume{1e-3}}}, options);
     CHECK(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC < 10 * test::stride);
     CHECK(std::isinf(map.safe_hencky));
     for (const PathStability& p : map.paths) {
@@ -196,11 +214,15 @@ TEST_CASE("stiffness at rest is that of the matrix alone") {
   const Material with{{Yeoh{1e-6, 1, 0}}, {Fibre{HgoFibre{5, 1}, 0}}, {QuadraticVolume{1}}};
   CHECK(at_rest(with) == AtRest::stiff);
   CHECK(at_rest_in_words(with).empty());
-  const Material without{{Yeoh{0, 1, 0}}, {Fibre{HgoFibre{5, 1}, 0}, Fibre{HgoFibre{5, 1}, 60}}, {QuadraticVolume{1}}};
+  const Material without{
+      {Yeoh{0, 1, 0}}, {Fibre{HgoFibre{5, 1}, 0}, Fibre{HgoFibre{5, 1}, 60}}, {QuadraticVolume{1}}};
   CHECK(at_rest(without) == AtRest::without_stiffness);
-  CHECK(at_rest_in_words(without) == "no stiffness at rest: the shear modulus of yeoh is 0 MPa there");
+  CHECK(at_rest_in_words(without) ==
+        "no stiffness at rest: the shear modulus of yeoh is 0 MPa there");
   CHECK(stiffness_at_rest_cure(without).starts_with("matrix.yeoh.a1 other than 0"));
-  CHECK(at_rest({{MooneyRivlin{0.1, -0.1}}, {}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
+  CHECK(at_rest({{MooneyRivlin{0.1, -0.1}}, {}, {QuadraticVolume{1}}}) ==
+        AtRest::without_stiffness);
   CHECK(at_rest({{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}}) == AtRest::unstable);
-  CHECK(at_rest({{}, {Fibre{HgoFibre{5, 1}, 0}}, {QuadraticVolume{1}}}) == AtRest::without_stiffness);
+  CHECK(at_rest({{}, {Fibre{HgoFibre{5, 1}, 0}}, {QuadraticVolume{1}}}) ==
+        AtRest::without_stiffness);
 }

@@ -1,4 +1,5 @@
-// States of a thin incompressible sheet: closed forms, work, and what is left free carries no stress.
+// States of a thin incompressible sheet: closed forms, work, and what is left free carries no
+// stress.
 #include "mechanics/material/states.hpp"
 
 #include <doctest/doctest.h>
@@ -6,19 +7,19 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "material/catalogue.hpp"
 #include "core/tensor/invariants.hpp"
 #include "core/tensor/voigt.hpp"
+#include "material/catalogue.hpp"
 
 using namespace langer;
 
 namespace {
 
-constexpr TestKind all_kinds[] = {TestKind::uniaxial, TestKind::equibiaxial, TestKind::biaxial, TestKind::pure_shear,
-                                  TestKind::simple_shear};
+constexpr TestKind all_kinds[] = {TestKind::uniaxial, TestKind::equibiaxial, TestKind::biaxial,
+                                  TestKind::pure_shear, TestKind::simple_shear};
 
-PlaneState state(const Material& m, TestKind kind, double first, double second = 1, OffAxisShear shear = OffAxisShear::held,
-                 double angle = 0) {
+PlaneState state(const Material& m, TestKind kind, double first, double second = 1,
+                 OffAxisShear shear = OffAxisShear::held, double angle = 0) {
   return plane_state(m, specimen_fibres(m, angle), kind, first, second, shear);
 }
 
@@ -26,7 +27,9 @@ PlaneState state(const Material& m, TestKind kind, double first, double second =
 bool smooth(const Material& m, const PlaneState& s, double angle) {
   const auto a = specimen_fibres(m, angle);
   for (std::size_t k = 0; k < a.size(); ++k)
-    if (std::abs(contraction(fibre_tensor(m.fibres[k], a[k]), voigt(s.F.transpose() * s.F)) - 1) < 0.02) return false;
+    if (std::abs(contraction(fibre_tensor(m.fibres[k], a[k]), voigt(s.F.transpose() * s.F)) - 1) <
+        0.02)
+      return false;
   return true;
 }
 
@@ -45,7 +48,8 @@ TEST_CASE("held uniaxial states are those of the uniaxial solver, for every law"
     }
 }
 
-TEST_CASE("the nominal stress is the derivative of the energy along the test, for every law and kind, held and free") {
+TEST_CASE(
+    "the nominal stress is the derivative of the energy along the test, for every law and kind, held and free") {
   for (const auto& law : catalogue())
     for (TestKind kind : all_kinds)
       for (OffAxisShear shear : {OffAxisShear::held, OffAxisShear::free}) {
@@ -53,11 +57,14 @@ TEST_CASE("the nominal stress is the derivative of the energy along the test, fo
         const Material& m = law.material;
         CAPTURE(name);
         CAPTURE(names(kind)[static_cast<std::size_t>(kind)]);
-        const double first = kind == TestKind::simple_shear ? 0.3 : 1.2, second = 1.15, h = 1e-3, angle = 12;
+        const double first = kind == TestKind::simple_shear ? 0.3 : 1.2, second = 1.15, h = 1e-3,
+                     angle = 12;
         const PlaneState s = state(m, kind, first, second, shear, angle);
         REQUIRE(s.converged);
         if (!smooth(m, s, angle)) continue;
-        const auto W = [&](double step) { return state(m, kind, first + step, second, shear, angle).W; };
+        const auto W = [&](double step) {
+          return state(m, kind, first + step, second, shear, angle).W;
+        };
         const double slope = (8 * (W(h) - W(-h)) - (W(2 * h) - W(-2 * h))) / (12 * h);
         const auto P = measured_stress(s, kind, StressMeasure::nominal);
         // both sides pull in an equibiaxial test
@@ -65,19 +72,22 @@ TEST_CASE("the nominal stress is the derivative of the energy along the test, fo
         CHECK(work == doctest::Approx(slope).epsilon(1e-8).scale(1));
         CHECK(std::abs(s.F.determinant() - 1) <= 1e-14);
         if (kind == TestKind::uniaxial) CHECK(std::abs(s.sigma(2, 2)) <= 1e-9);
-        if (shear == OffAxisShear::free && kind != TestKind::simple_shear) CHECK(std::abs(s.sigma(0, 2)) <= 1e-9);
+        if (shear == OffAxisShear::free && kind != TestKind::simple_shear)
+          CHECK(std::abs(s.sigma(0, 2)) <= 1e-9);
       }
 }
 
 TEST_CASE("off-axis fibres shear a free sheet and not a held one") {
   const Material m = positive_hgo_yeoh(30);
-  const PlaneState held = state(m, TestKind::uniaxial, 1.3), free = state(m, TestKind::uniaxial, 1.3, 1, OffAxisShear::free);
+  const PlaneState held = state(m, TestKind::uniaxial, 1.3),
+                   free = state(m, TestKind::uniaxial, 1.3, 1, OffAxisShear::free);
   CHECK(held.F(0, 2) == 0);
   CHECK(std::abs(held.sigma(0, 2)) > 1e-3);
   CHECK(std::abs(free.F(0, 2)) > 1e-2);
   CHECK(free.sigma(0, 0) < held.sigma(0, 0));
   // the mirrored specimen shears the other way
-  const PlaneState mirrored = state(positive_hgo_yeoh(-30), TestKind::uniaxial, 1.3, 1, OffAxisShear::free);
+  const PlaneState mirrored =
+      state(positive_hgo_yeoh(-30), TestKind::uniaxial, 1.3, 1, OffAxisShear::free);
   CHECK(mirrored.F(0, 2) == doctest::Approx(-free.F(0, 2)).epsilon(1e-9));
 }
 
@@ -87,21 +97,29 @@ TEST_CASE("exact values of equibiaxial tension and simple shear") {
   CHECK(std::abs(state(m, TestKind::biaxial, 1.3, 1.3).sigma(2, 2) - 0.415355) <= 5.01e-7);
   const double alpha[] = {0, 45, 90}, sigma[] = {0.078750, 0.184156, 0.104223};
   for (int i = 0; i < 3; ++i)
-    CHECK(std::abs(state(m, TestKind::simple_shear, 0.5, 1, OffAxisShear::held, alpha[i]).sigma(0, 2) - sigma[i]) <= 5.01e-7);
+    CHECK(std::abs(
+              state(m, TestKind::simple_shear, 0.5, 1, OffAxisShear::held, alpha[i]).sigma(0, 2) -
+              sigma[i]) <= 5.01e-7);
 }
 
 TEST_CASE("stress measures are F's, also in a sheared state") {
   const Material m = positive_hgo_yeoh(30);
   for (TestKind kind : all_kinds) {
-    const PlaneState s = state(m, kind, kind == TestKind::simple_shear ? 0.4 : 1.3, 1.1, OffAxisShear::free);
+    const PlaneState s =
+        state(m, kind, kind == TestKind::simple_shear ? 0.4 : 1.3, 1.1, OffAxisShear::free);
     const Mat3 P = s.sigma * s.F.inverse().transpose(), S = s.F.inverse() * P;
     const int column = kind == TestKind::simple_shear ? 2 : 0;
-    CHECK(measured_stress(s, kind, StressMeasure::cauchy)[0] == doctest::Approx(s.sigma(0, column)).epsilon(1e-13));
-    CHECK(measured_stress(s, kind, StressMeasure::nominal)[0] == doctest::Approx(P(0, column)).epsilon(1e-12));
-    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[0] == doctest::Approx(S(0, column)).epsilon(1e-12));
+    CHECK(measured_stress(s, kind, StressMeasure::cauchy)[0] ==
+          doctest::Approx(s.sigma(0, column)).epsilon(1e-13));
+    CHECK(measured_stress(s, kind, StressMeasure::nominal)[0] ==
+          doctest::Approx(P(0, column)).epsilon(1e-12));
+    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[0] ==
+          doctest::Approx(S(0, column)).epsilon(1e-12));
     if (kind == TestKind::simple_shear) continue;
-    CHECK(measured_stress(s, kind, StressMeasure::nominal)[1] == doctest::Approx(P(2, 2)).epsilon(1e-12).scale(1e-3));
-    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[1] == doctest::Approx(S(2, 2)).epsilon(1e-12).scale(1e-3));
+    CHECK(measured_stress(s, kind, StressMeasure::nominal)[1] ==
+          doctest::Approx(P(2, 2)).epsilon(1e-12).scale(1e-3));
+    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[1] ==
+          doctest::Approx(S(2, 2)).epsilon(1e-12).scale(1e-3));
   }
 }
 

@@ -20,7 +20,9 @@ struct Samples<NeoHooke> {
 };
 template <>
 struct Samples<Yeoh> {
-  static std::vector<Yeoh> terms() { return {{0.269, 0.376, 0.415}, {-0.059, 0.291, 0.016}, {0.1, 0, 0}}; }
+  static std::vector<Yeoh> terms() {
+    return {{0.269, 0.376, 0.415}, {-0.059, 0.291, 0.016}, {0.1, 0, 0}};
+  }
   static std::vector<double> at() { return {3, 3.2, 5, 12}; }
 };
 template <>
@@ -40,22 +42,31 @@ struct Samples<Gent> {
 };
 template <>
 struct Samples<Ogden> {
-  static std::vector<Ogden> terms() { return {{0.63, 1.3, 0.0012, 5, -0.01, -2}, {0.2, 1e-9}, {0.1, 2}, {0.1, 0}}; }
+  static std::vector<Ogden> terms() {
+    return {{0.63, 1.3, 0.0012, 5, -0.01, -2}, {0.2, 1e-9}, {0.1, 2}, {0.1, 0}};
+  }
   static std::vector<double> at() { return {0.3, 1, 1.05, 4}; }
 };
 template <>
 struct Samples<HgoFibre> {
-  static std::vector<HgoFibre> terms() { return {{0.1, 0.3}, {-0.317, 0.319}, {0.2, 0}, {0.2, 1e-9}, {0.2, 20}}; }
+  static std::vector<HgoFibre> terms() {
+    return {{0.1, 0.3}, {-0.317, 0.319}, {0.2, 0}, {0.2, 1e-9}, {0.2, 20}};
+  }
   static std::vector<double> at() { return {0.8, 1, 1.05, 1.4, 2}; }
 };
 template <>
-struct Samples<ExpPowFibre> {  // away from 1, where a power that is no whole number has no fourth derivative
-  static std::vector<ExpPowFibre> terms() { return {{0.1, 0.3, 2}, {0.2, 0, 3.5}, {0.3, 4, 2.5}, {0.2, 1e-9, 4}, {5, 20, 3}}; }
+struct Samples<ExpPowFibre> {  // away from 1, where a power that is no whole number has no fourth
+                               // derivative
+  static std::vector<ExpPowFibre> terms() {
+    return {{0.1, 0.3, 2}, {0.2, 0, 3.5}, {0.3, 4, 2.5}, {0.2, 1e-9, 4}, {5, 20, 3}};
+  }
   static std::vector<double> at() { return {0.8, 1.05, 1.4, 2}; }
 };
 template <>
 struct Samples<PowLinearFibre> {  // and from lam0^2
-  static std::vector<PowLinearFibre> terms() { return {{1, 1.1, 2}, {100, 1.05, 3}, {0.3, 1.3, 4.5}}; }
+  static std::vector<PowLinearFibre> terms() {
+    return {{1, 1.1, 2}, {100, 1.05, 3}, {0.3, 1.3, 4.5}};
+  }
   static std::vector<double> at() { return {0.6, 0.95, 1.05, 1.3, 1.8, 4}; }
 };
 template <>
@@ -76,16 +87,19 @@ struct Samples<QuadraticVolume> {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2, ArrudaBoyce, Gent, Ogden, HgoFibre,
-                   ExpPowFibre, PowLinearFibre, QuadraticVolume, LogarithmicVolume, SimoTaylorVolume) {
+TEST_CASE_TEMPLATE("an energy term gives its own derivatives", Term, NeoHooke, Yeoh, YeohI2,
+                   ArrudaBoyce, Gent, Ogden, HgoFibre, ExpPowFibre, PowLinearFibre, QuadraticVolume,
+                   LogarithmicVolume, SimoTaylorVolume) {
   static_assert(EnergyTerm<Term>);
   for (const Term& term : Samples<Term>::terms())
     for (double x : Samples<Term>::at()) {
       CAPTURE(x);
       const double h = 1e-4;
-      const Energy<double> e = term(x), p = term(x + h), m = term(x - h), p2 = term(x + 2 * h), m2 = term(x - 2 * h);
+      const Energy<double> e = term(x), p = term(x + h), m = term(x - h), p2 = term(x + 2 * h),
+                           m2 = term(x - 2 * h);
       // fourth order: h^4 is 1e-16, so what remains is eps W/h
-      const double dW = (8 * (p.W - m.W) - (p2.W - m2.W)) / (12 * h), ddW = (8 * (p.dW - m.dW) - (p2.dW - m2.dW)) / (12 * h);
+      const double dW = (8 * (p.W - m.W) - (p2.W - m2.W)) / (12 * h),
+                   ddW = (8 * (p.dW - m.dW) - (p2.dW - m2.dW)) / (12 * h);
       const double size = std::abs(e.W) + std::abs(e.dW) + std::abs(e.ddW);
       CHECK(std::abs(dW - e.dW) <= 1e-9 * size);
       CHECK(std::abs(ddW - e.ddW) <= 1e-9 * size);
@@ -106,7 +120,8 @@ TEST_CASE("a term costs no energy in the undeformed state") {
   CHECK(ExpPowFibre{0.1, 0.3, 2.5}(1.).dW == 0);
   CHECK(PowLinearFibre{0.1, 1.2, 2.5}(1.).W == 0);
   CHECK(PowLinearFibre{0.1, 1.2, 2.5}(1.).dW == 0);
-  for (const Volume& law : {Volume(QuadraticVolume{1e-6}), Volume(LogarithmicVolume{2e6}), Volume(SimoTaylorVolume{2e6})}) {
+  for (const Volume& law : {Volume(QuadraticVolume{1e-6}), Volume(LogarithmicVolume{2e6}),
+                            Volume(SimoTaylorVolume{2e6})}) {
     CHECK(volume_energy(law, 0.).W == 0);
     CHECK(volume_energy(law, 0.).dW == 0);
     CHECK(bulk_modulus(law) == 2e6);
@@ -116,8 +131,10 @@ TEST_CASE("a term costs no energy in the undeformed state") {
 
 TEST_CASE("the fibre energy tends to its quadratic limit as c2 goes to zero") {
   for (double c2 : {1e-7, 1.1e-8, 1e-9}) {
-    const double x = 0.4;  // W = c1/2 x^2 (1 + c2 x^2/2 + ...), and exp(y) - 1 keeps eps/y of its digits
-    CHECK(HgoFibre{0.2, c2}(1 + x).W == doctest::Approx(HgoFibre{0.2, 0}(1 + x).W).epsilon(c2 * x * x + 2e-16 / (c2 * x * x)));
+    const double x =
+        0.4;  // W = c1/2 x^2 (1 + c2 x^2/2 + ...), and exp(y) - 1 keeps eps/y of its digits
+    CHECK(HgoFibre{0.2, c2}(1 + x).W ==
+          doctest::Approx(HgoFibre{0.2, 0}(1 + x).W).epsilon(c2 * x * x + 2e-16 / (c2 * x * x)));
   }
 }
 
@@ -126,12 +143,15 @@ TEST_CASE("Ogden's divided difference joins the derivative as the stretches meet
   for (double f : {0.4, 1., 3.}) {
     CHECK(law.divided_difference(f, f) == doctest::Approx(law(f).ddW).epsilon(1e-14));
     for (double gap : {1e-14, 1e-10, 1e-6, 1e-3}) {
-      // the derivative in the middle is the divided difference up to gap^2 times a third derivative over 24
+      // the derivative in the middle is the divided difference up to gap^2 times a third derivative
+      // over 24
       const double e = f * (1 + gap);
-      CHECK(law.divided_difference(e, f) == doctest::Approx(law((e + f) / 2).ddW).epsilon(1e-13 + 10 * gap * gap));
+      CHECK(law.divided_difference(e, f) ==
+            doctest::Approx(law((e + f) / 2).ddW).epsilon(1e-13 + 10 * gap * gap));
     }
     const double e = 2 * f;
-    CHECK(law.divided_difference(e, f) == doctest::Approx((law(e).dW - law(f).dW) / (e - f)).epsilon(1e-13));
+    CHECK(law.divided_difference(e, f) ==
+          doctest::Approx((law(e).dW - law(f).dW) / (e - f)).epsilon(1e-13));
   }
 }
 
@@ -194,26 +214,33 @@ TEST_CASE("a pow_linear fibre is smooth where its toe ends, and its nominal stre
     CHECK(before.W == doctest::Approx(after.W).epsilon(1e-9));
     CHECK(before.dW == doctest::Approx(after.dW).epsilon(1e-9));
     CHECK(before.ddW == doctest::Approx(after.ddW).epsilon(1e-9));
-    const auto nominal = [&](double stretch) { return 2 * stretch * law(stretch * stretch).dW; };
+    const auto nominal = [&](double stretch) {
+      return 2 * stretch * law(stretch * stretch).dW;
+    };
     const double slope = law.E * (1 / law.lam0 + (I0 - 1) / (2 * (law.beta - 1) * I0 * law.lam0));
     for (double stretch : {law.lam0 + 0.01, law.lam0 + 0.3, 3.})
-      CHECK((nominal(stretch + 0.1) - nominal(stretch)) / 0.1 == doctest::Approx(slope).epsilon(1e-10));
+      CHECK((nominal(stretch + 0.1) - nominal(stretch)) / 0.1 ==
+            doctest::Approx(slope).epsilon(1e-10));
     CHECK(nominal(law.lam0 - 0.001) - nominal(law.lam0 - 0.002) < 0.001 * slope);
   }
 }
 
-TEST_CASE("energies of volume change keep their digits near rest, have no number without volume, and are one for eight at once") {
+TEST_CASE(
+    "energies of volume change keep their digits near rest, have no number without volume, and are one for eight at once") {
   const LogarithmicVolume logarithmic{2e6};
   const SimoTaylorVolume simo_taylor{2e6};
   for (double x : {1e-12, -1e-9, 3e-7, -1e-4}) {
-    CHECK(logarithmic.of_change(x).W == doctest::Approx(1e6 * x * x * (1 - x)).epsilon(2 * x * x + 1e-15));
-    CHECK(simo_taylor.of_change(x).W == doctest::Approx(1e6 * x * x * (1 - x / 3)).epsilon(2 * x * x + 1e-15));
+    CHECK(logarithmic.of_change(x).W ==
+          doctest::Approx(1e6 * x * x * (1 - x)).epsilon(2 * x * x + 1e-15));
+    CHECK(simo_taylor.of_change(x).W ==
+          doctest::Approx(1e6 * x * x * (1 - x / 3)).epsilon(2 * x * x + 1e-15));
   }
   for (double x : {0.0999999, 0.1000001, -0.0999999, -0.1000001})
     CHECK(minus_its_logarithm(x) == doctest::Approx(x - std::log1p(x)).epsilon(1e-13));
   Packet all(0.0);
   for (int i = 0; i < Packet::lanes; ++i) all.set(i, -0.35 + 0.1 * i);
-  for (const Volume& law : {Volume(QuadraticVolume{1e-3}), Volume(logarithmic), Volume(simo_taylor)}) {
+  for (const Volume& law :
+       {Volume(QuadraticVolume{1e-3}), Volume(logarithmic), Volume(simo_taylor)}) {
     const Energy<Packet> e = volume_energy(law, all);
     for (int i = 0; i < Packet::lanes; ++i) {
       const Energy<double> one = volume_energy(law, all[i]);
@@ -223,10 +250,12 @@ TEST_CASE("energies of volume change keep their digits near rest, have no number
     }
   }
   for (double x : {-1., -1.5})
-    for (const Volume& law : {Volume(logarithmic), Volume(simo_taylor)}) CHECK(std::isnan(volume_energy(law, x).W));
+    for (const Volume& law : {Volume(logarithmic), Volume(simo_taylor)})
+      CHECK(std::isnan(volume_energy(law, x).W));
 }
 
-TEST_CASE("fibres of every law: eight at once are eight alone, and an exponential beyond the range of forces is no number") {
+TEST_CASE(
+    "fibres of every law: eight at once are eight alone, and an exponential beyond the range of forces is no number") {
   Packet all(0.0);
   for (int i = 0; i < Packet::lanes; ++i) all.set(i, 0.75 + 0.15 * i);
   const auto same = [&](const auto& law) {

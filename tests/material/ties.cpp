@@ -14,12 +14,13 @@ TEST_CASE("ties are read as they are written: sign, factor, offset, blanks") {
     double factor, offset;
     const char* again;
   };
-  for (const Written& w : {Written{"fibres[0].alpha", "fibres[0].alpha", 1, 0, "fibres[0].alpha"},
-                           {"-fibres[0].alpha", "fibres[0].alpha", -1, 0, "-fibres[0].alpha"},
-                           {" - fibres[0].alpha + 90 ", "fibres[0].alpha", -1, 90, "-fibres[0].alpha + 90"},
-                           {"0.5*fibres[0].hgo.c1", "fibres[0].hgo.c1", 0.5, 0, "0.5 * fibres[0].hgo.c1"},
-                           {"-2e-1 * matrix.yeoh.a1-3", "matrix.yeoh.a1", -0.2, -3, "-0.2 * matrix.yeoh.a1 - 3"},
-                           {"+matrix[1].yeoh.a1", "matrix[1].yeoh.a1", 1, 0, "matrix[1].yeoh.a1"}}) {
+  for (const Written& w :
+       {Written{"fibres[0].alpha", "fibres[0].alpha", 1, 0, "fibres[0].alpha"},
+        {"-fibres[0].alpha", "fibres[0].alpha", -1, 0, "-fibres[0].alpha"},
+        {" - fibres[0].alpha + 90 ", "fibres[0].alpha", -1, 90, "-fibres[0].alpha + 90"},
+        {"0.5*fibres[0].hgo.c1", "fibres[0].hgo.c1", 0.5, 0, "0.5 * fibres[0].hgo.c1"},
+        {"-2e-1 * matrix.yeoh.a1-3", "matrix.yeoh.a1", -0.2, -3, "-0.2 * matrix.yeoh.a1 - 3"},
+        {"+matrix[1].yeoh.a1", "matrix[1].yeoh.a1", 1, 0, "matrix[1].yeoh.a1"}}) {
     CAPTURE(w.text);
     const auto tie = parse_tie("k", w.text);
     REQUIRE(tie);
@@ -32,8 +33,8 @@ TEST_CASE("ties are read as they are written: sign, factor, offset, blanks") {
     CHECK(back->factor == tie->factor);
     CHECK(back->offset == tie->offset);
   }
-  for (const char* text : {"", "-", "3", "2 *", "a b*2", "a*2", "a + b", "a + ", "a - -1", "--a", "nan * a", "1e999 * a", "2a",
-                           "a+1+1", "a;b", "2 fibres[0].alpha"}) {
+  for (const char* text : {"", "-", "3", "2 *", "a b*2", "a*2", "a + b", "a + ", "a - -1", "--a",
+                           "nan * a", "1e999 * a", "2a", "a+1+1", "a;b", "2 fibres[0].alpha"}) {
     CAPTURE(text);
     CHECK(!parse_tie("k", text));
   }
@@ -57,7 +58,8 @@ TEST_CASE("chains of ties are followed to their ends, circles are found") {
 TEST_CASE("tied numbers of a material follow exactly") {
   Material m = test::stable(30, 1e-6);
   m.fibres.push_back(m.fibres[0]);
-  const TiedNumbers tied(m, {{"fibres[1].alpha", "fibres[0].alpha", -1, 0}, {"fibres[1].hgo.c1", "fibres[0].hgo.c1", 1, 0}});
+  const TiedNumbers tied(m, {{"fibres[1].alpha", "fibres[0].alpha", -1, 0},
+                             {"fibres[1].hgo.c1", "fibres[0].hgo.c1", 1, 0}});
   m.fibres[0].alpha_deg = 41.3, std::get<HgoFibre>(m.fibres[0].law).c1 = 0.7;
   tied.follow();
   CHECK(m.fibres[1].alpha_deg == -41.3);

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "material/catalogue.hpp"
 #include "core/tensor/stress.hpp"
+#include "material/catalogue.hpp"
 
 using namespace langer;
 
@@ -19,7 +19,8 @@ TEST_CASE("the lateral faces are free, for every law, compressed and stretched")
       REQUIRE(u.converged);
       CHECK(u.stretch.prod() - 1 == doctest::Approx(u.J_minus_1).epsilon(1e-12).scale(1));
       const Mat3 F = u.stretch.asDiagonal();
-      const Mat3 sigma = cauchy(F, response(named.material, F * F, u.J_minus_1, fibre_directions(named.material)).S);
+      const Mat3 sigma = cauchy(
+          F, response(named.material, F * F, u.J_minus_1, fibre_directions(named.material)).S);
       // the sum of iso- and volumetric stress of an order of 1 MPa
       CHECK(std::abs(sigma(1, 1)) <= 1e-13);
       CHECK(std::abs(sigma(2, 2)) <= 1e-13);
@@ -34,11 +35,13 @@ TEST_CASE("small strains give Young's modulus and Poisson's ratio") {
   const double e = 1e-7;  // the error is of the order of the strain
   const Uniaxial u = uniaxial(m, 1 + e);
   CHECK(u.sigma / e == doctest::Approx(9 * kappa * mu / (3 * kappa + mu)).epsilon(5e-7));
-  CHECK((1 - u.stretch[1]) / e == doctest::Approx((3 * kappa - 2 * mu) / (2 * (3 * kappa + mu))).epsilon(1e-6));
+  CHECK((1 - u.stretch[1]) / e ==
+        doctest::Approx((3 * kappa - 2 * mu) / (2 * (3 * kappa + mu))).epsilon(1e-6));
   CHECK(u.stretch[1] == doctest::Approx(u.stretch[2]).epsilon(1e-15));
 }
 
-TEST_CASE("the incompressible stress is the limit of the compressible one, with an error proportional to d") {
+TEST_CASE(
+    "the incompressible stress is the limit of the compressible one, with an error proportional to d") {
   for (double alpha : {0., 30., 60.}) {
     const double limit = uniaxial_incompressible(positive_hgo_yeoh(alpha), 1.4).sigma;
     double before = 0;
@@ -51,9 +54,11 @@ TEST_CASE("the incompressible stress is the limit of the compressible one, with 
   }
 }
 
-TEST_CASE("fibres at alpha and at -alpha pull alike, and an isotropic material does not know alpha") {
+TEST_CASE(
+    "fibres at alpha and at -alpha pull alike, and an isotropic material does not know alpha") {
   for (double alpha : {20., 45., 80.}) {
-    const Uniaxial plus = uniaxial(positive_hgo_yeoh(alpha), 1.3), minus = uniaxial(positive_hgo_yeoh(-alpha), 1.3);
+    const Uniaxial plus = uniaxial(positive_hgo_yeoh(alpha), 1.3),
+                   minus = uniaxial(positive_hgo_yeoh(-alpha), 1.3);
     CHECK(plus.sigma == doctest::Approx(minus.sigma).epsilon(1e-13));
     CHECK(plus.stretch[2] == doctest::Approx(minus.stretch[2]).epsilon(1e-13));
   }
@@ -62,8 +67,10 @@ TEST_CASE("fibres at alpha and at -alpha pull alike, and an isotropic material d
 TEST_CASE("a slack fibre leaves the matrix: along the fibre in compression, across it in tension") {
   Material matrix = positive_hgo_yeoh();
   matrix.fibres.clear();
-  CHECK(uniaxial(positive_hgo_yeoh(0), 0.7).sigma == doctest::Approx(uniaxial(matrix, 0.7).sigma).epsilon(1e-14));
-  CHECK(uniaxial(positive_hgo_yeoh(90), 1.4).sigma == doctest::Approx(uniaxial(matrix, 1.4).sigma).epsilon(1e-14));
+  CHECK(uniaxial(positive_hgo_yeoh(0), 0.7).sigma ==
+        doctest::Approx(uniaxial(matrix, 0.7).sigma).epsilon(1e-14));
+  CHECK(uniaxial(positive_hgo_yeoh(90), 1.4).sigma ==
+        doctest::Approx(uniaxial(matrix, 1.4).sigma).epsilon(1e-14));
 }
 
 TEST_CASE("the switch on I4 agrees with the switch on I4_bar where the volume does not change") {
@@ -81,13 +88,15 @@ TEST_CASE("the stress is the slope of the energy stored along the pull") {
       const Mat3 F = uniaxial(m, l).stretch.asDiagonal();
       return response(m, F * F, fibre_directions(m)).W;
     };
-    const double h = 1e-4, slope = (energy(lambda * std::exp(h)) - energy(lambda * std::exp(-h))) / (2 * h);
+    const double h = 1e-4,
+                 slope = (energy(lambda * std::exp(h)) - energy(lambda * std::exp(-h))) / (2 * h);
     const Uniaxial u = uniaxial(m, lambda);
     CHECK(slope == doctest::Approx((1 + u.J_minus_1) * u.sigma).epsilon(1e-6));
   }
 }
 
-TEST_CASE("a state that does not exist is reported: impossible stretches, and an energy without lowest value") {
+TEST_CASE(
+    "a state that does not exist is reported: impossible stretches, and an energy without lowest value") {
   CHECK(!uniaxial(positive_hgo_yeoh(), 0).converged);
   CHECK(!uniaxial(positive_hgo_yeoh(), -1).converged);
   CHECK(!uniaxial(positive_hgo_yeoh(), std::nan("")).converged);
@@ -97,7 +106,8 @@ TEST_CASE("a state that does not exist is reported: impossible stretches, and an
   CHECK(!uniaxial(table1_hgo_yeoh(30, 0.5), 2.5).converged);
 }
 
-TEST_CASE("the negative fibre modulus of Table 1 lets the stress peak at stretch 1.627 with 1.091 MPa and vanish at 1.73") {
+TEST_CASE(
+    "the negative fibre modulus of Table 1 lets the stress peak at stretch 1.627 with 1.091 MPa and vanish at 1.73") {
   double peak = 0, at = 0, vanishes = 0;
   for (double l = 1.5; l < 1.8 && vanishes == 0; l += 1e-4) {
     const double sigma = uniaxial_incompressible(table1_hgo_yeoh(), l).sigma;

@@ -1,4 +1,5 @@
-// The branches at one point: closed forms of relaxation, order in time, limits, tangent, objectivity. Random branches each.
+// The branches at one point: closed forms of relaxation, order in time, limits, tangent,
+// objectivity. Random branches each.
 #include "mechanics/material/viscous.hpp"
 
 #include <doctest/doctest.h>
@@ -6,9 +7,9 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "material/catalogue.hpp"
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/voigt.hpp"
+#include "material/catalogue.hpp"
 
 using namespace langer;
 
@@ -17,7 +18,8 @@ namespace {
 std::vector<ViscousBranch> some_branches(std::mt19937& random, int n) {
   std::uniform_real_distribution<double> decade(-2, 2), gamma(0.05, 0.8);
   std::vector<ViscousBranch> branches;
-  for (int i = 0; i < n; ++i) branches.push_back({std::pow(10, decade(random)), gamma(random), static_cast<BranchOf>(i % 3)});
+  for (int i = 0; i < n; ++i)
+    branches.push_back({std::pow(10, decade(random)), gamma(random), static_cast<BranchOf>(i % 3)});
   return branches;
 }
 
@@ -50,7 +52,8 @@ struct Point {
   }
   Amplified amplified(double seconds) const {
     Amplified out;
-    for (const ViscousBranch& branch : branches) amplify(out, branch.of, branch_step(branch, seconds).follow);
+    for (const ViscousBranch& branch : branches)
+      amplify(out, branch.of, branch_step(branch, seconds).follow);
     return out;
   }
   Vec6 stress(const Mat3& F, double seconds) const {
@@ -73,7 +76,8 @@ struct Point {
 
 }  // namespace
 
-TEST_CASE("viscous: a step relaxes as the sum of its exponentials, whatever the increments of the hold") {
+TEST_CASE(
+    "viscous: a step relaxes as the sum of its exponentials, whatever the increments of the hold") {
   std::mt19937 random(4);
   for (const NamedMaterial& named : catalogue()) {
     const auto a = fibre_directions(named.material);
@@ -85,7 +89,8 @@ TEST_CASE("viscous: a step relaxes as the sum of its exponentials, whatever the 
     for (double seconds : {1e-3, 0.02, 0.5, 0.5, 40., 1e3}) {
       point.move(F, seconds), t += seconds;
       Vec6 exact = stress_of(named.material, F, a, BranchOf::all);
-      for (const ViscousBranch& b : branches) exact += b.gamma * std::exp(-t / b.tau) * stress_of(named.material, F, a, b.of);
+      for (const ViscousBranch& b : branches)
+        exact += b.gamma * std::exp(-t / b.tau) * stress_of(named.material, F, a, b.of);
       CAPTURE(named.name);
       CAPTURE(t);
       CHECK((point.total(F) - exact).norm() <= 1e-13 * exact.norm());
@@ -101,17 +106,22 @@ TEST_CASE("viscous: ramp and hold against the convolution, error of second order
     auto branches = some_branches(random, 3);
     for (ViscousBranch& b : branches) b.tau = std::max(b.tau, 0.05);
     const Mat3 G = some_gradient(random, 0.15) - Mat3::Identity();
-    const auto F = [&](double t) -> Mat3 { return Mat3::Identity() + std::min(t / ramp, 1.) * G; };
-    // Q = gamma integral of exp(-(T - s)/tau) S'(s): by parts, Gauss-Legendre of three points on 400 pieces
+    const auto F = [&](double t) -> Mat3 {
+      return Mat3::Identity() + std::min(t / ramp, 1.) * G;
+    };
+    // Q = gamma integral of exp(-(T - s)/tau) S'(s): by parts, Gauss-Legendre of three points on
+    // 400 pieces
     const double T = ramp + hold;
     Vec6 exact = stress_of(named.material, F(T), a, BranchOf::all);
     for (const ViscousBranch& b : branches) {
       Vec6 Q = b.gamma * std::exp(-hold / b.tau) * stress_of(named.material, F(ramp), a, b.of);
       const int pieces = 400;
       for (int k = 0; k < pieces; ++k)
-        for (const auto& [x, w] : {std::pair{-std::sqrt(0.6), 5. / 18}, {0., 8. / 18}, {std::sqrt(0.6), 5. / 18}}) {
+        for (const auto& [x, w] :
+             {std::pair{-std::sqrt(0.6), 5. / 18}, {0., 8. / 18}, {std::sqrt(0.6), 5. / 18}}) {
           const double s = ramp * (k + 0.5 + 0.5 * x) / pieces;
-          Q -= b.gamma / b.tau * std::exp(-(T - s) / b.tau) * (w * ramp / pieces) * stress_of(named.material, F(s), a, b.of);
+          Q -= b.gamma / b.tau * std::exp(-(T - s) / b.tau) * (w * ramp / pieces) *
+               stress_of(named.material, F(s), a, b.of);
         }
       exact += Q;
     }
@@ -125,13 +135,16 @@ TEST_CASE("viscous: ramp and hold against the convolution, error of second order
     const double coarse = error(100), fine = error(200), finest = error(800);
     CHECK(finest < 1e-6);
     // a fibre that comes under tension within an increment has a kink there
-    const bool smooth = std::all_of(named.material.fibres.begin(), named.material.fibres.end(),
-                                    [](const Fibre& f) { return f.tension_switch == FibreSwitch::off; });
-    if (smooth && coarse > 1e-9) CHECK(std::log2(coarse / fine) == doctest::Approx(2).epsilon(0.02));
+    const bool smooth =
+        std::all_of(named.material.fibres.begin(), named.material.fibres.end(),
+                    [](const Fibre& f) { return f.tension_switch == FibreSwitch::off; });
+    if (smooth && coarse > 1e-9)
+      CHECK(std::log2(coarse / fine) == doctest::Approx(2).epsilon(0.02));
   }
 }
 
-TEST_CASE("viscous: increments without time have the instantaneous law, endless ones the law, stress and tangent") {
+TEST_CASE(
+    "viscous: increments without time have the instantaneous law, endless ones the law, stress and tangent") {
   std::mt19937 random(6);
   for (const NamedMaterial& named : catalogue()) {
     const auto a = fibre_directions(named.material);
@@ -139,7 +152,8 @@ TEST_CASE("viscous: increments without time have the instantaneous law, endless 
     Amplified at_once;
     for (const ViscousBranch& b : branches) amplify(at_once, b.of, b.gamma);
     const Mat3 F = some_gradient(random), C = right_cauchy_green(F);
-    const Response instantaneous = isochoric(named.material, C, a, at_once), law = isochoric(named.material, C, a);
+    const Response instantaneous = isochoric(named.material, C, a, at_once),
+                   law = isochoric(named.material, C, a);
     for (const double seconds : {1e-13, 1e13}) {
       const Response* expected = seconds < 1 ? &instantaneous : &law;
       Point point(named.material, a, branches);
@@ -171,7 +185,8 @@ TEST_CASE("viscous: the tangent is the derivative of the stress through the upda
         Mat3 moved = C;  // dC = 2 dE; engineering shear
         moved(voigt_i[q], voigt_j[q]) += q < 3 ? 2 * step : step;
         if (q >= 3) moved(voigt_j[q], voigt_i[q]) += step;
-        return isochoric(named.material, moved, a, point.amplified(seconds), false).S + point.H(seconds);
+        return isochoric(named.material, moved, a, point.amplified(seconds), false).S +
+               point.H(seconds);
       };
       differences.col(q) = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
     }
@@ -205,11 +220,13 @@ TEST_CASE("viscous: storage and loss of a small cycle are those of the spectrum"
   const Material m{{NeoHooke{0.3}}, {}, QuadraticVolume{0.5}};
   const double mu = 2 * 0.3, strain = 1e-5, pi = std::acos(-1.);
   for (int draw = 0; draw < 6; ++draw) {
-    const double omega = std::pow(10, std::uniform_real_distribution<double>(-1, 1)(random)), period = 2 * pi / omega;
+    const double omega = std::pow(10, std::uniform_real_distribution<double>(-1, 1)(random)),
+                 period = 2 * pi / omega;
     auto branches = some_branches(random, 3);
     double expected_storage = 1, expected_loss = 0;
     for (ViscousBranch& b : branches) {
-      b.of = BranchOf::all, b.tau = std::min(b.tau, 3 * period);  // 40 cycles are then as good as endless ones: exp(-13)
+      b.of = BranchOf::all,
+      b.tau = std::min(b.tau, 3 * period);  // 40 cycles are then as good as endless ones: exp(-13)
       const double x = omega * b.tau;
       expected_storage += b.gamma * x * x / (1 + x * x), expected_loss += b.gamma * x / (1 + x * x);
     }
@@ -251,5 +268,6 @@ TEST_CASE("viscous: one branch a decade follows a continuous spectrum") {
       CHECK(std::abs(discrete - exact) < 0.13 * 0.3 * std::log(10.));
     }
   }
-  CHECK(branches_of(Spectrum{0.1, 1e-300, 1e300}).size() == 600);  // the quotient of the times is no number
+  CHECK(branches_of(Spectrum{0.1, 1e-300, 1e300}).size() ==
+        600);  // the quotient of the times is no number
 }

@@ -20,7 +20,8 @@ inline Mesh one_cell(auto map) {
 }
 
 inline Mat3 turn(double degrees, const Vec3& axis) {
-  return Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180, axis.normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180, axis.normalized())
+      .toRotationMatrix();
 }
 
 }  // namespace langer::example

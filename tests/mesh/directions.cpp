@@ -23,7 +23,8 @@ Vec3 at(double degrees) {
 }
 }  // namespace
 
-TEST_CASE("one list of directions stands for all cells where fibres and frames are the same everywhere") {
+TEST_CASE(
+    "one list of directions stands for all cells where fibres and frames are the same everywhere") {
   const Mesh mesh = test::block(test::even(0, 4, 4), test::even(0, 4, 4), test::even(0, 4, 4));
   const Directions directions = make_directions(mesh, {{30, -30}});
   CHECK(directions.n_stored() == 1);
@@ -38,7 +39,8 @@ TEST_CASE("one list of directions stands for all cells where fibres and frames a
   CHECK(make_directions(mesh, {{}}).n_families() == 0);
 }
 
-TEST_CASE("each body has its own families, a part of the body the directions of its cells, and a field those that it gives") {
+TEST_CASE(
+    "each body has its own families, a part of the body the directions of its cells, and a field those that it gives") {
   const Mesh mesh = layers();
   const Directions plain = make_directions(mesh, {{20}, {60, 90, 0}});
   for (int e = 0; e < 8; ++e) CHECK(plain.of(e).size() == (e == 3 || e == 6 ? 3 : 1));
@@ -50,7 +52,8 @@ TEST_CASE("each body has its own families, a part of the body the directions of 
   CHECK(part.of(2)[0] == plain.of(0)[0]);
 
   // angles: further families keep theirs to the first; in the body without a field nothing changes
-  const Directions turned = make_directions(mesh, {{20}, {60, 90, 0}}, {{}, std::vector<double>{10, 40}});
+  const Directions turned =
+      make_directions(mesh, {{20}, {60, 90, 0}}, {{}, std::vector<double>{10, 40}});
   CHECK(turned.from_field());
   CHECK(turned.of_cells(cells).from_field());
   CHECK(turned.of(0)[0] == plain.of(0)[0]);
@@ -60,7 +63,8 @@ TEST_CASE("each body has its own families, a part of the body the directions of 
     CHECK((turned.of(e)[2] - at(alpha - 60)).norm() < 1e-15);
   }
   // directions: the same, told by vectors
-  const Directions measured = make_directions(mesh, {{20}, {60, 90, 0}}, {{}, std::vector<Vec3>{at(10), at(40)}});
+  const Directions measured =
+      make_directions(mesh, {{20}, {60, 90, 0}}, {{}, std::vector<Vec3>{at(10), at(40)}});
   for (int e : {3, 6})
     for (int k : {0, 1, 2}) CHECK((measured.of(e)[k] - turned.of(e)[k]).norm() < 1e-15);
 }

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/cells.hpp"
 #include "mechanics/mesh/quality.hpp"
+#include "mesh/cells.hpp"
 
 using namespace langer;
 
@@ -23,7 +23,8 @@ Mesh shuffled(const Mesh& mesh, unsigned seed) {
   Mesh other = mesh;
   for (std::size_t n = 0; n < place.size(); ++n) other.X[place[n]] = mesh.X[n];
   // quarter turns about each axis, as lists of corners
-  constexpr int turns[3][8] = {{3, 2, 6, 7, 0, 1, 5, 4}, {1, 5, 6, 2, 0, 4, 7, 3}, {1, 2, 3, 0, 5, 6, 7, 4}};
+  constexpr int turns[3][8] = {
+      {3, 2, 6, 7, 0, 1, 5, 4}, {1, 5, 6, 2, 0, 4, 7, 3}, {1, 2, 3, 0, 5, 6, 7, 4}};
   for (int e = 0; e < mesh.n_cells(); ++e) {
     std::array<int, 8> nodes;
     for (int a = 0; a < 8; ++a) nodes[a] = place[mesh.cell(cells[e])[a]];
@@ -74,21 +75,26 @@ TEST_CASE("a cell keeps its hand however skewed it is: turning never mirrors it"
     Mesh mesh = example::one_cell([&](const Vec3& xi) { return Vec3(A * xi); });
     const std::vector<int> corners = mesh.connectivity;
     turn_cells(mesh);
-    CHECK(jacobian(mesh, 0, Vec3::Zero()).determinant() == doctest::Approx(A.determinant()).epsilon(1e-12));
+    CHECK(jacobian(mesh, 0, Vec3::Zero()).determinant() ==
+          doctest::Approx(A.determinant()).epsilon(1e-12));
     CHECK(std::is_permutation(corners.begin(), corners.end(), mesh.connectivity.begin()));
     ++checked;
   }
 }
 
-TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the last digit, one that is not stays") {
+TEST_CASE(
+    "a mesh that is symmetric but for rounding becomes symmetric to the last digit, one that is not stays") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> rounding(-1e-10, 1e-10);
   const auto noisy = [&](Mesh mesh) {
     for (Vec3& x : mesh.X) x += Vec3(rounding(random), 0, rounding(random));
     return mesh;
   };
-  const auto has = [](const Mesh& mesh, const Vec3& x) { return std::find(mesh.X.begin(), mesh.X.end(), x) != mesh.X.end(); };
-  Mesh square = noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 2), test::graded(3, 6, 0.4)));
+  const auto has = [](const Mesh& mesh, const Vec3& x) {
+    return std::find(mesh.X.begin(), mesh.X.end(), x) != mesh.X.end();
+  };
+  Mesh square =
+      noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 2), test::graded(3, 6, 0.4)));
   make_symmetric(square, Vec3::Zero());
   for (const Vec3& x : square.X) {
     CHECK(has(square, {-x[0], x[1], x[2]}));
@@ -96,7 +102,8 @@ TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the la
     CHECK(has(square, {x[2], x[1], x[0]}));
   }
   // unequal divisions: mirrors only
-  Mesh oblong = noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 2), test::graded(3, 4, 0.5)));
+  Mesh oblong =
+      noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 2), test::graded(3, 4, 0.5)));
   make_symmetric(oblong, Vec3::Zero());
   int exchanged = 0;
   for (const Vec3& x : oblong.X) {
@@ -104,11 +111,13 @@ TEST_CASE("a mesh that is symmetric but for rounding becomes symmetric to the la
     exchanged += has(oblong, {x[2], x[1], x[0]});
   }
   CHECK(exchanged < oblong.n_nodes());
-  Mesh eighth = noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 1), test::graded(3, 6, 0.4)));
+  Mesh eighth =
+      noisy(test::block(test::graded(3, 6, 0.4), test::even(0, 1, 1), test::graded(3, 6, 0.4)));
   eighth.X[5] += Vec3(0.01, 0, 0);
   const auto before = eighth.X;
   make_symmetric(eighth, Vec3::Zero());
   double furthest = 0;
-  for (std::size_t n = 0; n < before.size(); ++n) furthest = std::max(furthest, (eighth.X[n] - before[n]).norm());
+  for (std::size_t n = 0; n < before.size(); ++n)
+    furthest = std::max(furthest, (eighth.X[n] - before[n]).norm());
   CHECK(furthest < 1e-9);
 }

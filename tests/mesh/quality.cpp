@@ -12,7 +12,8 @@ using example::one_cell;
 
 TEST_CASE("quality of a turned brick: edges, aspect, Jacobian and volume in closed form") {
   const Mat3 R = example::turn(25, {1, 2, 3});
-  const Quality q = quality(one_cell([&](const Vec3& x) { return Vec3(R * Vec3(2 * x[0], x[1], 0.5 * x[2])); }));
+  const Quality q =
+      quality(one_cell([&](const Vec3& x) { return Vec3(R * Vec3(2 * x[0], x[1], 0.5 * x[2])); }));
   CHECK(q.volume == doctest::Approx(8).epsilon(1e-14));
   CHECK(q.least_jacobian == doctest::Approx(1).epsilon(1e-14));  // 2 * 1 * 0.5
   CHECK(q.least_scaled_jacobian == doctest::Approx(1).epsilon(1e-14));
@@ -27,7 +28,8 @@ TEST_CASE("a cell sheared by 45 degrees has the scaled Jacobian 1/sqrt(2)") {
 }
 
 TEST_CASE("the Jacobian is the derivative of the position") {
-  Mesh mesh = one_cell([](const Vec3& x) { return Vec3(x[0] * (1 + 0.2 * x[1]), x[1] + 0.1 * x[2] * x[0], x[2]); });
+  Mesh mesh = one_cell(
+      [](const Vec3& x) { return Vec3(x[0] * (1 + 0.2 * x[1]), x[1] + 0.1 * x[2] * x[0], x[2]); });
   const Vec3 xi(0.3, -0.2, 0.5);
   const Mat3 J = jacobian(mesh, 0, xi);
   const auto position = [&](const Vec3& at) {
@@ -53,7 +55,8 @@ TEST_CASE("a folded, a flat or an inverted cell is refused with its number, plac
   };
   CHECK(refusal(test::cube(2)) == "");
   Mesh folded = test::cube(2);
-  folded.X[folded.cell(5)[6]] = folded.X[folded.cell(5)[0]] - Vec3(0.1, 0.1, 0.1);  // a corner pushed through the opposite one
+  folded.X[folded.cell(5)[6]] = folded.X[folded.cell(5)[0]] -
+                                Vec3(0.1, 0.1, 0.1);  // a corner pushed through the opposite one
   const std::string words = refusal(folded);
   CHECK(words.find("geometry.block: cell 5 is folded: Jacobian -") != std::string::npos);
   CHECK(words.find("mm^3 at (") != std::string::npos);
@@ -61,7 +64,8 @@ TEST_CASE("a folded, a flat or an inverted cell is refused with its number, plac
   CHECK(refusal(one_cell([](const Vec3& x) { return Vec3(x[0], x[1], -x[2]); })) != "");
 }
 
-TEST_CASE("two nodes at one place are found, however the rounding falls, and neighbours are not taken for them") {
+TEST_CASE(
+    "two nodes at one place are found, however the rounding falls, and neighbours are not taken for them") {
   for (double shift : {0.0, 1e-12, 3e-9, 0.1234567}) {
     CAPTURE(shift);
     Mesh mesh = test::cube(3);

@@ -21,7 +21,8 @@ Mesh section(SectionOf of, double depth, CellType cells) {
 
 }  // namespace
 
-TEST_CASE("a layer of cells becomes a section: numbered by layers, as deep as it says, of the volume of the whole body") {
+TEST_CASE(
+    "a layer of cells becomes a section: numbered by layers, as deep as it says, of the volume of the whole body") {
   for (CellType cells : {CellType::hex8, CellType::hex27})
     for (double depth : {1e-4, 0.3}) {
       const Mesh wedge = section(SectionOf::axisymmetric, depth, cells);
@@ -29,12 +30,14 @@ TEST_CASE("a layer of cells becomes a section: numbered by layers, as deep as it
       CHECK(n_front(wedge) == (cells == CellType::hex8 ? 9 : 25));
       const Quality q = quality(wedge);
       CHECK(q.volume == doctest::Approx(std::numbers::pi * 4 * 1.5).epsilon(1e-13));
-      CHECK(q.least_jacobian == doctest::Approx(0.25 * 0.5 * 0.5).epsilon(1e-13));  // a quarter of the smallest cell's area
+      CHECK(q.least_jacobian == doctest::Approx(0.25 * 0.5 * 0.5)
+                                    .epsilon(1e-13));  // a quarter of the smallest cell's area
       CHECK(q.least_scaled_jacobian == doctest::Approx(1).epsilon(1e-13));
       CHECK(q.shortest_edge == 0.5);
       CHECK(q.longest_edge == 1.5);
       CHECK(!coincident_nodes(wedge, 1e-9));  // front and back meet on the axis, which is no tear
-      CHECK(quality(section(SectionOf::plane_strain, depth, cells)).volume == doctest::Approx(3 * depth).epsilon(1e-13));
+      CHECK(quality(section(SectionOf::plane_strain, depth, cells)).volume ==
+            doctest::Approx(3 * depth).epsilon(1e-13));
     }
 }
 
@@ -45,7 +48,8 @@ TEST_CASE("nodes behind z = 0 move as those in it") {
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     CHECK(ties[i].of == i % n);
     const double r = mesh.X[i][0];
-    const Vec3 widened = ties[i].T * Vec3(0.1 * r, 0.2, 5);  // what would move it along z is forbidden
+    const Vec3 widened =
+        ties[i].T * Vec3(0.1 * r, 0.2, 5);  // what would move it along z is forbidden
     CHECK((widened - Vec3(0.1 * r, 0.2, 0.1 * mesh.X[i][2])).norm() < 1e-15);
   }
   const Mesh strip = section(SectionOf::plane_strain, 0.25, CellType::hex8);

@@ -8,7 +8,9 @@ using namespace langer;
 
 namespace {
 // 4 x 2 x 4 cells of edge 1, x and z from -2 to 2, y from 0 to 2; node number (k * 3 + j) * 5 + i
-Mesh block() { return test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4)); }
+Mesh block() {
+  return test::block(test::even(-2, 2, 4), test::even(0, 2, 2), test::even(-2, 2, 4));
+}
 std::vector<int> top(const Mesh& mesh) { return select(mesh, OnPlane{"y", 2}, all_nodes(mesh)); }
 }  // namespace
 
@@ -27,7 +29,8 @@ TEST_CASE("a box and a cylinder hold what lies inside or on them") {
   const Mesh mesh = block();
   CHECK(select(mesh, InBox{{-1, 0, -1}, {1, 2, 1}}, all_nodes(mesh)).size() == 27);
   CHECK(select(mesh, InBox{{0.1, 0, 0.1}, {0.9, 2, 0.9}}, all_nodes(mesh)).empty());
-  CHECK(select(mesh, InCylinder{"y", {0, 0, 0}, 1}, top(mesh)).size() == 5);  // the centre and four at exactly 1
+  CHECK(select(mesh, InCylinder{"y", {0, 0, 0}, 1}, top(mesh)).size() ==
+        5);  // the centre and four at exactly 1
   CHECK(select(mesh, InCylinder{"y", {0, 7, 0}, 1.5}, all_nodes(mesh)).size() == 27);
   CHECK(select(mesh, InCylinder{"x", {0, 0, 2}, 0.5}, all_nodes(mesh)).size() == 5);
   CHECK(select(mesh, InCylinder{"y", {0, 0, 0}, 2, 1}, top(mesh)).size() ==
@@ -45,7 +48,8 @@ TEST_CASE("the nearest node is one, of several equally near the first") {
   CHECK(mesh.X[select(mesh, NearestNode{{0, 0, 0}}, top(mesh)).at(0)] == Vec3(0, 2, 0));
 }
 
-TEST_CASE("the boundary is closed: its normals sum to zero, its flux of position is three times the volume") {
+TEST_CASE(
+    "the boundary is closed: its normals sum to zero, its flux of position is three times the volume") {
   Mesh mesh = block();
   test::distort(mesh, 0.1);
   Vec3 sum = Vec3::Zero();
@@ -60,8 +64,9 @@ TEST_CASE("the boundary is closed: its normals sum to zero, its flux of position
         const double a = s / std::sqrt(3.0), b = t / std::sqrt(3.0);
         const Vec3 ds = ((1 - b) * (x[1] - x[0]) + (1 + b) * (x[2] - x[3])) / 4;
         const Vec3 dt = ((1 - a) * (x[3] - x[0]) + (1 + a) * (x[2] - x[1])) / 4;
-        const Vec3 at =
-            ((1 - a) * (1 - b) * x[0] + (1 + a) * (1 - b) * x[1] + (1 + a) * (1 + b) * x[2] + (1 - a) * (1 + b) * x[3]) / 4;
+        const Vec3 at = ((1 - a) * (1 - b) * x[0] + (1 + a) * (1 - b) * x[1] +
+                         (1 + a) * (1 + b) * x[2] + (1 - a) * (1 + b) * x[3]) /
+                        4;
         sum += ds.cross(dt);
         flux += at.dot(ds.cross(dt));
       }

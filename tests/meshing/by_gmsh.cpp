@@ -6,11 +6,11 @@
 #include <map>
 #include <numbers>
 
+#include "mechanics/mesh/quality.hpp"
+#include "mechanics/mesh/select.hpp"
 #include "meshing/block.hpp"
 #include "meshing/gmsh/gmsh_interface.hpp"
 #include "meshing/gmsh/gmsh_session.hpp"
-#include "mechanics/mesh/quality.hpp"
-#include "mechanics/mesh/select.hpp"
 
 using namespace langer;
 
@@ -36,7 +36,8 @@ Made meshed() {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     made.cells.emplace_back();
     for (std::size_t a = 0; a < 8; ++a) {
-      const auto [at, is_new] = number.try_emplace(nodes[8 * e + a], static_cast<int>(made.X.size()));
+      const auto [at, is_new] =
+          number.try_emplace(nodes[8 * e + a], static_cast<int>(made.X.size()));
       if (is_new) made.X.emplace_back(X.data() + 3 * place.at(nodes[8 * e + a]));
       made.cells.back().push_back(at->second);
     }
@@ -68,16 +69,17 @@ Made block_by_gmsh(const std::array<std::vector<double>, 3>& lines) {
 Made o_grid_by_gmsh(const GradedBlock& b, double growth) {
   using Corners = std::array<int, 4>;
   const GmshSession session;
-  const double y = b.origin[1], half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2], x0 = b.origin[0] + half_x,
-               z0 = b.origin[2] + half_z;
+  const double y = b.origin[1], half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2],
+               x0 = b.origin[0] + half_x, z0 = b.origin[2] + half_z;
   const auto square = [&](double dx, double dz) {
-    return Corners{geo::addPoint(x0 + dx, y, z0 - dz), geo::addPoint(x0 + dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 + dz),
-                   geo::addPoint(x0 - dx, y, z0 - dz)};
+    return Corners{geo::addPoint(x0 + dx, y, z0 - dz), geo::addPoint(x0 + dx, y, z0 + dz),
+                   geo::addPoint(x0 - dx, y, z0 + dz), geo::addPoint(x0 - dx, y, z0 - dz)};
   };
   const auto closed = [&](const Corners& corners, auto curve) {
     Corners curves;
     for (std::size_t s = 0; s < 4; ++s)
-      geo::mesh::setTransfiniteCurve(curves[s] = curve(corners[s], corners[(s + 1) % 4]), b.core.cells + 1);
+      geo::mesh::setTransfiniteCurve(curves[s] = curve(corners[s], corners[(s + 1) % 4]),
+                                     b.core.cells + 1);
     return curves;
   };
   const auto surface = [](const std::vector<int>& loop) {
@@ -86,21 +88,31 @@ Made o_grid_by_gmsh(const GradedBlock& b, double growth) {
     geo::mesh::setRecombine(2, tag);
     return tag;
   };
-  const auto straight = [](int a, int c) { return geo::addLine(a, c); };
+  const auto straight = [](int a, int c) {
+    return geo::addLine(a, c);
+  };
   const int centre = geo::addPoint(x0, y, z0);
-  const auto arc = [&](int a, int c) { return geo::addCircleArc(a, centre, c); };
-  Corners inner = square(b.core.half_width, b.core.half_width), inner_curves = closed(inner, straight);
-  gmsh::vectorpair surfaces{{2, surface({inner_curves[0], inner_curves[1], inner_curves[2], inner_curves[3]})}}, extruded;
+  const auto arc = [&](int a, int c) {
+    return geo::addCircleArc(a, centre, c);
+  };
+  Corners inner = square(b.core.half_width, b.core.half_width),
+          inner_curves = closed(inner, straight);
+  gmsh::vectorpair surfaces{
+      {2, surface({inner_curves[0], inner_curves[1], inner_curves[2], inner_curves[3]})}},
+      extruded;
   const auto surround = [&](const Corners& outer, const Corners& curves, int cells, double ratio) {
     Corners spokes;
     for (std::size_t s = 0; s < 4; ++s)
-      geo::mesh::setTransfiniteCurve(spokes[s] = geo::addLine(inner[s], outer[s]), cells + 1, "Progression", ratio);
+      geo::mesh::setTransfiniteCurve(spokes[s] = geo::addLine(inner[s], outer[s]), cells + 1,
+                                     "Progression", ratio);
     for (std::size_t s = 0; s < 4; ++s)
-      surfaces.push_back({2, surface({spokes[s], curves[s], -spokes[(s + 1) % 4], -inner_curves[s]})});
+      surfaces.push_back(
+          {2, surface({spokes[s], curves[s], -spokes[(s + 1) % 4], -inner_curves[s]})});
     inner = outer, inner_curves = curves;
   };
   for (const Ring& ring : b.rings) {
-    const Corners outer = square(ring.radius / std::numbers::sqrt2, ring.radius / std::numbers::sqrt2);
+    const Corners outer =
+        square(ring.radius / std::numbers::sqrt2, ring.radius / std::numbers::sqrt2);
     surround(outer, closed(outer, arc), ring.cells, 1);
   }
   const Corners sides = square(half_x, half_z);
@@ -168,14 +180,17 @@ TEST_CASE("an O-grid has the nodes and cells of gmsh's transfinite squares, ring
   block.core = {1, 4}, block.rings = {{2, 3}, {3, 2}}, block.outer_cells = 3, block.layers = 2;
   std::vector<std::string> notes;
   const Mesh mesh = mesh_of(block, {}, notes);
-  // the ratio of neighbours outside, along +z, where 0.5 mm cells of the last ring reach 2 mm further
+  // the ratio of neighbours outside, along +z, where 0.5 mm cells of the last ring reach 2 mm
+  // further
   std::vector<double> z;
   for (const Vec3& x : mesh.X)
-    if (std::abs(x[0]) < 1e-9 && std::abs(x[1] - 1) < 1e-9 && x[2] > 1 + 3 - 1e-9) z.push_back(x[2]);
+    if (std::abs(x[0]) < 1e-9 && std::abs(x[1] - 1) < 1e-9 && x[2] > 1 + 3 - 1e-9)
+      z.push_back(x[2]);
   std::sort(z.begin(), z.end());
   REQUIRE(z.size() == 4);
   const double growth = (z[2] - z[1]) / (z[1] - z[0]);
   CHECK(growth == doctest::Approx((z[3] - z[2]) / (z[2] - z[1])));
   CHECK(growth > 1.1);
-  check_same(mesh, o_grid_by_gmsh(block, growth), 1e-7);  // gmsh finds places on its curves by quadrature
+  check_same(mesh, o_grid_by_gmsh(block, growth),
+             1e-7);  // gmsh finds places on its curves by quadrature
 }

@@ -8,11 +8,11 @@
 #include "core/base/error.hpp"
 #include "core/base/traps.hpp"
 #include "mechanics/element/surface.hpp"
-#include "meshing/exchange.hpp"
-#include "meshing/gmsh/gmsh_session.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/select.hpp"
+#include "meshing/exchange.hpp"
+#include "meshing/gmsh/gmsh_session.hpp"
 #include "support/block.hpp"
 
 using namespace langer;
@@ -28,7 +28,8 @@ std::string folder() {
 // two bodies, overlapping sets of facets, points, a node set that no facets make
 Mesh example() {
   Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(-1, 1, 2));
-  for (std::size_t n = 0; n < mesh.X.size(); ++n) mesh.X[n] += 1e-3 * Vec3(std::sin(n), std::cos(3. * n), std::sin(5. * n));
+  for (std::size_t n = 0; n < mesh.X.size(); ++n)
+    mesh.X[n] += 1e-3 * Vec3(std::sin(n), std::cos(3. * n), std::sin(5. * n));
   mesh.bodies = {"dermis", "epidermis"};
   mesh.body.clear();
   for (int e = 0; e < mesh.n_cells(); ++e) mesh.body.push_back(mesh.X[mesh.cell(e)[0]][1] > 0.5);
@@ -126,23 +127,34 @@ TEST_CASE("what an .inp may say of a mesh is read, what it says of a model is le
   CHECK(mesh.node_sets.at("dots") == mesh.node_sets.at("Odd"));
   CHECK(mesh.node_sets.at("all").size() == 8);
   CHECK(mesh.node_sets.at("base") == std::vector<int>{0, 1, 2, 3});
-  CHECK(notes == std::vector<std::string>{"left out, as they are no bodies: element sets E",
-                                          "left out, as they are no mesh: *END STEP, *HYPERELASTIC, *MATERIAL, *STATIC, *STEP"});
+  CHECK(notes ==
+        std::vector<std::string>{
+            "left out, as they are no bodies: element sets E",
+            "left out, as they are no mesh: *END STEP, *HYPERELASTIC, *MATERIAL, *STATIC, *STEP"});
 }
 
 TEST_CASE("an .inp that is wrong is refused with its line") {
-  CHECK(refusal("*NODE\n1, 0, 0, 0\n").starts_with("m.inp: no hexahedra or tetrahedra; expected *ELEMENT, TYPE=, one of C3D8"));
-  CHECK(refusal("*NODE\n1, 0, zero, 0\n").starts_with("m.inp:2:1: found \"zero\"; expected a number"));
+  CHECK(
+      refusal("*NODE\n1, 0, 0, 0\n")
+          .starts_with("m.inp: no hexahedra or tetrahedra; expected *ELEMENT, TYPE=, one of C3D8"));
+  CHECK(refusal("*NODE\n1, 0, zero, 0\n")
+            .starts_with("m.inp:2:1: found \"zero\"; expected a number"));
   CHECK(refusal("*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n").starts_with("m.inp:3:1: node 1 is there twice"));
   CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n")
             .starts_with("m.inp:2:1: element 1 has the node 1, which is not there"));
-  CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4\n*NODE\n").starts_with("m.inp:2:1: an element of 4 nodes; expected 8 nodes"));
-  CHECK(refusal(cube + "*NSET, NSET=n\nm\n").starts_with("m.inp:19:1: there is no set \"m\" above"));
-  CHECK(refusal(cube + "*NSET, NSET=n, GENERATE\n5, 1, 1\n").starts_with("m.inp:19:1: a range that does not ascend"));
-  CHECK(refusal(cube + "*SURFACE, NAME=s\n10, S7\n").starts_with("m.inp:19:1: found the side \"S7\"; expected S1 to S6"));
-  CHECK(refusal(cube + "*SURFACE, NAME=s\n11, S1\n").starts_with("m.inp:19:1: there is no element 11"));
+  CHECK(refusal("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4\n*NODE\n")
+            .starts_with("m.inp:2:1: an element of 4 nodes; expected 8 nodes"));
+  CHECK(
+      refusal(cube + "*NSET, NSET=n\nm\n").starts_with("m.inp:19:1: there is no set \"m\" above"));
+  CHECK(refusal(cube + "*NSET, NSET=n, GENERATE\n5, 1, 1\n")
+            .starts_with("m.inp:19:1: a range that does not ascend"));
+  CHECK(refusal(cube + "*SURFACE, NAME=s\n10, S7\n")
+            .starts_with("m.inp:19:1: found the side \"S7\"; expected S1 to S6"));
+  CHECK(refusal(cube + "*SURFACE, NAME=s\n11, S1\n")
+            .starts_with("m.inp:19:1: there is no element 11"));
   CHECK(refusal("*INCLUDE, INPUT=other.inp\n").starts_with("m.inp:1:1: found *INCLUDE"));
-  CHECK(refusal("*INSTANCE, NAME=i, PART=p\n1, 0, 0\n").find("moved or turned") != std::string::npos);
+  CHECK(refusal("*INSTANCE, NAME=i, PART=p\n1, 0, 0\n").find("moved or turned") !=
+        std::string::npos);
 }
 
 TEST_CASE("a .msh without hexahedra, or none at all, is refused") {
@@ -158,14 +170,17 @@ TEST_CASE("a .msh without hexahedra, or none at all, is refused") {
     }
     return "";
   };
-  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
   CHECK(said(head + "$Elements\n1\n1 7 2 1 1 1 2 3 4 4\n$EndElements\n")
-            .find("found cells of the kind Pyramid 5; expected 8-node hexahedra only") != std::string::npos);
+            .find("found cells of the kind Pyramid 5; expected 8-node hexahedra only") !=
+        std::string::npos);
   CHECK(said(head).find("no cells") != std::string::npos);
   CHECK(said("no mesh\n") != "");
 }
 
-TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies that share their nodes") {
+TEST_CASE(
+    "a solid of CAD becomes hexahedra, its faces sets, its bodies bodies that share their nodes") {
   const std::string path = folder() + "/two.step";
   {
     const GmshSession session;  // a cylinder of radius 6 on a box
@@ -195,7 +210,8 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
   CHECK(split.type == CellType::tet15);
   CHECK(split.bodies == mesh.bodies);
   CHECK(quality(split).least_jacobian > 0);
-  CHECK(quality(split).volume == doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.05));  // straight edges
+  CHECK(quality(split).volume ==
+        doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.05));  // straight edges
   CHECK(split.facet_sets.size() == mesh.facet_sets.size());
   CHECK_FALSE(coincident_nodes(split, 1e-6));
   for (const Facet& f : boundary(split)) {
@@ -220,8 +236,10 @@ TEST_CASE("a solid of CAD becomes hexahedra, its faces sets, its bodies bodies t
   CHECK(read.type == CellType::tet15);
   CHECK(read.bodies == std::vector<std::string>{"flesh"});
   CHECK(quality(read).volume == doctest::Approx(48).epsilon(1e-12));
-  for (int n : read.node_sets.at("ends")) CHECK((std::abs(read.X[n][0]) < 1e-9 || std::abs(read.X[n][0] - 6) < 1e-9));
-  CHECK(nodal_areas(read, read.facet_sets.at("ends")).sum() == doctest::Approx(2 * 2 * 4).epsilon(1e-12));
+  for (int n : read.node_sets.at("ends"))
+    CHECK((std::abs(read.X[n][0]) < 1e-9 || std::abs(read.X[n][0] - 6) < 1e-9));
+  CHECK(nodal_areas(read, read.facet_sets.at("ends")).sum() ==
+        doctest::Approx(2 * 2 * 4).epsilon(1e-12));
   {
     const GmshSession session;
     gmsh::model::occ::addSphere(0, 0, 0, 5);

@@ -1,4 +1,5 @@
-// Cells of Abaqus and CalculiX that become ours: places of all nodes, those between the file's too, and the sets that these belong to.
+// Cells of Abaqus and CalculiX that become ours: places of all nodes, those between the file's too,
+// and the sets that these belong to.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -8,11 +9,11 @@
 #include <random>
 
 #include "core/base/error.hpp"
-#include "meshing/exchange.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/select.hpp"
+#include "meshing/exchange.hpp"
 #include "support/block.hpp"
 
 using namespace langer;
@@ -25,7 +26,8 @@ std::vector<int> first(int n) {
   std::iota(nodes.begin(), nodes.end(), 0);
   return nodes;
 }
-std::vector<int> c3d27() {  // the middle of the cell, then those of S1 (1-2-3-4), S2 (5-8-7-6), S3 (1-5-6-2), S4, S5, S6
+std::vector<int> c3d27() {  // the middle of the cell, then those of S1 (1-2-3-4), S2 (5-8-7-6), S3
+                            // (1-5-6-2), S4, S5, S6
   std::vector<int> nodes = first(20);
   nodes.insert(nodes.end(), {26, 24, 25, 22, 21, 23, 20});
   return nodes;
@@ -81,7 +83,8 @@ Mesh with_sets(Mesh mesh) {
   std::set_union(x.begin(), x.end(), z.begin(), z.end(), std::back_inserter(corner));
   std::set_intersection(x.begin(), x.end(), z.begin(), z.end(), std::back_inserter(edge));
   std::iota(all.begin(), all.end(), 0);
-  mesh.node_sets["corner"] = corner, mesh.node_sets["edge"] = edge, mesh.node_sets["all"] = all, mesh.node_sets["A"] = {0};
+  mesh.node_sets["corner"] = corner, mesh.node_sets["edge"] = edge, mesh.node_sets["all"] = all,
+  mesh.node_sets["A"] = {0};
   return mesh;
 }
 
@@ -109,7 +112,8 @@ void check_same(const Mesh& mesh, const Mesh& found, double tolerance) {
       CHECK((known < 0 || known == mesh.cell(e)[a]));
       known = mesh.cell(e)[a];
     }
-  for (int n = 0; n < mesh.n_nodes(); ++n) CHECK((found.X[n] - mesh.X[ours[static_cast<std::size_t>(n)]]).norm() <= tolerance);
+  for (int n = 0; n < mesh.n_nodes(); ++n)
+    CHECK((found.X[n] - mesh.X[ours[static_cast<std::size_t>(n)]]).norm() <= tolerance);
   for (const auto& set : mesh.node_sets) {
     const std::string& name = set.first;
     CAPTURE(name);
@@ -123,27 +127,33 @@ void check_same(const Mesh& mesh, const Mesh& found, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("curved cells with middles of edges keep their shape, and their sets take the nodes between") {
-  const Mesh blocks[]{test::block({0, 1, 2.5}, {0, 0.8, 2}, {-1, 0.2, 1}), test::block({0, 1.5}, {0, 1}, {0, 0.7, 2, 3})};
+TEST_CASE(
+    "curved cells with middles of edges keep their shape, and their sets take the nodes between") {
+  const Mesh blocks[]{test::block({0, 1, 2.5}, {0, 0.8, 2}, {-1, 0.2, 1}),
+                      test::block({0, 1.5}, {0, 1}, {0, 0.7, 2, 3})};
   unsigned seed = 1;
   for (const Mesh& linear : blocks) {
-    Mesh hexahedra = with_sets(raised(linear, CellType::hex27)), tetrahedra = with_sets(test::tetrahedra(linear));
+    Mesh hexahedra = with_sets(raised(linear, CellType::hex27)),
+         tetrahedra = with_sets(test::tetrahedra(linear));
     curve(hexahedra, ++seed), curve(tetrahedra, ++seed);
     REQUIRE(quality(hexahedra).least_jacobian > 0);
     REQUIRE(quality(tetrahedra).least_jacobian > 0);
-    for (const char* type : {"C3D20", "C3D20R", "c3d20rh"}) check_same(hexahedra, read(written(hexahedra, type, first(20))), 1e-14);
+    for (const char* type : {"C3D20", "C3D20R", "c3d20rh"})
+      check_same(hexahedra, read(written(hexahedra, type, first(20))), 1e-14);
     for (const char* type : {"C3D10", "C3D10M", "C3D10MH"})
       check_same(tetrahedra, read(written(tetrahedra, type, first(10))), 1e-14);
     check_same(hexahedra, read(written(hexahedra, "C3D27", c3d27())), 0);
   }
 }
 
-TEST_CASE("tetrahedra of four nodes get those between them, which no edge within the body adds to a set") {
+TEST_CASE(
+    "tetrahedra of four nodes get those between them, which no edge within the body adds to a set") {
   Mesh mesh = with_sets(test::tetrahedra(test::block({0, 1, 2.5}, {0, 0.8, 2}, {-1, 0.2, 1})));
   mesh.node_sets["through"] = {0, 13};  // a corner and the middle of the block
   mesh.node_sets["along"] = {0, 1};
   for (int n = 2; n < mesh.n_nodes(); ++n)
-    if ((mesh.X[n] - 0.5 * (mesh.X[0] + mesh.X[1])).norm() < 1e-12) mesh.node_sets["along"].push_back(n);
+    if ((mesh.X[n] - 0.5 * (mesh.X[0] + mesh.X[1])).norm() < 1e-12)
+      mesh.node_sets["along"].push_back(n);
   REQUIRE(mesh.node_sets["along"].size() == 3);
   REQUIRE((mesh.X[13] - Vec3(1, 0.8, 0.2)).norm() < 1e-12);
   check_same(mesh, read(written(mesh, "C3D4", first(4))), 1e-15);
@@ -157,7 +167,8 @@ TEST_CASE("sides of every cell are those of the manuals: the corners of each, fr
   const auto check = [](const Mesh& mesh, const std::string& type, const std::vector<int>& theirs,
                         const std::vector<std::vector<int>>& sides) {
     for (std::size_t s = 0; s < sides.size(); ++s) {
-      const Mesh found = read(written(mesh, type, theirs) + fmt::format("*SURFACE, NAME=side\n1, S{}\n", s + 1));
+      const Mesh found =
+          read(written(mesh, type, theirs) + fmt::format("*SURFACE, NAME=side\n1, S{}\n", s + 1));
       const auto facet = found.facet_sets.at("side");
       REQUIRE(facet.size() == 1);
       std::vector<int> nodes = facet_nodes(found, facet[0]), corners;
@@ -166,9 +177,10 @@ TEST_CASE("sides of every cell are those of the manuals: the corners of each, fr
       CHECK(std::is_permutation(nodes.begin(), nodes.end(), corners.begin()));
       CHECK(found.node_sets.at("side").size() == facet_nodes(found, facet[0]).size());
     }
-    CHECK(refusal(written(mesh, type, theirs) + fmt::format("*SURFACE, NAME=side\n1, S{}\n", sides.size() + 1))
-              .find(fmt::format("found the side \"S{}\"; expected S1 to S{}", sides.size() + 1, sides.size())) !=
-          std::string::npos);
+    CHECK(refusal(written(mesh, type, theirs) +
+                  fmt::format("*SURFACE, NAME=side\n1, S{}\n", sides.size() + 1))
+              .find(fmt::format("found the side \"S{}\"; expected S1 to S{}", sides.size() + 1,
+                                sides.size())) != std::string::npos);
   };
   const Mesh hexahedron = raised(linear, CellType::hex27), tetrahedra = test::tetrahedra(linear);
   check(linear, "C3D8I", first(8), of_hexahedron);
@@ -183,11 +195,14 @@ TEST_CASE("cells that are none of ours, two kinds, or too few nodes are refused 
       refusal("*ELEMENT, TYPE=C3D15\n1, 1, 2\n") ==
       "m.inp:1:1: found elements C3D15; expected one of C3D8, C3D20, C3D27, C3D4, C3D10, or the like with R, H, I, M or S behind");
   for (const char* type : {"C3D6", "C3D8P", "C3D10T", "C3D2", "C3D100", "C3D27V"})
-    CHECK(refusal(std::string("*ELEMENT, TYPE=") + type + "\n").starts_with(std::string("m.inp:1:1: found elements ") + type));
+    CHECK(refusal(std::string("*ELEMENT, TYPE=") + type + "\n")
+              .starts_with(std::string("m.inp:1:1: found elements ") + type));
   const std::string eight = "*ELEMENT, TYPE=C3D8R\n1, 1, 2, 3, 4, 5, 6, 7, 8\n";
-  CHECK(refusal(eight + "*ELEMENT, TYPE=C3D10\n")
-            .starts_with("m.inp:3:1: found elements C3D10 beside C3D8R; expected cells of one kind"));
-  CHECK(refusal(eight + "*ELEMENT, TYPE=C3D20\n").starts_with("m.inp:3:1: found elements C3D20 beside C3D8R"));
+  CHECK(
+      refusal(eight + "*ELEMENT, TYPE=C3D10\n")
+          .starts_with("m.inp:3:1: found elements C3D10 beside C3D8R; expected cells of one kind"));
+  CHECK(refusal(eight + "*ELEMENT, TYPE=C3D20\n")
+            .starts_with("m.inp:3:1: found elements C3D20 beside C3D8R"));
   CHECK(refusal("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4,\n5, 6, 7\n*NODE\n")
             .starts_with("m.inp:2:1: an element of 7 nodes; expected 10"));
   const Mesh mesh = test::tetrahedra(test::block({0, 1}, {0, 1}, {0, 1}));

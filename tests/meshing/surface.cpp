@@ -53,14 +53,17 @@ std::string binary(const std::vector<std::array<float, 9>>& triangles) {
 TEST_CASE("a text of triangles is a surface whose triangles share their corners") {
   const Triangles surface = parse_surface(tetrahedron, "t.stl");
   CHECK(surface.points == std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
-  CHECK(surface.corners == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}});
+  CHECK(surface.corners ==
+        std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}});
 }
 
 TEST_CASE("a binary file of triangles is the same surface") {
   const Triangles text = parse_surface(tetrahedron, "t.stl");
-  const Triangles surface = parse_surface(
-      binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}, {0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}),
-      "t.stl");
+  const Triangles surface = parse_surface(binary({{0, 0, 0, 0, 1, 0, 1, 0, 0},
+                                                  {0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                                  {0, 0, 0, 0, 0, 1, 0, 1, 0},
+                                                  {1, 0, 0, 0, 1, 0, 0, 0, 1}}),
+                                          "t.stl");
   CHECK(surface.points == text.points);
   CHECK(surface.corners == text.corners);
 }
@@ -98,21 +101,32 @@ TEST_CASE("what gmsh writes as STL is read as gmsh reads it") {
     const Triangles surface = read_surface(path);
     CHECK(surface.corners.size() == n_triangles);
     CHECK(surface.points.size() == n_points);
-    CHECK(2 * (surface.points.size() - 2) == surface.corners.size());  // closed, like a sphere (Euler)
-    for (const Vec3& x : surface.points) CHECK((x - Vec3(1, 2, 3)).norm() == doctest::Approx(5).epsilon(1e-6));
+    CHECK(2 * (surface.points.size() - 2) ==
+          surface.corners.size());  // closed, like a sphere (Euler)
+    for (const Vec3& x : surface.points)
+      CHECK((x - Vec3(1, 2, 3)).norm() == doctest::Approx(5).epsilon(1e-6));
   }
 }
 
 TEST_CASE("a file that is no surface is refused, a text with its line") {
-  CHECK(refusal("nothing") == "t.stl: no triangles; expected an STL file with triangles, normals outwards");
+  CHECK(refusal("nothing") ==
+        "t.stl: no triangles; expected an STL file with triangles, normals outwards");
   CHECK(refusal("") == refusal("nothing"));
-  CHECK(refusal("outer loop\nvertex 0 0 zero\n").starts_with("t.stl:2:1: found \"zero\" for a coordinate"));
-  CHECK(refusal("outer loop\nvertex 0 0\n").starts_with("t.stl:2:1: a corner of fewer than three coordinates"));
-  CHECK(refusal("outer loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n").starts_with("t.stl:4:1: a facet that is no triangle"));
-  CHECK(refusal("outer loop\nvertex 0 0 0\nvertex 1 0 0\n").starts_with("t.stl:3:1: a facet that is no triangle"));
-  CHECK(refusal("vertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\n").starts_with("t.stl: a position that is not finite"));
-  CHECK(refusal("vertex 0 0 0\nvertex 1 0 0\nvertex 2 0 0\n").starts_with("t.stl: triangle 1 has no area"));
-  CHECK(refusal("vertex 1 1 1\nvertex 1 1 1\nvertex 1 1 1\n").starts_with("t.stl: triangle 1 has no area"));
-  CHECK(refusal(binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}}).substr(0, 120)).starts_with("t.stl: no triangles"));
+  CHECK(refusal("outer loop\nvertex 0 0 zero\n")
+            .starts_with("t.stl:2:1: found \"zero\" for a coordinate"));
+  CHECK(refusal("outer loop\nvertex 0 0\n")
+            .starts_with("t.stl:2:1: a corner of fewer than three coordinates"));
+  CHECK(refusal("outer loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n")
+            .starts_with("t.stl:4:1: a facet that is no triangle"));
+  CHECK(refusal("outer loop\nvertex 0 0 0\nvertex 1 0 0\n")
+            .starts_with("t.stl:3:1: a facet that is no triangle"));
+  CHECK(refusal("vertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\n")
+            .starts_with("t.stl: a position that is not finite"));
+  CHECK(refusal("vertex 0 0 0\nvertex 1 0 0\nvertex 2 0 0\n")
+            .starts_with("t.stl: triangle 1 has no area"));
+  CHECK(refusal("vertex 1 1 1\nvertex 1 1 1\nvertex 1 1 1\n")
+            .starts_with("t.stl: triangle 1 has no area"));
+  CHECK(refusal(binary({{0, 0, 0, 0, 1, 0, 1, 0, 0}}).substr(0, 120))
+            .starts_with("t.stl: no triangles"));
   CHECK_THROWS_AS(read_surface("/nonexistent/t.stl"), Failure);
 }

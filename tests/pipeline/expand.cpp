@@ -13,9 +13,13 @@ using namespace langer::pipeline;
 
 namespace {
 
-Tree no_file(const std::string& path) { throw Failure(Exit::input, Error{{path, 0, 0}, "", "there is no such file", "", ""}); }
+Tree no_file(const std::string& path) {
+  throw Failure(Exit::input, Error{{path, 0, 0}, "", "there is no such file", "", ""});
+}
 
-std::vector<Step> steps_of(const std::string& text) { return expand(read_pipeline(parse_yaml(text, "p.yaml")), no_file); }
+std::vector<Step> steps_of(const std::string& text) {
+  return expand(read_pipeline(parse_yaml(text, "p.yaml")), no_file);
+}
 
 std::vector<std::string> folders(const std::vector<Step>& steps, const std::string& node) {
   std::vector<std::string> found;
@@ -25,7 +29,8 @@ std::vector<std::string> folders(const std::vector<Step>& steps, const std::stri
 }
 
 const Step& step(const std::vector<Step>& steps, const std::string& folder) {
-  const auto it = std::find_if(steps.begin(), steps.end(), [&](const Step& s) { return s.folder == folder; });
+  const auto it =
+      std::find_if(steps.begin(), steps.end(), [&](const Step& s) { return s.folder == folder; });
   REQUIRE(it != steps.end());
   return *it;
 }
@@ -62,8 +67,10 @@ TEST_CASE("a node's axes are its own and those of its inputs, `over` removes the
 
 TEST_CASE("each member gets its values, `set` comes before them") {
   const auto steps = steps_of(two_axes);
-  CHECK(to_text(step(steps, "code_FER/alpha_030/solve").config) == "angles: [30]\nd: 2\npath:\n  steps: 10\nform: full\n");
-  CHECK(to_text(step(steps, "code_ANSYS/alpha_007.5/solve").config) == "angles: [7.5]\nd: 1\npath:\n  steps: 10\n");
+  CHECK(to_text(step(steps, "code_FER/alpha_030/solve").config) ==
+        "angles: [30]\nd: 2\npath:\n  steps: 10\nform: full\n");
+  CHECK(to_text(step(steps, "code_ANSYS/alpha_007.5/solve").config) ==
+        "angles: [7.5]\nd: 1\npath:\n  steps: 10\n");
 }
 
 TEST_CASE("an axis that two nodes declare is one axis, with settings for each of them") {
@@ -85,8 +92,10 @@ TEST_CASE("inputs are those of the same member, a gathering node gets all of the
   REQUIRE(table.inputs.size() == 6);
   CHECK(table.inputs[3].path == "code_ANSYS/alpha_000/post/curves.h5");
   const std::string text = to_text(table.config);
-  CHECK(text.find("axes:\n  - name: code\n    unit: \"-\"\n  - name: alpha\n    unit: deg\n") != std::string::npos);
-  CHECK(text.find("  - path: code_FER/alpha_007.5/post/curves.h5\n    at: [FER, \"7.5\"]\n") != std::string::npos);
+  CHECK(text.find("axes:\n  - name: code\n    unit: \"-\"\n  - name: alpha\n    unit: deg\n") !=
+        std::string::npos);
+  CHECK(text.find("  - path: code_FER/alpha_007.5/post/curves.h5\n    at: [FER, \"7.5\"]\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("steps come after what they read, whatever the order of the nodes") {
@@ -110,27 +119,33 @@ nodes:
 )");
   CHECK(folders(steps, "rank") == Words{"start_001/rank", "start_002/rank"});
   CHECK(step(steps, "start_002/rank").inputs[0].path == "law_HGO-Yeoh/start_002/fit/material.h5");
-  CHECK_THROWS_WITH_AS(steps_of("pipeline: p\nnodes:\n  fit: {stage: fit, sweep: {law: {variants: {Yeoh: }}}}\n"
-                                "  rank: {stage: sensitivity, material: {node: fit, law: Gent}}\n"),
-                       "p.yaml:4:30: nodes.rank.material.law: found Gent; expected one of Yeoh", Failure);
   CHECK_THROWS_WITH_AS(
-      steps_of("pipeline: p\nnodes:\n  fit: {stage: fit}\n  rank: {stage: sensitivity, material: {node: fit, law: Gent}}\n"),
-      "p.yaml:4:30: nodes.rank.material.law: the node fit has no such axis; expected none: it has one member", Failure);
+      steps_of("pipeline: p\nnodes:\n  fit: {stage: fit, sweep: {law: {variants: {Yeoh: }}}}\n"
+               "  rank: {stage: sensitivity, material: {node: fit, law: Gent}}\n"),
+      "p.yaml:4:30: nodes.rank.material.law: found Gent; expected one of Yeoh", Failure);
+  CHECK_THROWS_WITH_AS(
+      steps_of(
+          "pipeline: p\nnodes:\n  fit: {stage: fit}\n  rank: {stage: sensitivity, material: {node: fit, law: Gent}}\n"),
+      "p.yaml:4:30: nodes.rank.material.law: the node fit has no such axis; expected none: it has one member",
+      Failure);
 }
 
 TEST_CASE("a variant may be another config file") {
   std::vector<std::string> read;
-  const auto steps = expand(read_pipeline(parse_yaml("pipeline: p\nnodes:\n  fit: {stage: fit, config: base.yaml, set: {x: 1}, "
-                                                     "sweep: {law: {variants: {A: a.yaml, B: {y: 2}}}}}\n",
-                                                     "p.yaml")),
-                            [](const std::string& path) { return parse_yaml("from: " + path, path); });
+  const auto steps =
+      expand(read_pipeline(parse_yaml(
+                 "pipeline: p\nnodes:\n  fit: {stage: fit, config: base.yaml, set: {x: 1}, "
+                 "sweep: {law: {variants: {A: a.yaml, B: {y: 2}}}}}\n",
+                 "p.yaml")),
+             [](const std::string& path) { return parse_yaml("from: " + path, path); });
   CHECK(to_text(step(steps, "law_A/fit").config) == "from: a.yaml\nx: 1\n");
   CHECK(to_text(step(steps, "law_B/fit").config) == "from: base.yaml\nx: 1\ny: 2\n");
 }
 
 TEST_CASE("folders of numbers sort like the numbers, every folder is safe for make") {
   pipeline::Axis axis{"alpha", "deg", true, {}, {}};
-  for (const char* label : {"0", "7.5", "30", "180", "0.25"}) axis.points.push_back({label, {}, {}});
+  for (const char* label : {"0", "7.5", "30", "180", "0.25"})
+    axis.points.push_back({label, {}, {}});
   Words names;
   for (std::size_t i = 0; i < axis.points.size(); ++i) names.push_back(member_folder(axis, i));
   CHECK(names == Words{"alpha_000", "alpha_007.5", "alpha_030", "alpha_180", "alpha_000.25"});
@@ -139,14 +154,16 @@ TEST_CASE("folders of numbers sort like the numbers, every folder is safe for ma
   CHECK(member_folder(axis, 0) == "alpha_-0005");
   CHECK(member_folder(axis, 1) == "alpha_1000");
   CHECK(member_folder(axis, 2) == "alpha_1e-06");
-  for (const char* unsafe : {"a b", "a=b", "a:b", "a$b", "a%b", "a#b", "a;b", "a\nb", "a&b", "a*b", "", "ä"}) {
+  for (const char* unsafe :
+       {"a b", "a=b", "a:b", "a$b", "a%b", "a#b", "a;b", "a\nb", "a&b", "a*b", "", "ä"}) {
     CAPTURE(unsafe);
     CHECK_FALSE(is_safe_path(unsafe));
   }
 }
 
 TEST_CASE("the way a number is typed does not change its member") {
-  const auto steps = steps_of("pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {key: a, values: [1.0e+1, +2.50, word]}}}\n");
+  const auto steps = steps_of(
+      "pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {key: a, values: [1.0e+1, +2.50, word]}}}\n");
   CHECK(folders(steps, "mesh") == Words{"n_10/mesh", "n_2.5/mesh", "n_word/mesh"});
 }
 
@@ -157,26 +174,32 @@ TEST_CASE("a port of several files takes a list of nodes, each with its members"
   const Step& page = step(steps, "page");
   Words paths;
   for (const StepInput& input : page.inputs) paths.push_back(input.port + " " + input.path);
-  CHECK(paths == Words{"curves code_FER/alpha_000/post/curves.h5", "curves code_FER/alpha_030/post/curves.h5",
-                       "curves code_FER/alpha_007.5/post/curves.h5", "table table/sweep.h5", "table code_FER/by_code/sweep.h5",
-                       "table code_ANSYS/by_code/sweep.h5"});
+  CHECK(paths == Words{"curves code_FER/alpha_000/post/curves.h5",
+                       "curves code_FER/alpha_030/post/curves.h5",
+                       "curves code_FER/alpha_007.5/post/curves.h5", "table table/sweep.h5",
+                       "table code_FER/by_code/sweep.h5", "table code_ANSYS/by_code/sweep.h5"});
   CHECK_FALSE(page.config.find("members"));
   CHECK_THROWS_AS(steps_of(two_axes + "  other: {stage: post, solution: [solve]}\n"), Failure);
 }
 
 TEST_CASE("one axis may set several keys") {
-  const auto steps = steps_of("pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {keys: [a, b.c], values: [4]}}}\n");
+  const auto steps = steps_of(
+      "pipeline: p\nnodes:\n  mesh: {stage: mesh, sweep: {n: {keys: [a, b.c], values: [4]}}}\n");
   CHECK(to_text(steps.at(0).config) == "a: 4\nb:\n  c: 4\n");
 }
 
 TEST_CASE("a recipe is one plain command with a launcher in front, programs are order-only") {
-  const std::string text = makefile_text("p.yaml", "../../build/bin",
-                                         {{"a/mesh.h5", {"a/mesh.yaml"}, "langer-mesh", "a/mesh.yaml"},
-                                          {"b/x.h5", {"b/x.yaml", "a/mesh.h5"}, "langer-x", "b/x.yaml --mesh a/mesh.h5"}},
-                                         {"b/x.h5"});
+  const std::string text = makefile_text(
+      "p.yaml", "../../build/bin",
+      {{"a/mesh.h5", {"a/mesh.yaml"}, "langer-mesh", "a/mesh.yaml"},
+       {"b/x.h5", {"b/x.yaml", "a/mesh.h5"}, "langer-x", "b/x.yaml --mesh a/mesh.h5"}},
+      {"b/x.h5"});
   CHECK(text.find("\nall: b/x.h5\n") != std::string::npos);
-  CHECK(text.find("\nb/x.h5: b/x.yaml a/mesh.h5 $(if $(STRICT),$(BIN)/langer-x) | $(BIN)/langer-x\n"
-                  "\t$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 --log $(basename $@).log -o $@\n") != std::string::npos);
+  CHECK(
+      text.find(
+          "\nb/x.h5: b/x.yaml a/mesh.h5 $(if $(STRICT),$(BIN)/langer-x) | $(BIN)/langer-x\n"
+          "\t$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 --log $(basename $@).log -o $@\n") !=
+      std::string::npos);
   for (const char* line : {".DELETE_ON_ERROR:", "LAUNCH ?=", "BIN ?= ../../build/bin"}) {
     CAPTURE(line);
     CHECK(text.find(std::string("\n") + line) != std::string::npos);
@@ -187,7 +210,8 @@ TEST_CASE("a grid is one axis of all combinations, named by their values") {
   const auto steps = steps_of(
       "pipeline: p\nnodes:\n  solve: {stage: solve, config: {path: {steps: 1}}, sweep: {level: {grid: {mesh.edge: [0.3, 0.25], path.steps: "
       "[4, 10, 20]}}}}\n  post: {stage: post, solution: solve}\n  front: {stage: tune, curves: post, over: level}\n");
-  CHECK(folders(steps, "solve") == Words{"level_0.3-4/solve", "level_0.3-10/solve", "level_0.3-20/solve", "level_0.25-4/solve",
+  CHECK(folders(steps, "solve") == Words{"level_0.3-4/solve", "level_0.3-10/solve",
+                                         "level_0.3-20/solve", "level_0.25-4/solve",
                                          "level_0.25-10/solve", "level_0.25-20/solve"});
   const Step& one = step(steps, "level_0.25-10/solve");
   CHECK(one.config.find("mesh")->find("edge")->scalar == "0.25");
@@ -196,10 +220,12 @@ TEST_CASE("a grid is one axis of all combinations, named by their values") {
   CHECK(step(steps, "front").inputs.size() == 6);
 }
 
-TEST_CASE("a grid without keys, values or numbers of combinations that end is refused with its place") {
+TEST_CASE(
+    "a grid without keys, values or numbers of combinations that end is refused with its place") {
   const auto said = [](const std::string& grid) -> std::string {
     try {
-      steps_of("pipeline: p\nnodes:\n  solve: {stage: solve, config: {}, sweep: {level: {grid: " + grid + "}}}\n");
+      steps_of("pipeline: p\nnodes:\n  solve: {stage: solve, config: {}, sweep: {level: {grid: " +
+               grid + "}}}\n");
     } catch (const Failure& failure) {
       return failure.what();
     }

@@ -51,11 +51,13 @@ TEST_CASE("a typed value replaces what the pipeline sets, and adds what it does 
 }
 
 TEST_CASE("a typed sweep is one like any other, and may have a name of its own") {
-  const auto steps = steps_after({{}, {"solve.path.first=[0.1, 0.2, 0.5]", "half:mesh.scale=[1, 2]"}});
+  const auto steps =
+      steps_after({{}, {"solve.path.first=[0.1, 0.2, 0.5]", "half:mesh.scale=[1, 2]"}});
   CHECK(steps.size() == 2 + 2 * 2 * 3);  // meshes; meshes, angles, increments
   CHECK(steps.back().folder.find("first_000.5") != std::string::npos);
   CHECK(steps.back().folder.find("half_002") != std::string::npos);
-  CHECK(steps_after({{}, {"alpha:solve.fibre_angles[0]=[0, 30, 90]"}}).size() == 4);  // the axis that is there with other values
+  CHECK(steps_after({{}, {"alpha:solve.fibre_angles[0]=[0, 30, 90]"}}).size() ==
+        4);  // the axis that is there with other values
 }
 
 TEST_CASE("what is typed wrongly is refused with what would be right") {
@@ -63,6 +65,7 @@ TEST_CASE("what is typed wrongly is refused with what would be right") {
   for (const char* wrong : {"threads=1", "solve.threads", ".threads=1", "solve.=1", "=1", ""})
     CHECK(refused({{wrong}, {}}).find("node.key=value") != std::string::npos);
   CHECK(refused({{}, {"solve.threads=2"}}).find("a list of values") != std::string::npos);
-  CHECK(refused({{"solve.fibre_angles[0]=30"}, {}}).find("varied by the axis \"alpha\"") != std::string::npos);
+  CHECK(refused({{"solve.fibre_angles[0]=30"}, {}}).find("varied by the axis \"alpha\"") !=
+        std::string::npos);
   CHECK(refused({{}, {"solve.threads=[]"}}).find("at least one") != std::string::npos);
 }

@@ -34,7 +34,9 @@ struct Folder {
   }
   ~Folder() { fs::remove_all(root); }
   std::string at(const std::string& name) const { return (root / name).string(); }
-  void put(const std::string& name, const std::string& text) const { std::ofstream(root / name) << text; }
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(root / name) << text;
+  }
 };
 
 Identity identity(const std::string& config_file, const InputFiles& inputs = {}) {
@@ -46,7 +48,8 @@ Identity identity(const std::string& config_file, const InputFiles& inputs = {})
 
 TEST_CASE("a result's identity is what went into it, not where that lies or how it is typed") {
   Folder folder;
-  const Identity here = identity(folder.at("here/a.yaml")), there = identity(folder.at("there/a.yaml"));
+  const Identity here = identity(folder.at("here/a.yaml")),
+                 there = identity(folder.at("there/a.yaml"));
   CHECK(here.config_hash == there.config_hash);
   CHECK(here.inputs == there.inputs);
   CHECK(content_id(here, 1) == content_id(there, 1));
@@ -62,16 +65,20 @@ TEST_CASE("a YAML file at a port counts by its values") {
   folder.put("m.yaml", "a: {b: 1}  # one\n");
   const Identity before = identity(folder.at("here/a.yaml"), {{"material", {folder.at("m.yaml")}}});
   folder.put("m.yaml", "# two\na:\n  b: 1\n");
-  CHECK(identity(folder.at("here/a.yaml"), {{"material", {folder.at("m.yaml")}}}).inputs == before.inputs);
+  CHECK(identity(folder.at("here/a.yaml"), {{"material", {folder.at("m.yaml")}}}).inputs ==
+        before.inputs);
   folder.put("m.yaml", "a: {b: 2}\n");
-  CHECK(identity(folder.at("here/a.yaml"), {{"material", {folder.at("m.yaml")}}}).inputs != before.inputs);
+  CHECK(identity(folder.at("here/a.yaml"), {{"material", {folder.at("m.yaml")}}}).inputs !=
+        before.inputs);
 }
 
 TEST_CASE("a file that a config names must be there") {
   Folder folder;
   fs::remove(folder.at("here/c.csv"));
   CHECK_THROWS_WITH_AS(identity(folder.at("here/a.yaml")),
-                       (folder.at("here/a.yaml") + ":2:1: curve: " + folder.at("here/c.csv") + ": there is no such file").c_str(),
+                       (folder.at("here/a.yaml") + ":2:1: curve: " + folder.at("here/c.csv") +
+                        ": there is no such file")
+                           .c_str(),
                        Failure);
 }
 
@@ -80,13 +87,14 @@ TEST_CASE("an output may not be a folder, replace what it is made from, or lie b
   const std::string config = folder.at("here/a.yaml");
   need_output(folder.at("new/deep/out.h5"), config, {});
   CHECK(fs::is_directory(folder.at("new/deep")));
-  for (const std::string& bad :
-       {folder.at("there"), config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv"), folder.at("here/c.csv/out.h5")}) {
+  for (const std::string& bad : {folder.at("there"), config, folder.at("there/../here/a.yaml"),
+                                 folder.at("here/c.csv"), folder.at("here/c.csv/out.h5")}) {
     CAPTURE(bad);
     CHECK_THROWS_AS(need_output(bad, config, {{"curve", {folder.at("here/c.csv")}}}), Failure);
   }
   CHECK(fs::is_regular_file(folder.at("here/c.csv")));
-  for (const std::string& input : {config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv")})  // whatever it holds
+  for (const std::string& input :
+       {config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv")})  // whatever it holds
     CHECK_THROWS_WITH_AS(need_output(input, config, {{"curve", {folder.at("here/c.csv")}}}),
                          (input + ": the output would replace an input").c_str(), Failure);
 }
@@ -96,13 +104,15 @@ TEST_CASE("--set replaces a value, and says so where it cannot") {
   apply_setting(tree, "a.b[1]=3");
   apply_setting(tree, "a.c={d: x=y}");
   CHECK(to_text(tree) == "a:\n  b: [1, 3]\n  c:\n    d: x=y\n");
-  CHECK_THROWS_WITH_AS(apply_setting(tree, "a.b[2]=3"), "--set: a.b[2]: a.b has 2 items; expected an index below 2", Failure);
+  CHECK_THROWS_WITH_AS(apply_setting(tree, "a.b[2]=3"),
+                       "--set: a.b[2]: a.b has 2 items; expected an index below 2", Failure);
   CHECK_THROWS_AS(apply_setting(tree, "=3"), Failure);
   CHECK_THROWS_AS(apply_setting(tree, "a"), Failure);
 }
 
 TEST_CASE("results as JSON: one object, numbers that read back, null for what is not finite") {
   Identity id{"post", "", "00ff", {}, ""};
-  CHECK(json_text(id, {{"force", 0.1, "N"}, {"c2", std::numeric_limits<double>::infinity(), "-"}}) ==
-        "{\"stage\": \"post\", \"config_hash\": \"00ff\", \"force_N\": 0.1, \"c2\": null}\n");
+  CHECK(
+      json_text(id, {{"force", 0.1, "N"}, {"c2", std::numeric_limits<double>::infinity(), "-"}}) ==
+      "{\"stage\": \"post\", \"config_hash\": \"00ff\", \"force_N\": 0.1, \"c2\": null}\n");
 }

@@ -16,14 +16,17 @@ Tree no_file(const std::string& path) {
 // "20 70<20 160<20": each member and of which it may be the image
 std::string offered(const std::string& angles, const std::string& config) {
   std::vector<Step> steps =
-      expand(read_pipeline(parse_yaml("pipeline: p\nnodes:\n  solve: {stage: solve, config: {" + config +
-                                          "}, sweep: {alpha: {key: \"fibre_angles[0]\", values: [" + angles + "]}}}\n",
-                                      "p.yaml")),
+      expand(read_pipeline(parse_yaml(
+                 "pipeline: p\nnodes:\n  solve: {stage: solve, config: {" + config +
+                     "}, sweep: {alpha: {key: \"fibre_angles[0]\", values: [" + angles + "]}}}\n",
+                 "p.yaml")),
              no_file);
   offer_siblings(steps);
   std::string found;
   for (const Step& step : steps) {
-    const auto angle = [](const std::string& path) { return path.substr(6, 3); };
+    const auto angle = [](const std::string& path) {
+      return path.substr(6, 3);
+    };
     found += (found.empty() ? "" : " ") + angle(step.folder);
     for (const StepInput& input : step.inputs)
       if (input.port == "mirror") found += "<" + angle(input.path);
@@ -33,7 +36,8 @@ std::string offered(const std::string& angles, const std::string& config) {
 
 }  // namespace
 
-TEST_CASE("an earlier member is offered where the angles are those of an image, a mirror before a quarter turn") {
+TEST_CASE(
+    "an earlier member is offered where the angles are those of an image, a mirror before a quarter turn") {
   const std::string one = "fibre_angles: [0]";
   CHECK(offered("20, 70, 110, 160, 180, 0", one) == "020 070<020 110<070 160<020 180 000<180");
   CHECK(offered("10, 30, 45, 55", one) == "010 030 045 055");

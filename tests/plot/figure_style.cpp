@@ -1,4 +1,5 @@
-// The style of figures: sizes on paper, fonts, colours, decimal signs and formats, by what the files say of themselves.
+// The style of figures: sizes on paper, fonts, colours, decimal signs and formats, by what the
+// files say of themselves.
 #include "results/plot/figure_style.hpp"
 
 #include <doctest/doctest.h>
@@ -56,20 +57,22 @@ std::array<double, 4> four_behind(const std::string& text, const std::string& wo
 std::string pdf_of(const std::string& path) {
   const std::string file = text_of(path);
   std::string all = file;
-  for (std::size_t at = file.find("stream\n"); at != std::string::npos; at = file.find("stream\n", at + 1)) {
+  for (std::size_t at = file.find("stream\n"); at != std::string::npos;
+       at = file.find("stream\n", at + 1)) {
     std::string plain(1 << 20, '\0');
     uLongf n = plain.size();
     const std::string packed = file.substr(at + 7);
     // what is behind the stream's end is no fault of it
-    const int result =
-        uncompress(reinterpret_cast<Bytef*>(plain.data()), &n, reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+    const int result = uncompress(reinterpret_cast<Bytef*>(plain.data()), &n,
+                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
     if (result == Z_OK) all += plain.substr(0, n);
   }
   return all;
 }
 int png_width(const std::string& bytes) {
   int width = 0;
-  for (int i = 16; i < 20; ++i) width = 256 * width + static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
+  for (int i = 16; i < 20; ++i)
+    width = 256 * width + static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
   return width;
 }
 
@@ -87,8 +90,12 @@ struct TextBox {
 };
 TextBox box_of(const Label& label) {
   const double w = text_width(label.text, label.size), h = label.size;
-  const double along = label.anchor == Label::Anchor::start ? 0 : label.anchor == Label::Anchor::middle ? -w / 2 : -w;
-  if (label.turned == 90) return {label.at[0] - 0.8 * h, label.at[0] + 0.1 * h, label.at[1] - along - w, label.at[1] - along};
+  const double along = label.anchor == Label::Anchor::start    ? 0
+                       : label.anchor == Label::Anchor::middle ? -w / 2
+                                                               : -w;
+  if (label.turned == 90)
+    return {label.at[0] - 0.8 * h, label.at[0] + 0.1 * h, label.at[1] - along - w,
+            label.at[1] - along};
   return {label.at[0] + along, label.at[0] + along + w, label.at[1] - 0.75 * h, label.at[1]};
 }
 
@@ -101,19 +108,25 @@ TEST_CASE("figures have the width that was asked for, in every format") {
     std::ofstream(where + "/c.csv") << "t,u_mm\n0,0\n1,0.5\n";
     FigureStyle style = column(width);
     Pictures pictures(where, style);
-    pictures.draw("curve", Plot{"", "t", "u (mm)", {{"c.csv", "t", "u_mm", "u"}, {"c.csv", "t", "t", "t"}}});
+    pictures.draw("curve",
+                  Plot{"", "t", "u (mm)", {{"c.csv", "t", "u_mm", "u"}, {"c.csv", "t", "t", "t"}}});
     pictures.draw("matrix", heat_map(correlations(4, "a"), pictures.look()));
     REQUIRE(pictures.failed().empty());
     for (const std::string name : {"curve", "matrix"}) {
       CAPTURE(name);
       const double points = width / 25.4 * 72;
-      CHECK(std::abs(four_behind(pdf_of(where + "/" + name + ".pdf"), "/MediaBox")[2] - points) < 1);
-      CHECK(std::abs(four_behind(text_of(where + "/" + name + ".eps"), "%%BoundingBox:")[2] - points) < 1.5);
+      CHECK(std::abs(four_behind(pdf_of(where + "/" + name + ".pdf"), "/MediaBox")[2] - points) <
+            1);
+      CHECK(std::abs(four_behind(text_of(where + "/" + name + ".eps"), "%%BoundingBox:")[2] -
+                     points) < 1.5);
       CHECK(std::abs(png_width(text_of(where + "/" + name + ".png")) - width / 25.4 * 300) <= 1);
     }
-    CHECK(text_of(where + "/matrix.svg").find("width=\"" + std::to_string(static_cast<int>(width)) + "mm\"") != std::string::npos);
+    CHECK(text_of(where + "/matrix.svg")
+              .find("width=\"" + std::to_string(static_cast<int>(width)) + "mm\"") !=
+          std::string::npos);
     // gnuplot's SVG counts in 1/96 inch
-    const std::string svg_width = "width=\"" + std::to_string(std::lround(width / 25.4 * 96)) + "\"";
+    const std::string svg_width =
+        "width=\"" + std::to_string(std::lround(width / 25.4 * 96)) + "\"";
     CHECK(text_of(where + "/curve.svg").find(svg_width) != std::string::npos);
   }
 }
@@ -127,13 +140,16 @@ TEST_CASE("letters are as large on paper as they were asked to be, whatever the 
       CHECK(d.width * style.drawing_unit() == doctest::Approx(width / 25.4 * 72));
       for (const Label& label : test::marks_of<Label>(d))
         if (label.text == "a1") CHECK(label.size * style.drawing_unit() == doctest::Approx(points));
-      const std::string script = gnuplot_script(Plot{"", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style);
+      const std::string script =
+          gnuplot_script(Plot{"", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style);
       CHECK(script.find("set terminal pdfcairo") != std::string::npos);
-      CHECK(script.find("font 'DejaVu Sans," + std::to_string(static_cast<int>(points)) + "' linewidth") != std::string::npos);
+      CHECK(script.find("font 'DejaVu Sans," + std::to_string(static_cast<int>(points)) +
+                        "' linewidth") != std::string::npos);
     }
 }
 
-TEST_CASE("names of parameters in a correlation lie on the page and not on each other, however long and many") {
+TEST_CASE(
+    "names of parameters in a correlation lie on the page and not on each other, however long and many") {
   for (const double width : {0.0, 85.0, 120.0})
     for (const int n : {2, 5, 9})
       for (const std::string name : {"a", "matrix.yeoh.a", "dermis.fibres[0].hgo.c"}) {
@@ -154,21 +170,24 @@ TEST_CASE("names of parameters in a correlation lie on the page and not on each 
         for (std::size_t i = 0; i < boxes.size(); ++i)
           for (std::size_t k = 0; k < i; ++k) {
             const TextBox &a = boxes[i], &b = boxes[k];
-            const bool apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+            const bool apart =
+                a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
             INFO(width << " mm, " << n << " of " << name << ": " << i << " and " << k);
             CHECK(apart);
           }
       }
 }
 
-TEST_CASE("a stability map has no two values far apart in one colour, and its scale ends where its values do") {
+TEST_CASE(
+    "a stability map has no two values far apart in one colour, and its scale ends where its values do") {
   HeatMap map;
   map.values = (MatX(1, 6) << -20, -0.2, 0.02, 0.2, 20, 2000).finished();
   map.middle = 0.5, map.limit = 2000, map.swap_colours = true;
   const auto cells = test::marks_of<Patch>(heat_map(map));
   for (int i = 0; i < 6; ++i)
     for (int k = 0; k < i; ++k) {
-      const Colour &a = cells[static_cast<std::size_t>(i)].fill, &b = cells[static_cast<std::size_t>(k)].fill;
+      const Colour &a = cells[static_cast<std::size_t>(i)].fill,
+                   &b = cells[static_cast<std::size_t>(k)].fill;
       CHECK(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 0.03);
     }
   bool below = false, most = false;
@@ -179,8 +198,10 @@ TEST_CASE("a stability map has no two values far apart in one colour, and its sc
 }
 
 TEST_CASE("every map of colours grows in lightness and every signed one falls on both sides") {
-  for (const ColourMap map : {ColourMap::violet_yellow, ColourMap::viridis, ColourMap::cividis, ColourMap::grey})
-    for (int i = 1; i <= 50; ++i) CHECK(lightness(scale_colour(i / 50.0, map)) > lightness(scale_colour((i - 1) / 50.0, map)));
+  for (const ColourMap map :
+       {ColourMap::violet_yellow, ColourMap::viridis, ColourMap::cividis, ColourMap::grey})
+    for (int i = 1; i <= 50; ++i)
+      CHECK(lightness(scale_colour(i / 50.0, map)) > lightness(scale_colour((i - 1) / 50.0, map)));
   for (const SignedColours colours : {SignedColours::blue_red, SignedColours::green_purple})
     for (int i = 1; i <= 50; ++i)
       for (const double sign : {-1.0, 1.0}) {
@@ -197,18 +218,22 @@ TEST_CASE("a comma stands between the digits of numbers and nowhere else") {
   FigureStyle style;
   style.decimal = DecimalSign::comma;
   Drawing d{100, 50, {}};
-  d.marks = {Label{{5, 5}, "0.5", 12}, Label{{5, 25}, "version 1.2", 12, Label::Anchor::start, false, false, 0, true}};
+  d.marks = {Label{{5, 5}, "0.5", 12},
+             Label{{5, 25}, "version 1.2", 12, Label::Anchor::start, false, false, 0, true}};
   const std::string s = svg(d, style), script = gnuplot_script(d, "p", style);
   for (const std::string& text : {s, script}) {
     CHECK(text.find("0,5") != std::string::npos);
     CHECK(text.find("version 1.2") != std::string::npos);
   }
-  Plot plot{"title 0.3", "t", "u", {{"c.csv", "t", "u_mm", "0.5 mm"}, {"c.csv", "t", "u_mm", "sample 1.2"}}};
+  Plot plot{"title 0.3",
+            "t",
+            "u",
+            {{"c.csv", "t", "u_mm", "0.5 mm"}, {"c.csv", "t", "u_mm", "sample 1.2"}}};
   plot.lines[0].values = true;
   plot.marks = {{3.84, "limit 3.84"}};
   const std::string curve = gnuplot_script(plot, "f", style);
-  for (const char* text :
-       {"set decimalsign ','", "0,5\u00a0mm", "sample\u00a01.2", "title\u00a00.3", "limit\u00a03,84", "first 3.84"})
+  for (const char* text : {"set decimalsign ','", "0,5\u00a0mm", "sample\u00a01.2",
+                           "title\u00a00.3", "limit\u00a03,84", "first 3.84"})
     CHECK(curve.find(text) != std::string::npos);
 }
 
@@ -216,9 +241,10 @@ TEST_CASE("titles go into the caption where a journal wants them there") {
   FigureStyle style;
   style.titles = false;
   const Drawing d = heat_map(correlations(3, "a"), style.look());
-  for (const Label& label : test::marks_of<Label>(d)) CHECK(label.text != "correlation of the parameters");
-  CHECK(gnuplot_script(Plot{"a title", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style).find("set title") ==
-        std::string::npos);
+  for (const Label& label : test::marks_of<Label>(d))
+    CHECK(label.text != "correlation of the parameters");
+  CHECK(gnuplot_script(Plot{"a title", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style)
+            .find("set title") == std::string::npos);
   CHECK(d.height < heat_map(correlations(3, "a")).height);
 }
 

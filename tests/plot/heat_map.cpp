@@ -22,7 +22,8 @@ double height(const Patch& p) { return std::abs(p.corners[2][1] - p.corners[0][1
 
 }  // namespace
 
-TEST_CASE("A heat map has one cell per value: red above zero, blue below, grey where there is none") {
+TEST_CASE(
+    "A heat map has one cell per value: red above zero, blue below, grey where there is none") {
   HeatMap map;
   map.title = "correlation", map.x_names = map.y_names = {"a", "b"};
   map.values.resize(2, 2);
@@ -37,24 +38,30 @@ TEST_CASE("A heat map has one cell per value: red above zero, blue below, grey w
   CHECK(cells[3].fill.r == cells[3].fill.g);
   CHECK(top(cells[0]) < top(cells[2]));
   const auto labels = test::marks_of<Label>(d);
-  for (const char* text : {"correlation", "a", "b", "1", "-0.50", "0", "–"}) CHECK(label(labels, text) != nullptr);
+  for (const char* text : {"correlation", "a", "b", "1", "-0.50", "0", "–"})
+    CHECK(label(labels, text) != nullptr);
   map.first_row_on_top = false;
   const auto turned = test::marks_of<Patch>(heat_map(map));
   CHECK(top(turned[0]) > top(turned[2]));
-  for (const auto& [x, y] : cells[3].corners) CHECK((x > 0 && x < d.width && y > 0 && y < d.height));
+  for (const auto& [x, y] : cells[3].corners)
+    CHECK((x > 0 && x < d.width && y > 0 && y < d.height));
 }
 
-TEST_CASE("The line of zero runs between cells of different sign only, losses are redder the earlier they come") {
+TEST_CASE(
+    "The line of zero runs between cells of different sign only, losses are redder the earlier they come") {
   HeatMap map;
   map.values = MatX::Constant(3, 3, 1);
   map.zero_line = true;
-  const auto strokes = [&] { return test::marks_of<Stroke>(heat_map(map)).size(); };
+  const auto strokes = [&] {
+    return test::marks_of<Stroke>(heat_map(map)).size();
+  };
   const std::size_t axes = strokes();
   map.values(1, 1) = -1;
   CHECK(strokes() == axes + 4);
   map.zero_line = false;
   CHECK(strokes() == axes);
-  map.losses = true, map.values = (MatX(1, 3) << 0, 0.5, std::numeric_limits<double>::infinity()).finished();
+  map.losses = true,
+  map.values = (MatX(1, 3) << 0, 0.5, std::numeric_limits<double>::infinity()).finished();
   const auto cells = test::marks_of<Patch>(heat_map(map));
   REQUIRE(cells.size() == 3);  // no scale
   CHECK(cells[0].fill.g < cells[1].fill.g);
@@ -74,7 +81,8 @@ TEST_CASE("Bars are as high as their values, intervals stand on them, a missing 
   for (const char* text : {"zone", "a1", "c1", "c2"}) CHECK(label(labels, text) != nullptr);
   int vertical = 0;
   for (const Stroke& s : test::marks_of<Stroke>(d))
-    if (s.points[0][0] == s.points[1][0] && std::abs(s.points[0][1] - s.points[1][1]) == doctest::Approx(0.5 * height(patches[0])))
+    if (s.points[0][0] == s.points[1][0] &&
+        std::abs(s.points[0][1] - s.points[1][1]) == doctest::Approx(0.5 * height(patches[0])))
       ++vertical;
   CHECK(vertical == 1);
 }

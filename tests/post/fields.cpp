@@ -6,11 +6,11 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "core/tensor/stress.hpp"
 #include "mechanics/material/uniaxial.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 
@@ -37,7 +37,8 @@ GaussValues filled(const Body& body, const auto& value) {
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     gauss[e].resize(body.geometry(e).n_gauss(), body.n_values());
     for (int g = 0; g < gauss[e].rows(); ++g)
-      for (int c = 0; c < body.n_values(); ++c) gauss[e](g, c) = value(gauss_position(body.mesh(), e, g), c);
+      for (int c = 0; c < body.n_values(); ++c)
+        gauss[e](g, c) = value(gauss_position(body.mesh(), e, g), c);
   }
   return gauss;
 }
@@ -46,23 +47,27 @@ constexpr double rounding = 1e-12;  // of numbers of order one, after a few hund
 
 }  // namespace
 
-TEST_CASE("a homogeneous deformation has the same values at every Gauss point, in every element, at every node") {
+TEST_CASE(
+    "a homogeneous deformation has the same values at every Gauss point, in every element, at every node") {
   const Mesh mesh = distorted();
   for (Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation}) {
     const Body body = test::body(mesh, {test::table1(30, 0.5)}, formulation);
     const GaussValues gauss = gauss_values(body, homogeneous(mesh, some_F));
     const VecX expected = gauss[0].row(0).transpose();
     CHECK(expected.head<6>().norm() > 0.1);
-    for (int e = 0; e < mesh.n_cells(); ++e) CHECK((element_mean(body, e, gauss[e]) - expected).norm() < rounding);
+    for (int e = 0; e < mesh.n_cells(); ++e)
+      CHECK((element_mean(body, e, gauss[e]) - expected).norm() < rounding);
     for (int node = 0; node < mesh.n_nodes(); ++node)
       for (StressAt at : {StressAt::nodal_average, StressAt::nearest_gauss})
         CHECK((node_values(body, node, gauss, at) - expected).norm() < rounding);
     for (int e = 0; e < mesh.n_cells(); ++e)
-      CHECK((mean_deformation_gradient(body, homogeneous(mesh, some_F), e) - some_F).norm() < rounding);
+      CHECK((mean_deformation_gradient(body, homogeneous(mesh, some_F), e) - some_F).norm() <
+            rounding);
   }
 }
 
-TEST_CASE("values of a homogeneous deformation are those of the law: stress, J, fibre stretch sqrt(I4_bar)") {
+TEST_CASE(
+    "values of a homogeneous deformation are those of the law: stress, J, fibre stretch sqrt(I4_bar)") {
   const Mesh mesh = distorted();
   const Material material = test::table1(30, 0.5);
   const Body body = test::body(mesh, {material}, Formulation::displacement);
@@ -72,19 +77,25 @@ TEST_CASE("values of a homogeneous deformation are those of the law: stress, J, 
   CHECK((sigma_of(row) - sigma).norm() < rounding);
   CHECK(J_of(row) == doctest::Approx(some_F.determinant()).epsilon(rounding));
   const double I4 = (some_F * a[0]).squaredNorm();
-  CHECK(fibre_stretch_of(row, 0) == doctest::Approx(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3))).epsilon(rounding));
+  CHECK(
+      fibre_stretch_of(row, 0) ==
+      doctest::Approx(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3))).epsilon(rounding));
 }
 
 TEST_CASE("a linear field is reproduced exactly by nodal averages, on distorted elements too") {
-  // the position is trilinear in an element's own coordinates, so a linear function of it is extrapolated without error
+  // the position is trilinear in an element's own coordinates, so a linear function of it is
+  // extrapolated without error
   for (const Mesh& mesh : {distorted(), test::raised_block(distorted())}) {
     const Body body = test::body(mesh, {test::table1(30, 1e-3)}, usual_formulation(mesh.type));
-    const auto linear = [](const Vec3& X, int c) { return (c + 1) * X[0] - 2 * X[1] + 0.5 * c * X[2] - c; };
+    const auto linear = [](const Vec3& X, int c) {
+      return (c + 1) * X[0] - 2 * X[1] + 0.5 * c * X[2] - c;
+    };
     const GaussValues gauss = filled(body, linear);
     for (int node = 0; node < mesh.n_nodes(); ++node) {
       const VecX row = node_values(body, node, gauss, StressAt::nodal_average);
       for (int c = 0; c < body.n_values(); ++c)
-        if (c != 6) CHECK(row[c] == doctest::Approx(linear(mesh.X[node], c)).epsilon(1e-11));  // J: see below
+        if (c != 6)
+          CHECK(row[c] == doctest::Approx(linear(mesh.X[node], c)).epsilon(1e-11));  // J: see below
     }
   }
 }
@@ -94,12 +105,15 @@ TEST_CASE("J of a node lies within the values of the points of its cells, howeve
   std::uniform_real_distribution<double> swing(-1, 1);
   for (const Mesh& mesh : {distorted(), test::raised_block(distorted())}) {
     const Body body = test::body(mesh, {test::table1(30, 1e-6)}, usual_formulation(mesh.type));
-    const GaussValues gauss = filled(body, [&](const Vec3&, int c) { return c == 6 ? 1 + 1e-2 * swing(random) : swing(random); });
+    const GaussValues gauss = filled(body, [&](const Vec3&, int c) {
+      return c == 6 ? 1 + 1e-2 * swing(random) : swing(random);
+    });
     int beyond = 0;
     for (int node = 0; node < mesh.n_nodes(); ++node) {
       double least = 2, most = 0, stress = 0;
       for (const auto [e, a] : body.corners(node)) {
-        least = std::min(least, gauss[e].col(6).minCoeff()), most = std::max(most, gauss[e].col(6).maxCoeff());
+        least = std::min(least, gauss[e].col(6).minCoeff()),
+        most = std::max(most, gauss[e].col(6).maxCoeff());
         stress = std::max(stress, gauss[e].col(0).cwiseAbs().maxCoeff());
       }
       for (StressAt at : {StressAt::nodal_average, StressAt::nearest_gauss}) {
@@ -116,11 +130,14 @@ TEST_CASE("J of a node lies within the values of the points of its cells, howeve
 TEST_CASE("an element's mean of a linear field is its value at the centre of a brick") {
   const Mesh mesh = test::block({0, 1, 3}, {0, 0.5}, {-1, 2});
   const Body body = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
-  const auto linear = [](const Vec3& X, int c) { return X[0] + 2 * X[1] - c * X[2]; };
+  const auto linear = [](const Vec3& X, int c) {
+    return X[0] + 2 * X[1] - c * X[2];
+  };
   const GaussValues gauss = filled(body, linear);
   for (int e = 0; e < 2; ++e) {
     const Vec3 centre = element_nodes(mesh, e).colwise().mean();
-    for (int c = 0; c < 7; ++c) CHECK(element_mean(body, e, gauss[e])[c] == doctest::Approx(linear(centre, c)));
+    for (int c = 0; c < 7; ++c)
+      CHECK(element_mean(body, e, gauss[e])[c] == doctest::Approx(linear(centre, c)));
   }
 }
 
@@ -130,7 +147,9 @@ TEST_CASE("averages over the elements at a node are weighted with their referenc
   const GaussValues gauss = filled(body, [](const Vec3& X, int) { return X[0] < 1 ? 10.0 : 2.0; });
   for (int node = 0; node < mesh.n_nodes(); ++node)
     for (StressAt at : {StressAt::nodal_average, StressAt::nearest_gauss}) {
-      const double x = mesh.X[node][0], expected = x == 0 ? 10 : x == 4 ? 2 : (10 * 1 + 2 * 3) / 4.0;
+      const double x = mesh.X[node][0], expected = x == 0   ? 10
+                                                   : x == 4 ? 2
+                                                            : (10 * 1 + 2 * 3) / 4.0;
       CHECK(node_values(body, node, gauss, at)[0] == doctest::Approx(expected));
     }
 }
@@ -149,9 +168,11 @@ TEST_CASE("the nearest Gauss point is the nearest of all, in each element at the
       if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
       int nearest = 0;
       for (int g = 1; g < 8; ++g)
-        if ((gauss_position(mesh, e, g) - mesh.X[node]).norm() < (gauss_position(mesh, e, nearest) - mesh.X[node]).norm())
+        if ((gauss_position(mesh, e, g) - mesh.X[node]).norm() <
+            (gauss_position(mesh, e, nearest) - mesh.X[node]).norm())
           nearest = g;
-      sum += element_geometry(element_nodes(mesh, e)).V * (8 * e + nearest), V += element_geometry(element_nodes(mesh, e)).V;
+      sum += element_geometry(element_nodes(mesh, e)).V * (8 * e + nearest),
+          V += element_geometry(element_nodes(mesh, e)).V;
     }
     CHECK(node_values(body, node, gauss, StressAt::nearest_gauss)[0] == doctest::Approx(sum / V));
   }
@@ -161,29 +182,38 @@ TEST_CASE("bodies of different materials are never averaged, of one material the
   Mesh mesh = test::block({0, 1, 2}, {0, 1}, {0, 1});
   mesh.bodies = {"skin", "fat"};
   mesh.body = {0, 1};
-  const auto by_cell = [](const Vec3& X, int) { return X[0] < 1 ? 10.0 : 2.0; };
-  const Body two = test::body(mesh, {test::neo_hooke(1, 1), test::table1(0, 1)}, Formulation::displacement);
+  const auto by_cell = [](const Vec3& X, int) {
+    return X[0] < 1 ? 10.0 : 2.0;
+  };
+  const Body two =
+      test::body(mesh, {test::neo_hooke(1, 1), test::table1(0, 1)}, Formulation::displacement);
   const Body one = test::body(mesh, {test::neo_hooke(1, 1)}, Formulation::displacement);
   CHECK(two.n_families() == 1);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     const double x = mesh.X[node][0];
-    CHECK(node_values(two, node, filled(two, by_cell), StressAt::nodal_average)[0] == doctest::Approx(x < 2 ? 10 : 2));
-    CHECK(node_values(one, node, filled(one, by_cell), StressAt::nodal_average)[0] == doctest::Approx(x == 0   ? 10
-                                                                                                      : x == 1 ? 6
-                                                                                                               : 2));
+    CHECK(node_values(two, node, filled(two, by_cell), StressAt::nodal_average)[0] ==
+          doctest::Approx(x < 2 ? 10 : 2));
+    CHECK(node_values(one, node, filled(one, by_cell), StressAt::nodal_average)[0] ==
+          doctest::Approx(x == 0   ? 10
+                          : x == 1 ? 6
+                                   : 2));
   }
 }
 
 TEST_CASE("von Mises and principal stresses: closed forms") {
   const double s = 3, t = 0.7;
-  const auto vm = [](const Mat3& sigma) { return von_mises(sigma); };
+  const auto vm = [](const Mat3& sigma) {
+    return von_mises(sigma);
+  };
   CHECK(vm(Vec3(s, 0, 0).asDiagonal()) == doctest::Approx(s));
   CHECK(vm(-s * Mat3::Identity()) == doctest::Approx(0).epsilon(1e-15));
   Mat3 shear = Mat3::Zero();
   shear(0, 2) = shear(2, 0) = t;
   CHECK(vm(shear) == doctest::Approx(std::sqrt(3.0) * t));
   CHECK((principal_stresses(shear) - Vec3(t, 0, -t)).norm() < 1e-15);
-  Mat3 plane = Vec3(5, 1, 2).asDiagonal();  // Mohr's circle of x and y: centre 3, radius sqrt(2^2 + 1.5^2) = 2.5
+  Mat3 plane =
+      Vec3(5, 1, 2)
+          .asDiagonal();  // Mohr's circle of x and y: centre 3, radius sqrt(2^2 + 1.5^2) = 2.5
   plane(0, 1) = plane(1, 0) = 1.5;
   CHECK((principal_stresses(plane) - Vec3(5.5, 2, 0.5)).norm() < 1e-14);
   CHECK(mean_stress(plane) == doctest::Approx(8.0 / 3));
@@ -204,7 +234,8 @@ TEST_CASE("uniaxial tension along the fibre: the law's own stress at every node,
       CHECK(sigma_of(row)(0, 0) == doctest::Approx(state.sigma).epsilon(1e-8));
       CHECK(von_mises(sigma_of(row)) == doctest::Approx(std::abs(state.sigma)).epsilon(1e-8));
       CHECK((sigma_of(row) - state.sigma * Mat3(Vec3(1, 0, 0).asDiagonal())).norm() < 1e-8);
-      CHECK(fibre_stretch_of(row, 0) == doctest::Approx(lambda / std::cbrt(J_of(row))).epsilon(1e-10));
+      CHECK(fibre_stretch_of(row, 0) ==
+            doctest::Approx(lambda / std::cbrt(J_of(row))).epsilon(1e-10));
     }
   }
 }

@@ -24,14 +24,16 @@ SurfaceMap ring(double radius) {
   map.places = {{4, 0}}, map.values = {1};
   for (int i = 0; i < 32; ++i) {
     const double angle = 2 * std::numbers::pi * i / 32;
-    map.places.push_back({radius * std::cos(angle), radius * std::sin(angle)}), map.values.push_back(0.5);
+    map.places.push_back({radius * std::cos(angle), radius * std::sin(angle)}),
+        map.values.push_back(0.5);
   }
   return map;
 }
 
 }  // namespace
 
-TEST_CASE("nodes nearer than `beyond` do not count in the difference of two maps, a ring of nodes just there does as a whole") {
+TEST_CASE(
+    "nodes nearer than `beyond` do not count in the difference of two maps, a ring of nodes just there does as a whole") {
   CHECK(difference(square(1), ring(2.9), 3) == 0);
   CHECK(difference(square(1), ring(3.1), 3) == doctest::Approx(0.5));
   // as other programs and roundings place it

@@ -107,7 +107,8 @@ TEST_CASE("along z the picture is the x-y plane to scale, coloured by the nodes'
   REQUIRE(whole.corners.size() == 4);
   double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
   for (const PagePoint& c : whole.corners)
-    x0 = std::min(x0, c[0]), x1 = std::max(x1, c[0]), y0 = std::min(y0, c[1]), y1 = std::max(y1, c[1]);
+    x0 = std::min(x0, c[0]), x1 = std::max(x1, c[0]), y0 = std::min(y0, c[1]),
+    y1 = std::max(y1, c[1]);
   CHECK((x1 - x0) / (y1 - y0) == doctest::Approx(2));
   // upper parts are lighter: their value is larger, the shade is the same
   double above = 0, below = 100;
@@ -148,12 +149,15 @@ TEST_CASE("cuts leave out cells and cut the sphere, whose disc then faces the ey
   CHECK(test::marks_of<Patch>(bare).empty());
 }
 
-TEST_CASE("a cut along z, as of a block, leaves a section as it is: the section lies in that plane") {
+TEST_CASE(
+    "a cut along z, as of a block, leaves a section as it is: the section lies in that plane") {
   Mesh mesh = test::cube(3);
   mesh.section = Section{SectionOf::plane_strain};
   RenderScene scene = scene_of(mesh);
   RenderChoice choice;
-  const auto patches = [&] { return test::marks_of<Patch>(render(scene, choice)).size(); };
+  const auto patches = [&] {
+    return test::marks_of<Patch>(render(scene, choice)).size();
+  };
   const std::size_t whole = patches();
   REQUIRE(whole >= 9);
   for (const Side side : {Side::below, Side::above}) {
@@ -170,7 +174,8 @@ TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth")
   Facets facets;
   facets.rounding = 0.05;
   facets.tree = std::make_shared<TriangleTree>(
-      Triangles{{{0, 1.2, 0}, {1, 1.2, 0}, {0, 1.2, 1}, {0.3, 2, 0.3}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}});
+      Triangles{{{0, 1.2, 0}, {1, 1.2, 0}, {0, 1.2, 1}, {0.3, 2, 0.3}},
+                {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}});
   const std::vector<Indenter> shapes{Sphere{0.4, {0.5, 1.4, 0.5}},
                                      Plane{{0, 1, 0}, {0, -1, 0}},
                                      Cylinder{0.3, 0.1, {0.2, 1, 0.2}},
@@ -178,7 +183,9 @@ TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth")
                                      facets,
                                      Aperture{0.3, 0.1, {0.5, 1, 0.5}}};
   REQUIRE(shapes.size() == std::variant_size_v<Indenter>);
-  const auto marks = [&](const RenderScene& s) { return render(s, {}).marks.size(); };
+  const auto marks = [&](const RenderScene& s) {
+    return render(s, {}).marks.size();
+  };
   const std::size_t bare = marks(scene);
   for (const Indenter& shape : shapes) {
     RenderScene alone = scene;
@@ -193,14 +200,16 @@ TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth")
 
 TEST_CASE("SVG and gnuplot script show the same marks, and texts cannot break out of either") {
   Drawing drawing{100, 50, {}};
-  drawing.marks = {Patch{{{0, 0}, {10, 0}, {10, 10}}, Colour{1, 0, 0}}, Stroke{{{0, 0}, {10, 0}}, Colour{}},
+  drawing.marks = {Patch{{{0, 0}, {10, 0}, {10, 10}}, Colour{1, 0, 0}},
+                   Stroke{{{0, 0}, {10, 0}}, Colour{}},
                    Label{{5, 5}, "a <b> & 'c'\n`touch broken` \"d\"", 12}};
   const std::string s = svg(drawing, FigureStyle());
   CHECK(count(s, "<polygon") == 1);
   CHECK(count(s, "<polyline") == 1);
   CHECK(s.find("a &lt;b&gt; &amp; 'c' `touch broken`") != std::string::npos);
   const std::string script = gnuplot_script(drawing, "p", FigureStyle());
-  CHECK(count(script, "0.00 50.00 16711680\n10.00 50.00 16711680\n10.00 40.00 16711680\n\n") == 1);  // the patch, y upwards, red
+  CHECK(count(script, "0.00 50.00 16711680\n10.00 50.00 16711680\n10.00 40.00 16711680\n\n") ==
+        1);                              // the patch, y upwards, red
   CHECK(count(script, ".50 0\n") == 4);  // the stroke as a black rectangle
   CHECK(count(script, "\n\n") == 2);
   CHECK(script.find("set label 'a <b> & ''c'' `touch broken` \"d\"'") != std::string::npos);
@@ -217,27 +226,34 @@ TEST_CASE("labels of quantities have subscripts in both pictures, other labels s
   drawing.marks = {Label{{5, 5}, "stress σ_{xx} (mm^2, a\\_b) < u_y", 20, Label::Anchor::end, true},
                    Label{{5, 25}, "my_file_{x}", 12}};
   const std::string s = svg(drawing, FigureStyle());
-  CHECK(s.find(">stress σ<tspan dy=\"5.00\" font-size=\"14.00\">xx</tspan><tspan dy=\"-5.00\" font-size=\"20.00\"> (mm</tspan>"
-               "<tspan dy=\"-5.00\" font-size=\"14.00\">2</tspan><tspan dy=\"5.00\" font-size=\"20.00\">, a_b) &lt; u</tspan>"
-               "<tspan dy=\"5.00\" font-size=\"14.00\">y</tspan></text>") != std::string::npos);
+  CHECK(
+      s.find(
+          ">stress σ<tspan dy=\"5.00\" font-size=\"14.00\">xx</tspan><tspan dy=\"-5.00\" font-size=\"20.00\"> (mm</tspan>"
+          "<tspan dy=\"-5.00\" font-size=\"14.00\">2</tspan><tspan dy=\"5.00\" font-size=\"20.00\">, a_b) &lt; u</tspan>"
+          "<tspan dy=\"5.00\" font-size=\"14.00\">y</tspan></text>") != std::string::npos);
   CHECK(s.find(">my_file_{x}</text>") != std::string::npos);
   const std::string script = gnuplot_script(drawing, "p", FigureStyle());
   CHECK(script.find("right front enhanced") != std::string::npos);
-  CHECK(script.find("set label 'my_file_{x}' at 5.00,29.20 left front noenhanced") != std::string::npos);
+  CHECK(script.find("set label 'my_file_{x}' at 5.00,29.20 left front noenhanced") !=
+        std::string::npos);
 }
 
-TEST_CASE("a figure takes its columns by name, labels carry units, legends are the columns or what the user says") {
+TEST_CASE(
+    "a figure takes its columns by name, labels carry units, legends are the columns or what the user says") {
   const auto column = [](Quantity of, const char* at = nullptr) {
     ColumnChoice c;
     c.quantity = of;
     if (at) c.at = at;
     return c;
   };
-  const std::vector<ColumnChoice> columns{column(quantity("u_ind")), column(quantity("u_y"), "A"), column(quantity("u_y"), "B"),
+  const std::vector<ColumnChoice> columns{column(quantity("u_ind")), column(quantity("u_y"), "A"),
+                                          column(quantity("u_y"), "B"),
                                           column(quantity("u_x"), "A")};
   FigureChoice figure;
   figure.x = "u_ind", figure.y = {"u_y_A", "u_y_B"}, figure.title = "it's a title";
-  const auto head = [](const std::string& name, const std::string& unit) { return name + "_" + unit; };
+  const auto head = [](const std::string& name, const std::string& unit) {
+    return name + "_" + unit;
+  };
   Plot plot = plot_of(figure, columns, "curves.csv", head);
   CHECK(plot.x_label == "indenter travel (mm)");
   CHECK(plot.y_label == "displacement u_y (mm)");
@@ -263,18 +279,22 @@ TEST_CASE("a column whose error stands beside it has a band in its figure") {
   figure.x = "u_ind", figure.y = {"force"};
   const Plot with = plot_of(figure, columns, "c.csv", csv_name);
   CHECK(with.lines.at(0).error == "force_error_N");
-  CHECK(gnuplot_script(with, "f", FigureStyle()).find("(column('force_N')-column('force_error_N'))") != std::string::npos);
+  CHECK(gnuplot_script(with, "f", FigureStyle())
+            .find("(column('force_N')-column('force_error_N'))") != std::string::npos);
   columns.pop_back();
   const Plot without = plot_of(figure, columns, "c.csv", csv_name);
   CHECK(without.lines.at(0).error.empty());
   CHECK(gnuplot_script(without, "f", FigureStyle()).find("filledcurves") == std::string::npos);
 }
 
-TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, and so is its absence") {
+TEST_CASE(
+    "gnuplot draws a figure from a CSV file, its complaint is reported, and so is its absence") {
   const std::string where = folder("figure");
   write(where + "/curves.csv", "t,u_mm,force_N\n0,0,0\n1,0.5,2\n2,1,8\n");
-  Plot plot{
-      "Force `touch broken`", "u (mm)", "F (N)", {{"curves.csv", "u_mm", "force_N", "it's"}, {"curves.csv", "u_mm", "t", "t"}}};
+  Plot plot{"Force `touch broken`",
+            "u (mm)",
+            "F (N)",
+            {{"curves.csv", "u_mm", "force_N", "it's"}, {"curves.csv", "u_mm", "t", "t"}}};
   write(where + "/f.gp", gnuplot_script(plot, "f", FigureStyle()));
   if (has_gnuplot()) {
     CHECK(run_gnuplot(where, "f.gp") == "");
@@ -295,12 +315,16 @@ TEST_CASE("gnuplot draws a figure from a CSV file, its complaint is reported, an
   CHECK(said == "there is no gnuplot on the PATH");
 }
 
-TEST_CASE("names of files that gnuplot would take for a pipe, a stream or a block of data are names of files") {
+TEST_CASE(
+    "names of files that gnuplot would take for a pipe, a stream or a block of data are names of files") {
   const std::string where = folder("names");
-  for (const std::string name : {"<touch run #", "|touch run #", "-", "$data", "+", "--help", "'x"}) {
+  for (const std::string name :
+       {"<touch run #", "|touch run #", "-", "$data", "+", "--help", "'x"}) {
     CAPTURE(name);
     write(where + "/" + name + ".csv", "t,u_mm\n0,0\n1,0.5\n");
-    write(where + "/" + name + ".gp", gnuplot_script(Plot{"", "t", "u", {{name + ".csv", "t", "u_mm", "u"}}}, name, FigureStyle()));
+    write(where + "/" + name + ".gp",
+          gnuplot_script(Plot{"", "t", "u", {{name + ".csv", "t", "u_mm", "u"}}}, name,
+                         FigureStyle()));
     if (!has_gnuplot()) continue;
     CHECK(run_gnuplot(where, name + ".gp") == "");
     CHECK(text_of(where + "/" + name + ".svg").find("</svg>") != std::string::npos);
@@ -310,14 +334,16 @@ TEST_CASE("names of files that gnuplot would take for a pipe, a stream or a bloc
   }
 }
 
-TEST_CASE("a body without a field is drawn plain, with its points, the edges at rest and what holds and moves it") {
+TEST_CASE(
+    "a body without a field is drawn plain, with its points, the edges at rest and what holds and moves it") {
   const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 1, 1));
   RenderScene scene{mesh, mesh.X, {}, "", {}};
   for (Vec3& x : scene.x) x[0] *= 1.5;
   RenderChoice choice;
   CHECK(choice.complaints().empty());
   const std::size_t plain_strokes = test::marks_of<Stroke>(render(scene, choice)).size();
-  for (const Patch& patch : test::marks_of<Patch>(render(scene, choice))) {  // shades of one paper: no colour of the scale
+  for (const Patch& patch : test::marks_of<Patch>(
+           render(scene, choice))) {  // shades of one paper: no colour of the scale
     CHECK(patch.fill.r >= patch.fill.b);
     CHECK(patch.fill.r < 1.1 * patch.fill.b);
   }
@@ -325,7 +351,8 @@ TEST_CASE("a body without a field is drawn plain, with its points, the edges at 
   CHECK(test::marks_of<Stroke>(render(scene, choice)).size() ==
         plain_strokes + 4 * (3 + 2 + 1));  // the box's twelve edges, cell by cell
   scene.points = {{"B", scene.x.back()}};
-  scene.actions = {{{Vec3(4.5, 1, 0.5)}, Vec3::UnitX(), true, "u_x = 1 mm"}, {{Vec3(0, 1, 0.5)}, Vec3::UnitX(), false, "u_x = 0"}};
+  scene.actions = {{{Vec3(4.5, 1, 0.5)}, Vec3::UnitX(), true, "u_x = 1 mm"},
+                   {{Vec3(0, 1, 0.5)}, Vec3::UnitX(), false, "u_x = 0"}};
   const Drawing drawing = render(scene, choice);
   std::map<std::string, PagePoint> labels;
   for (const Label& label : test::marks_of<Label>(drawing)) labels[label.text] = label.at;
@@ -346,7 +373,8 @@ TEST_CASE("no label of a map's axes stands on another, whatever the reach") {
     std::vector<Label> labels = test::marks_of<Label>(map_drawing({{"", &map}}, style));
     for (std::size_t i = 0; i < labels.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
-        if (labels[i].anchor == Label::Anchor::end && labels[k].at[0] == labels[i].at[0]) {  // those of the z axis
+        if (labels[i].anchor == Label::Anchor::end &&
+            labels[k].at[0] == labels[i].at[0]) {  // those of the z axis
           INFO(reach << " " << labels[i].text << " " << labels[k].text);
           CHECK(std::abs(labels[i].at[1] - labels[k].at[1]) >= 14);
         }

@@ -9,14 +9,14 @@
 #include <sstream>
 
 #include "core/hdf5/h5.hpp"
-#include "scene/model/solve_config_io.hpp"
-#include "scene/model/solve_config.hpp"
+#include "core/tensor/stress.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/solve_config.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "support/block.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -77,7 +77,8 @@ struct Ended {
 };
 Ended post(const std::string& where, const std::string& config, const std::string& options = "") {
   std::ofstream(where + "/post.yaml") << config;
-  const std::string command = "cd " + where + " && " + BIN_DIR + "/langer-post post.yaml --solution solution.h5 -o out/curves.h5 " +
+  const std::string command = "cd " + where + " && " + BIN_DIR +
+                              "/langer-post post.yaml --solution solution.h5 -o out/curves.h5 " +
                               options + " > said 2>&1";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(where + "/said")};
@@ -97,14 +98,16 @@ const std::string columns = R"(columns:
 
 TEST_CASE("the table has one row per state, the unloaded one first, and columns named with units") {
   const std::string where = folder("table");
-  const Ended run = post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n");
+  const Ended run =
+      post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n");
   INFO(run.said);
   REQUIRE(run.code == 0);
   std::istringstream csv(text_of(where + "/out/curves.csv"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   REQUIRE(lines.size() == 1 + n_steps + 1);
-  CHECK(lines[0] == "u_ind_mm,force_N,eps_xx_x_max,u_y_mm,von_mises_A_MPa,newton_iterations,contact_nodes");
+  CHECK(lines[0] ==
+        "u_ind_mm,force_N,eps_xx_x_max,u_y_mm,von_mises_A_MPa,newton_iterations,contact_nodes");
   CHECK(lines[1] == "0,0,0,0,0,0,0");
   const CurvesFile file = read_curves(where + "/out/curves.h5");
   REQUIRE(file.curves.columns.size() == 7);
@@ -115,22 +118,30 @@ TEST_CASE("the table has one row per state, the unloaded one first, and columns 
   CHECK(file.curves.columns[6].values == std::vector<double>{0, 2, 2, 2, 2});
 }
 
-TEST_CASE("zero_at takes a column's value at a state from all of them, and wants a state at which the path stops") {
+TEST_CASE(
+    "zero_at takes a column's value at a state from all of them, and wants a state at which the path stops") {
   const std::string where = folder("zero_at");
   REQUIRE(
-      post(where, "columns:\n- {quantity: u_ind}\n- {quantity: force, zero_at: t=0.5}\n- {history: energy, zero_at: 1}\n").code ==
-      0);
+      post(
+          where,
+          "columns:\n- {quantity: u_ind}\n- {quantity: force, zero_at: t=0.5}\n- {history: energy, zero_at: 1}\n")
+          .code == 0);
   const CurvesFile file = read_curves(where + "/out/curves.h5");
   CHECK(file.curves.columns[1].values == std::vector<double>{-1, -0.5, 0, 0.5, 1});
   CHECK(file.curves.columns[2].values == std::vector<double>{-0.0625, 0, 0.1875, 0.5, 0.9375});
   const Ended between = post(where, "columns:\n- {quantity: u_ind, zero_at: t=0.4}\n");
   CHECK(between.code == 2);
-  CHECK(between.said.find("post.yaml:2:21: columns[0].zero_at: t=0.4; expected a state of the solution") != std::string::npos);
+  CHECK(between.said.find(
+            "post.yaml:2:21: columns[0].zero_at: t=0.4; expected a state of the solution") !=
+        std::string::npos);
 }
 
-TEST_CASE("the summary is the last row with what stands beyond the table, every column is a curve over the first") {
+TEST_CASE(
+    "the summary is the last row with what stands beyond the table, every column is a curve over the first") {
   const std::string where = folder("summary");
-  REQUIRE(post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n").code == 0);
+  REQUIRE(
+      post(where, columns + "further:\n- {history: energy}\n- {quantity: reaction_x, at: x_max}\n")
+          .code == 0);
   const CurvesFile file = read_curves(where + "/out/curves.h5");
   std::map<std::string, Summary> summary;
   for (const Summary& s : read_summary(where + "/out/curves.h5")) summary[s.name] = s;
@@ -146,7 +157,8 @@ TEST_CASE("the summary is the last row with what stands beyond the table, every 
   }
 }
 
-TEST_CASE("snapshots are the states asked for, with fields at points and in cells that fit together") {
+TEST_CASE(
+    "snapshots are the states asked for, with fields at points and in cells that fit together") {
   const std::string where = folder("snapshots");
   const Ended run = post(where, columns + "snapshots: [last, 1, t=0.4]\n");
   INFO(run.said);
@@ -154,17 +166,20 @@ TEST_CASE("snapshots are the states asked for, with fields at points and in cell
   for (const char* name : {"snapshot_0001.hdf", "snapshot_0002.hdf", "snapshot_0004.hdf"})
     CHECK(fs::exists(where + "/out/" + name));
   const h5::File file = h5::File::open(where + "/out/snapshot_0004.hdf");
-  const h5::Group points = file.root().group("VTKHDF/PointData"), cells = file.root().group("VTKHDF/CellData");
+  const h5::Group points = file.root().group("VTKHDF/PointData"),
+                  cells = file.root().group("VTKHDF/CellData");
   const std::size_t n = header().mesh.X.size();
   const auto sigma = points.read<double>("sigma", {n, 6}).values;
   const auto cell_sigma = cells.read<double>("sigma", {3, 6}).values;
   CHECK(std::abs(sigma[0]) > 1e-3);
   for (int c = 0; c < 6; ++c)  // the deformation is homogeneous
-    for (std::size_t i = 0; i < n; ++i) CHECK(sigma[6 * i + c] == doctest::Approx(cell_sigma[c]).epsilon(1e-9));
+    for (std::size_t i = 0; i < n; ++i)
+      CHECK(sigma[6 * i + c] == doctest::Approx(cell_sigma[c]).epsilon(1e-9));
   CHECK(points.unit("sigma") == "MPa");
   CHECK(points.read<double>("u", {n, 3}).values[3 * (n - 1)] == doctest::Approx(0.3));
   const auto status = points.read<double>("contact_status_ball", {n}).values;
-  CHECK(std::vector<double>(status.begin() + 3, status.begin() + 8) == std::vector<double>{-1, 1, 2, 0, -1});
+  CHECK(std::vector<double>(status.begin() + 3, status.begin() + 8) ==
+        std::vector<double>{-1, 1, 2, 0, -1});
   const auto after = cells.read<double>("fibre_1_deformed", {3, 3}).values;
   CHECK(after[0] == doctest::Approx(1.1));
   CHECK(cells.read<double>("fibre_1", {3, 3}).values[0] == 1);
@@ -193,10 +208,11 @@ TEST_CASE(
     writer.finish();
   }
   fs::rename(where + "/layers.h5", where + "/solution.h5");
-  const Ended run = post(where,
-                         "columns:\n- {quantity: u_ind}\n- {quantity: von_mises, at: P}\n- {quantity: von_mises, at: Q}\n"
-                         "- {quantity: fibre_stretch, at: P}\n- {quantity: fibre_stretch, at: Q}\n- {quantity: von_mises_max}\n"
-                         "- {quantity: von_mises_max_x}\n");
+  const Ended run = post(
+      where,
+      "columns:\n- {quantity: u_ind}\n- {quantity: von_mises, at: P}\n- {quantity: von_mises, at: Q}\n"
+      "- {quantity: fibre_stretch, at: P}\n- {quantity: fibre_stretch, at: Q}\n- {quantity: von_mises_max}\n"
+      "- {quantity: von_mises_max_x}\n");
   INFO(run.said);
   REQUIRE(run.code == 0);
   const std::vector<Column> columns = read_curves(where + "/out/curves.h5").curves.columns;
@@ -211,7 +227,8 @@ TEST_CASE(
       const double expected = von_mises(cauchy(F, response(m, F.transpose() * F, a).S));
       CHECK(columns[1 + body].values[row] == doctest::Approx(expected).epsilon(1e-10));
       CHECK(columns[3 + body].values[row] ==
-            doctest::Approx((F * a[0]).norm() / std::cbrt(F(0, 0) * F(1, 1) * F(2, 2))).epsilon(1e-10));
+            doctest::Approx((F * a[0]).norm() / std::cbrt(F(0, 0) * F(1, 1) * F(2, 2)))
+                .epsilon(1e-10));
     }
     CHECK(columns[2].values[row] > 1.1 * columns[1].values[row]);
     CHECK(columns[5].values[row] == doctest::Approx(columns[2].values[row]).epsilon(1e-10));
@@ -219,40 +236,50 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("figures and the picture stand beside the table, without gnuplot it says so once and goes on") {
+TEST_CASE(
+    "figures and the picture stand beside the table, without gnuplot it says so once and goes on") {
   const std::string where = folder("figures");
   const std::string config =
-      columns + "figures:\n  force: {x: u_ind, y: [force]}\nrender: {field: u_x, cuts: [{axis: z, at: 0.5}]}\n";
+      columns +
+      "figures:\n  force: {x: u_ind, y: [force]}\nrender: {field: u_x, cuts: [{axis: z, at: 0.5}]}\n";
   fs::create_directories(where + "/nothing");
   const Ended run = post(where, config, "--set snapshots=[]");
   CHECK(run.code == 0);
   CHECK(fs::exists(where + "/out/force.gp"));
   CHECK(text_of(where + "/out/render.svg").find("displacement u<tspan") != std::string::npos);
   if (std::system("command -v gnuplot > /dev/null 2>&1") == 0)
-    for (const char* name : {"force.svg", "force.png", "render.png"}) CHECK(fs::exists(where + "/out/" + name));
+    for (const char* name : {"force.svg", "force.png", "render.png"})
+      CHECK(fs::exists(where + "/out/" + name));
 
   std::ofstream(where + "/post.yaml") << config;
   const std::string command =
-      "cd " + where + " && PATH=nothing " + BIN_DIR + "/langer-post post.yaml --solution solution.h5 -o bare/curves.h5 > said 2>&1";
+      "cd " + where + " && PATH=nothing " + BIN_DIR +
+      "/langer-post post.yaml --solution solution.h5 -o bare/curves.h5 > said 2>&1";
   CHECK(std::system(command.c_str()) == 0);
   const std::string said = text_of(where + "/said");
-  CHECK(said.find("not drawn: force, render (there is no gnuplot on the PATH)") != std::string::npos);
+  CHECK(said.find("not drawn: force, render (there is no gnuplot on the PATH)") !=
+        std::string::npos);
   CHECK(fs::exists(where + "/bare/curves.h5"));
   CHECK(fs::exists(where + "/bare/render.svg"));
 }
 
-TEST_CASE("names that do not exist end with code 2 at their key, all together, and change nothing that was there") {
+TEST_CASE(
+    "names that do not exist end with code 2 at their key, all together, and change nothing that was there") {
   const std::string where = folder("names");
   REQUIRE(post(where, columns).code == 0);
   const std::string before = text_of(where + "/out/curves.h5");
-  const Ended run = post(where, "columns:\n- {quantity: u_y, at: Q}\n- {quantity: force}\n- {history: enrgy}\n");
+  const Ended run =
+      post(where, "columns:\n- {quantity: u_y, at: Q}\n- {quantity: force}\n- {history: enrgy}\n");
   INFO(run.said);
   CHECK(run.code == 2);
-  CHECK(run.said.find("post.yaml:2:19: columns[0].at: the mesh has no nodes called \"Q\"") != std::string::npos);
-  CHECK(run.said.find("post.yaml:4:4: columns[2].history: the solution has no history \"enrgy\"") != std::string::npos);
+  CHECK(run.said.find("post.yaml:2:19: columns[0].at: the mesh has no nodes called \"Q\"") !=
+        std::string::npos);
+  CHECK(run.said.find("post.yaml:4:4: columns[2].history: the solution has no history \"enrgy\"") !=
+        std::string::npos);
   CHECK(run.said.find("did you mean \"energy\"?") != std::string::npos);
   CHECK(text_of(where + "/out/curves.h5") == before);
-  CHECK(post(where, columns + "snapshots: [9]\n").said.find("snapshots[0]: 9; expected a row from 0 to 4") != std::string::npos);
+  CHECK(post(where, columns + "snapshots: [9]\n")
+            .said.find("snapshots[0]: 9; expected a row from 0 to 4") != std::string::npos);
   CHECK(post(where, columns + "snapshots: [9]\n").code == 2);
   CHECK(text_of(where + "/out/curves.h5") == before);
 }

@@ -14,10 +14,16 @@ namespace {
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : rng_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(rng_); }
-  double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  double uniform(double low, double high) {
+    return low + (high - low) * std::generate_canonical<double, 53>(rng_);
+  }
+  double logarithmic(double low, double high) {
+    return std::exp(uniform(std::log(low), std::log(high)));
+  }
   bool coin(double chance = 0.5) { return uniform(0, 1) < chance; }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(uniform(0, static_cast<double>(n))); }
+  std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>(uniform(0, static_cast<double>(n)));
+  }
 
  private:
   std::mt19937_64 rng_;
@@ -28,18 +34,21 @@ double rounded(double x) { return std::stod(fmt::format("{:.3g}", x)); }
 // as stiff as skin times `scale`; families of fibres: at most so many
 std::string material(Draw& draw, double scale = 1, int families = 2) {
   const double mu = rounded(scale * draw.logarithmic(0.02, 0.5));  // half the shear modulus [MPa]
-  const std::string matrices[]{fmt::format("neo_hooke: {{a1: {:g}}}", mu),
-                               fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, 0.5 * mu, 0.2 * mu),
-                               fmt::format("gent: {{mu: {:g}, Jm: {:.3g}}}", 2 * mu, draw.uniform(5, 30)),
-                               fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
+  const std::string matrices[]{
+      fmt::format("neo_hooke: {{a1: {:g}}}", mu),
+      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, 0.5 * mu, 0.2 * mu),
+      fmt::format("gent: {{mu: {:g}, Jm: {:.3g}}}", 2 * mu, draw.uniform(5, 30)),
+      fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
   std::string fibres;
   const auto n = draw.below(static_cast<std::size_t>(families) + 1);
   for (std::size_t i = 0; i < n; ++i)
-    fibres += fmt::format("{}{{hgo: {{c1: {:g}, c2: {:.3g}}}, alpha: {:.3g}, kappa: {:.2g}}}", i ? ", " : "",
-                          rounded(mu * draw.logarithmic(0.1, 3)), draw.uniform(0.1, 2), draw.uniform(-90, 90),
-                          draw.coin() ? 0 : draw.uniform(0, 0.33));
-  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}{}}}", matrices[draw.below(4)],
-                     rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu), n ? ", fibres: [" + fibres + "]" : "");
+    fibres +=
+        fmt::format("{}{{hgo: {{c1: {:g}, c2: {:.3g}}}, alpha: {:.3g}, kappa: {:.2g}}}",
+                    i ? ", " : "", rounded(mu * draw.logarithmic(0.1, 3)), draw.uniform(0.1, 2),
+                    draw.uniform(-90, 90), draw.coin() ? 0 : draw.uniform(0, 0.33));
+  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}{}}}",
+                     matrices[draw.below(4)], rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu),
+                     n ? ", fibres: [" + fibres + "]" : "");
 }
 
 // a block under indenters of about this radius and depth
@@ -69,17 +78,21 @@ std::string block_of(const Pressed& p, const std::string& more = "") {
       -p.half, -p.half, 2 * p.half, p.H, 2 * p.half, p.R, p.depth, more);
 }
 
-std::string contact_of(const std::string& name, const std::string& shape, const Pressed& p, const std::string& to) {
-  return fmt::format("  {}: {{rigid: {}, friction: {:g}, motion: [{}]}}\n", name, shape, p.friction, to);
+std::string contact_of(const std::string& name, const std::string& shape, const Pressed& p,
+                       const std::string& to) {
+  return fmt::format("  {}: {{rigid: {}, friction: {:g}, motion: [{}]}}\n", name, shape, p.friction,
+                     to);
 }
 
 std::string sphere_at(const Pressed& p, double x, double z) {
-  return fmt::format("{{sphere: {{radius: {:g}, centre: [{:g}, {:.10g}, {:g}]}}}}", p.R, x, p.H + p.R, z);
+  return fmt::format("{{sphere: {{radius: {:g}, centre: [{:g}, {:.10g}, {:g}]}}}}", p.R, x,
+                     p.H + p.R, z);
 }
 
 std::string down(const Pressed& p) { return fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -p.depth); }
 
-std::string of(const Pressed& p, const std::string& law, const std::string& contacts, const std::string& more = "") {
+std::string of(const Pressed& p, const std::string& law, const std::string& contacts,
+               const std::string& more = "") {
   return block_of(p, more) + "material: " + law + "\ncontacts:\n" + contacts + "stability: off\n";
 }
 
@@ -92,7 +105,10 @@ std::string beside(Draw& draw) {
   const Pressed p = pressed(draw, 1, 3);
   const double room = p.half - 1.3 * p.a;
   return of(p, material(draw),
-            contact_of("ball", sphere_at(p, rounded(draw.uniform(-room, room)), rounded(draw.uniform(-room, room))), p, down(p)));
+            contact_of("ball",
+                       sphere_at(p, rounded(draw.uniform(-room, room)),
+                                 rounded(draw.uniform(-room, room))),
+                       p, down(p)));
 }
 
 std::string thin(Draw& draw) {
@@ -103,11 +119,14 @@ std::string thin(Draw& draw) {
 std::string layered(Draw& draw) {
   const Pressed p = pressed(draw, 1, 3);
   const double top = rounded(p.H * draw.uniform(0.2, 0.7));
-  const std::string layers =
-      fmt::format(", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]", p.H - top, top);
+  const std::string layers = fmt::format(
+      ", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]",
+      p.H - top, top);
   const double contrast = draw.logarithmic(0.05, 20);
-  const std::string below = material(draw, 1 / std::sqrt(contrast)), above = material(draw, std::sqrt(contrast));
-  return block_of(p, layers) + "materials: {below: {material: " + below + "}, above: {material: " + above + "}}\ncontacts:\n" +
+  const std::string below = material(draw, 1 / std::sqrt(contrast)),
+                    above = material(draw, std::sqrt(contrast));
+  return block_of(p, layers) + "materials: {below: {material: " + below +
+         "}, above: {material: " + above + "}}\ncontacts:\n" +
          contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
 }
 
@@ -119,22 +138,26 @@ std::string plane(Draw& draw) {
       "supports: [{{on: bottom, hold: [x, y, z]}}]\nmaterial: {}\ncontacts:\n"
       "  press: {{rigid: {{plane: {{point: [0, {:g}, 0], normal: [0, -1, 0]}}}}, friction: {:g}, motion: [{{t: 1, to: "
       "[0, {:g}, 0]}}]}}\nstability: off\n",
-      -half, -half, 2 * half, H, 2 * half, material(draw), H, friction, -rounded(draw.uniform(0.05, 0.25) * H));
+      -half, -half, 2 * half, H, 2 * half, material(draw), H, friction,
+      -rounded(draw.uniform(0.05, 0.25) * H));
 }
 
 std::string punch(Draw& draw) {
   const Pressed p = pressed(draw, 1.5, 4);
   const double radius = rounded(0.8 * p.a), edge = rounded(radius * draw.uniform(0.1, 0.5));
   const std::string shape =
-      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}", radius, edge, p.H);
-  return of(p, material(draw), contact_of("punch", shape, p, fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -0.5 * p.depth)));
+      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}",
+                  radius, edge, p.H);
+  return of(
+      p, material(draw),
+      contact_of("punch", shape, p, fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -0.5 * p.depth)));
 }
 
 std::string ellipsoid(Draw& draw) {
   const Pressed p = pressed(draw, 1, 3);
-  const std::string shape =
-      fmt::format("{{ellipsoid: {{half_axes: [{:g}, {:g}, {:g}], centre: [0, {:.10g}, 0]}}}}",
-                  rounded(p.R * draw.uniform(0.7, 1.6)), p.R, rounded(p.R * draw.uniform(0.7, 1.6)), p.H + p.R);
+  const std::string shape = fmt::format(
+      "{{ellipsoid: {{half_axes: [{:g}, {:g}, {:g}], centre: [0, {:.10g}, 0]}}}}",
+      rounded(p.R * draw.uniform(0.7, 1.6)), p.R, rounded(p.R * draw.uniform(0.7, 1.6)), p.H + p.R);
   return of(p, material(draw), contact_of("egg", shape, p, down(p)));
 }
 
@@ -144,23 +167,26 @@ std::string two_spheres(Draw& draw) {
   p.half = rounded(p.half + apart);
   return of(p, material(draw, 1, 1),
             contact_of("left", sphere_at(p, -apart, 0), p, down(p)) +
-                contact_of("right", sphere_at(p, apart, 0), p, fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -rounded(0.7 * p.depth))));
+                contact_of("right", sphere_at(p, apart, 0), p,
+                           fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -rounded(0.7 * p.depth))));
 }
 
 std::string drawn_aside(Draw& draw) {
   Pressed p = pressed(draw, 1, 2);
   p.friction = rounded(draw.uniform(0.05, 0.6));
-  return of(
-      p, material(draw, 1, 1),
-      contact_of("ball", sphere_at(p, 0, 0), p,
-                 fmt::format("{{t: 0.5, to: [0, {0:g}, 0]}}, {{t: 1, to: [{1:g}, {0:g}, 0]}}", -p.depth, rounded(0.5 * p.a))));
+  return of(p, material(draw, 1, 1),
+            contact_of("ball", sphere_at(p, 0, 0), p,
+                       fmt::format("{{t: 0.5, to: [0, {0:g}, 0]}}, {{t: 1, to: [{1:g}, {0:g}, 0]}}",
+                                   -p.depth, rounded(0.5 * p.a))));
 }
 
 std::string pulled(Draw& draw, bool across) {
   const double L = rounded(draw.logarithmic(2, 40)), w = rounded(L * draw.uniform(0.15, 0.7)),
                h = rounded(w * draw.uniform(0.2, 1));
   const double u = rounded(L * draw.uniform(0.1, 0.5));
-  const auto n = [&](double length) { return std::max(4, static_cast<int>(std::lround(10 * length / L))); };
+  const auto n = [&](double length) {
+    return std::max(4, static_cast<int>(std::lround(10 * length / L)));
+  };
   return fmt::format(
       "mesh: {{geometry: {{block: {{size: [{:g}, {:g}, {:g}], divisions: [{}, {}, {}]}}}}}}\n"
       "supports: [{{on: x_min, hold: [x, y, z]}}]\nloads: [{{on: x_max, displacement: {{x: {:g}, y: 0, z: {:g}}}}}]\n"
@@ -177,53 +203,62 @@ std::string disc_of(const Pressed& p, const std::string& layers = "") {
 
 std::string section(Draw& draw) {
   const Pressed p = pressed(draw, 0.6, 3);
-  return disc_of(p) + "material: " + material(draw, 1, 0) + "\ncontacts:\n" + contact_of("ball", sphere_at(p, 0, 0), p, down(p)) +
-         "stability: off\n";
+  return disc_of(p) + "material: " + material(draw, 1, 0) + "\ncontacts:\n" +
+         contact_of("ball", sphere_at(p, 0, 0), p, down(p)) + "stability: off\n";
 }
 
-// Indenters of revolution on a disc of one layer or two, of which the upper one is softer or stiffer. The punch's rounded edge is a tenth of its
-// radius to half of it; the plane is wider than the disc.
+// Indenters of revolution on a disc of one layer or two, of which the upper one is softer or
+// stiffer. The punch's rounded edge is a tenth of its radius to half of it; the plane is wider than
+// the disc.
 enum class On { ball, punch, ellipsoid, plane };
 std::string pressed_disc(Draw& draw, On shape, bool thin, bool layered) {
   const Pressed p = thin ? pressed(draw, 0.2, 0.8) : pressed(draw, 1, 4);
   std::string layers, laws = "material: " + material(draw, 1, 0) + "\n";
   if (layered) {
     const double top = rounded(p.H * draw.uniform(0.2, 0.7)), contrast = draw.logarithmic(0.05, 20);
-    layers = fmt::format(", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]", p.H - top, top);
+    layers = fmt::format(
+        ", bodies: [{{name: below, thickness: {:.10g}}}, {{name: above, thickness: {:g}}}]",
+        p.H - top, top);
     laws = "materials: {below: {material: " + material(draw, 1 / std::sqrt(contrast), 0) +
            "}, above: {material: " + material(draw, std::sqrt(contrast), 0) + "}}\n";
   }
   const double radius = rounded(0.8 * p.a), edge = rounded(radius * draw.uniform(0.1, 0.5));
   const std::string shapes[]{
       sphere_at(p, 0, 0),
-      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}", radius, edge, p.H),
+      fmt::format("{{cylinder: {{radius: {:g}, edge: {:g}, face: [0, {:g}, 0], axis: [0, 1, 0]}}}}",
+                  radius, edge, p.H),
       fmt::format("{{ellipsoid: {{half_axes: [{0:g}, {1:g}, {0:g}], centre: [0, {2:.10g}, 0]}}}}",
                   rounded(p.R * draw.uniform(0.7, 1.6)), p.R, p.H + p.R),
       fmt::format("{{plane: {{point: [0, {:g}, 0], normal: [0, -1, 0]}}}}", p.H)};
   const std::string to =
-      fmt::format("{{t: 1, to: [0, {:g}, 0]}}", shape == On::punch || shape == On::plane ? -0.5 * p.depth : -p.depth);
-  return disc_of(p, layers) + laws + "contacts:\n" + contact_of("tool", shapes[static_cast<std::size_t>(shape)], p, to) +
-         "stability: off\n";
+      fmt::format("{{t: 1, to: [0, {:g}, 0]}}",
+                  shape == On::punch || shape == On::plane ? -0.5 * p.depth : -p.depth);
+  return disc_of(p, layers) + laws + "contacts:\n" +
+         contact_of("tool", shapes[static_cast<std::size_t>(shape)], p, to) + "stability: off\n";
 }
 
 std::string soft_matrix(Draw& draw, double mu) {
   const std::string matrices[]{
       fmt::format("neo_hooke: {{a1: {:g}}}", mu),
-      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, rounded(mu * draw.uniform(0.3, 3)), 0.5 * mu),
+      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, rounded(mu * draw.uniform(0.3, 3)),
+                  0.5 * mu),
       fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
-  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}}}", matrices[draw.below(3)],
-                     rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu));
+  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}}}",
+                     matrices[draw.below(3)], rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu));
 }
 
-// Skin that is sucked into a hole, on its section: under a ring that is stuck to it, or a plate with a rounded edge that is pressed on,
-// without friction or with it. Layers: the upper one softer or stiffer. The rim of the hole is named or not.
+// Skin that is sucked into a hole, on its section: under a ring that is stuck to it, or a plate
+// with a rounded edge that is pressed on, without friction or with it. Layers: the upper one softer
+// or stiffer. The rim of the hole is named or not.
 std::string sucked(Draw& draw, bool plate, bool layered) {
   const double R = rounded(draw.logarithmic(0.5, 5)), H = rounded(R * draw.uniform(0.6, 3)),
                width = rounded(R * draw.uniform(3, 6));
-  const double mu = rounded(draw.logarithmic(0.005, 0.2)), pressure = rounded(2 * mu * draw.uniform(0.2, 1.5));
+  const double mu = rounded(draw.logarithmic(0.005, 0.2)),
+               pressure = rounded(2 * mu * draw.uniform(0.2, 1.5));
   const int across = 8 * static_cast<int>(std::lround(width / R)),
             down = std::max(8, static_cast<int>(std::lround(H / width * across)));
-  const double top = H * static_cast<int>(std::max(2L, std::lround(down * draw.uniform(0.2, 0.7)))) / down;
+  const double top =
+      H * static_cast<int>(std::max(2L, std::lround(down * draw.uniform(0.2, 0.7)))) / down;
   const double contrast = layered ? draw.logarithmic(2, 20) : 1;
   const bool soft_above = draw.coin(), rim = draw.coin();
   std::string text = fmt::format(
@@ -231,17 +266,25 @@ std::string sucked(Draw& draw, bool plate, bool layered) {
       "  points: {{apex: [0, {:g}, 0]{}}}\n  sets:\n    hole: {{of: top, within: {{cylinder: {{axis: y, radius: {:g}}}}}}}\n",
       width, H, across, down, H, rim ? fmt::format(", rim: [{:g}, {:g}, 0]", R, H) : "", R);
   if (!plate)
-    text += fmt::format("    ring: {{of: top, within: {{cylinder: {{axis: y, radius: {:g}, beyond: {:g}}}}}}}\n", 3 * R, R);
+    text += fmt::format(
+        "    ring: {{of: top, within: {{cylinder: {{axis: y, radius: {:g}, beyond: {:g}}}}}}}\n",
+        3 * R, R);
   if (layered)
-    text += fmt::format("  bodies: [{{name: below, thickness: {:.12g}}}, {{name: above, thickness: {:.12g}}}]\n", H - top, top);
-  text += fmt::format("supports: [{{on: bottom, hold: [x, y]}}{}]\n", plate ? "" : ", {on: ring, hold: [x, y]}");
+    text += fmt::format(
+        "  bodies: [{{name: below, thickness: {:.12g}}}, {{name: above, thickness: {:.12g}}}]\n",
+        H - top, top);
+  text += fmt::format("supports: [{{on: bottom, hold: [x, y]}}{}]\n",
+                      plate ? "" : ", {on: ring, hold: [x, y]}");
   if (layered)
     text += fmt::format("materials: {{below: {{material: {}}}, above: {{material: {}}}}}\n",
-                        soft_matrix(draw, soft_above ? contrast * mu : mu / contrast), soft_matrix(draw, mu));
+                        soft_matrix(draw, soft_above ? contrast * mu : mu / contrast),
+                        soft_matrix(draw, mu));
   else
     text += "material: " + soft_matrix(draw, mu) + "\n";
-  if (!plate) return text + fmt::format("loads: [{{on: hole, pressure: {:g}}}]\nstability: off\n", -pressure);
-  const double edge = rounded(R * draw.uniform(0.1, 0.4)), depth = rounded(H * draw.uniform(0.01, 0.05));
+  if (!plate)
+    return text + fmt::format("loads: [{{on: hole, pressure: {:g}}}]\nstability: off\n", -pressure);
+  const double edge = rounded(R * draw.uniform(0.1, 0.4)),
+               depth = rounded(H * draw.uniform(0.01, 0.05));
   const double friction = draw.coin() ? 0 : rounded(draw.uniform(0.05, 1));
   return text +
          fmt::format(
@@ -254,21 +297,55 @@ std::string sucked(Draw& draw, bool plate, bool layered) {
 using Maker = std::function<std::string(Draw&)>;
 using Makers = std::vector<std::pair<std::string, Maker>>;
 const Makers& of_suction() {
-  static const Makers all{{"ring", [](Draw& draw) { return sucked(draw, false, false); }},
-                          {"plate", [](Draw& draw) { return sucked(draw, true, false); }},
-                          {"ring_layers", [](Draw& draw) { return sucked(draw, false, true); }},
-                          {"plate_layers", [](Draw& draw) { return sucked(draw, true, true); }}};
+  static const Makers all{{"ring",
+                           [](Draw& draw) {
+                             return sucked(draw, false, false);
+                           }},
+                          {"plate",
+                           [](Draw& draw) {
+                             return sucked(draw, true, false);
+                           }},
+                          {"ring_layers",
+                           [](Draw& draw) {
+                             return sucked(draw, false, true);
+                           }},
+                          {"plate_layers", [](Draw& draw) {
+                             return sucked(draw, true, true);
+                           }}};
   return all;
 }
 const Makers& of_sections() {
-  static const Makers all{{"ball", [](Draw& draw) { return pressed_disc(draw, On::ball, false, false); }},
-                          {"punch", [](Draw& draw) { return pressed_disc(draw, On::punch, false, false); }},
-                          {"thin", [](Draw& draw) { return pressed_disc(draw, On::ball, true, false); }},
-                          {"layered", [](Draw& draw) { return pressed_disc(draw, On::ball, false, true); }},
-                          {"punch_layers", [](Draw& draw) { return pressed_disc(draw, On::punch, false, true); }},
-                          {"ellipsoid", [](Draw& draw) { return pressed_disc(draw, On::ellipsoid, false, false); }},
-                          {"punch_thin", [](Draw& draw) { return pressed_disc(draw, On::punch, true, false); }},
-                          {"plane", [](Draw& draw) { return pressed_disc(draw, On::plane, false, false); }}};
+  static const Makers all{{"ball",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::ball, false, false);
+                           }},
+                          {"punch",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::punch, false, false);
+                           }},
+                          {"thin",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::ball, true, false);
+                           }},
+                          {"layered",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::ball, false, true);
+                           }},
+                          {"punch_layers",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::punch, false, true);
+                           }},
+                          {"ellipsoid",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::ellipsoid, false, false);
+                           }},
+                          {"punch_thin",
+                           [](Draw& draw) {
+                             return pressed_disc(draw, On::punch, true, false);
+                           }},
+                          {"plane", [](Draw& draw) {
+                             return pressed_disc(draw, On::plane, false, false);
+                           }}};
   return all;
 }
 const Makers& makers() {
@@ -281,8 +358,14 @@ const Makers& makers() {
                           {"ellipsoid", ellipsoid},
                           {"two_spheres", two_spheres},
                           {"drawn_aside", drawn_aside},
-                          {"tension", [](Draw& draw) { return pulled(draw, false); }},
-                          {"shear", [](Draw& draw) { return pulled(draw, true); }},
+                          {"tension",
+                           [](Draw& draw) {
+                             return pulled(draw, false);
+                           }},
+                          {"shear",
+                           [](Draw& draw) {
+                             return pulled(draw, true);
+                           }},
                           {"section", section}};
   return all;
 }
@@ -290,7 +373,9 @@ const Makers& makers() {
 }  // namespace
 
 DrawnScene drawn_scene(std::uint64_t seed, int number, const std::string& kind_of) {
-  const Makers& all = kind_of == "suction" ? of_suction() : kind_of == "section" ? of_sections() : makers();
+  const Makers& all = kind_of == "suction"   ? of_suction()
+                      : kind_of == "section" ? of_sections()
+                                             : makers();
   const auto& [kind, make] = all[static_cast<std::size_t>(number) % all.size()];
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));
   return {fmt::format("{:03}_{}", number, kind), make(draw)};

@@ -1,23 +1,26 @@
-// Whether an accuracy that is asked for is kept, on scenes drawn at random (random_scenes/draw.hpp), and whether error bars hold.
+// Whether an accuracy that is asked for is kept, on scenes drawn at random
+// (random_scenes/draw.hpp), and whether error bars hold.
 //   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps] [default]
-// Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and again on shorter cells and half the
-// increments, whose limit is the truth and whose own error bar is what remains unknown of it; scenes that this would take longer than
-// `seconds` of CPU have no truth. One line a scene, then the counts. default: the scene as it is drawn, without `accuracy`, is judged, by the
-// bars that a config without `estimate` gets; its truth is the limit of the solution for the accuracy that is asked for.
+// Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and
+// again on shorter cells and half the increments, whose limit is the truth and whose own error bar
+// is what remains unknown of it; scenes that this would take longer than `seconds` of CPU have no
+// truth. One line a scene, then the counts. default: the scene as it is drawn, without `accuracy`,
+// is judged, by the bars that a config without `estimate` gets; its truth is the limit of the
+// solution for the accuracy that is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
-#include "accuracy/refinement/accuracy.hpp"
+#include "accuracy/checks/run_watch.hpp"
 #include "accuracy/estimate/recovered_path.hpp"
+#include "accuracy/refinement/accuracy.hpp"
 #include "core/base/stopwatch.hpp"
 #include "random_scenes/draw.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/dry_run.hpp"
-#include "scene/model/solve_config_io.hpp"
-#include "accuracy/checks/run_watch.hpp"
 
 using namespace langer;
 
@@ -38,7 +41,8 @@ Options options_of(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string text = argv[i];
     const auto at = text.find('=');
-    const std::string key = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
+    const std::string key = text.substr(0, at),
+                      value = at == std::string::npos ? "" : text.substr(at + 1);
     if (key == "steps")
       o.steps = true;
     else if (key == "default")
@@ -64,7 +68,9 @@ Options options_of(int argc, char** argv) {
   return o;
 }
 
-const auto nowhere = [](const std::string&) { return Place{}; };
+const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 const Voice silent{"scenes", true};
 
 struct Solved {
@@ -99,9 +105,11 @@ Solved solved_once(const SolveConfig& config, double seconds) {
   const double begun = cpu_seconds();
   const RunEnd end = run.follow(collecting({}, config, run, out.path));
   out.took = cpu_seconds() - begun;
-  if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
+  if (!end.path.complete)
+    throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
   try {
-    const PathErrors found = estimated(config, config.material, nowhere, run, end.last, out.path, {});
+    const PathErrors found =
+        estimated(config, config.material, nowhere, run, end.last, out.path, {});
     out.errors = found.at_end, out.along = found.along;
   } catch (const Failure& failure) {
     if (failure.code() != Exit::not_converged) throw;  // else as accuracy/say_errors.hpp: not known
@@ -118,7 +126,8 @@ Answer asked_for(const SolveConfig& config, double seconds) {
     answer.config = accuracy.config();
     try {
       answer.solved = solved_once(answer.config, seconds);
-      if (answer.solved.took >= shortest) answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
+      if (answer.solved.took >= shortest)
+        answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
       again = accuracy.refine(answer.solved.errors);
     } catch (const Failure& failure) {
       again = accuracy.begin_anew(failure);
@@ -139,14 +148,19 @@ Answer by_default(SolveConfig config) {
   const Companion beside = recovered.beside({});
   RunWatch watch(run, config, nowhere, {});
   RunListener watched;
-  watched.of_part = [&](StepRecord& record) { return watch.of_part(record); };
-  watched.of_whole = [&](StepRecord& record, const SolveReport& report) { watch.of_whole(record, report); };
+  watched.of_part = [&](StepRecord& record) {
+    return watch.of_part(record);
+  };
+  watched.of_whole = [&](StepRecord& record, const SolveReport& report) {
+    watch.of_whole(record, report);
+  };
   const RunListener collect = collecting(watched, config, run, answer.solved.path);
   const RunEnd end = run.follow(beside.along ? beside.along(collect) : collect);
-  if (!end.path.complete) throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
+  if (!end.path.complete)
+    throw Failure(Exit::not_converged, Error{{}, "", "no equilibrium: " + end.path.why, "", ""});
   if (recovered.wanted()) {
-    const PathErrors found =
-        recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last), watch.contact_warnings().empty());
+    const PathErrors found = recovered.errors(
+        end.last, valued(config, run.scene, run.mesh, end.last), watch.contact_warnings().empty());
     answer.solved.errors = found.at_end, answer.solved.along = found.along;
   }
   answer.seconds = cpu_seconds() - start;
@@ -173,8 +187,10 @@ struct Counts {
   std::vector<double> forecasts;  // sorted at the end
 };
 
-// Bars of the steps before the end against the truth's forces there, each known to half its own bar.
-void judge_steps(const std::string& name, const Solved& found, const Solved& truth, Counts& counts) {
+// Bars of the steps before the end against the truth's forces there, each known to half its own
+// bar.
+void judge_steps(const std::string& name, const Solved& found, const Solved& truth,
+                 Counts& counts) {
   for (const auto& [force, bars] : found.along) {
     if (!truth.along.contains(force)) continue;
     std::string words;
@@ -188,29 +204,33 @@ void judge_steps(const std::string& name, const Solved& found, const Solved& tru
       const double off = q - force_at(truth.path, force, t);
       const bool holds = std::abs(off) <= bars[i] + unknown;
       ++counts.steps, counts.steps_hold += holds;
-      words += fmt::format(" {:.3g}: {:+.2f} bar {:.2g} unknown {:.2g}{};", t, 100 * off / q, 100 * bars[i] / q, 100 * unknown / q,
-                           holds ? "" : " FAILS");
+      words += fmt::format(" {:.3g}: {:+.2f} bar {:.2g} unknown {:.2g}{};", t, 100 * off / q,
+                           100 * bars[i] / q, 100 * unknown / q, holds ? "" : " FAILS");
     }
     if (!words.empty()) fmt::print("| {} | {} at |{} | | | | | | |\n", name, force, words);
   }
 }
 
-void judge(const Options& o, const std::string& name, const Answer& answer, const std::vector<ErrorEstimate>& truths,
-           Counts& counts) {
+void judge(const Options& o, const std::string& name, const Answer& answer,
+           const std::vector<ErrorEstimate>& truths, Counts& counts) {
   const std::vector<ErrorEstimate> judged = forces_judged(answer.solved.errors);
   for (const ErrorEstimate& e : answer.solved.errors) {
-    if (o.kind == "suction" && e.of.name == "von_mises_max") continue;  // it has no limit at a rim where stresses are singular
-    if (e.of.value == 0) continue;                                      // a rim that is held
-    const bool asked = std::any_of(judged.begin(), judged.end(), [&](const ErrorEstimate& j) { return j.of.name == e.of.name; });
-    const auto t =
-        std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) { return other.of.name == e.of.name; });
+    if (o.kind == "suction" && e.of.name == "von_mises_max")
+      continue;                     // it has no limit at a rim where stresses are singular
+    if (e.of.value == 0) continue;  // a rim that is held
+    const bool asked = std::any_of(judged.begin(), judged.end(),
+                                   [&](const ErrorEstimate& j) { return j.of.name == e.of.name; });
+    const auto t = std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) {
+      return other.of.name == e.of.name;
+    });
     if (t == truths.end()) {
-      fmt::print("| {} | {} | {:.4g} | no truth | | {:.2g} | | | {:.1f} |\n", name, e.of.name, e.of.value, e.in_percent(e.total()),
-                 answer.seconds);
+      fmt::print("| {} | {} | {:.4g} | no truth | | {:.2g} | | | {:.1f} |\n", name, e.of.name,
+                 e.of.value, e.in_percent(e.total()), answer.seconds);
       counts.without_truth += asked;
       continue;
     }
-    const double truth = t->limit(), unknown = e.in_percent(0.5 * t->total()), off = e.in_percent(e.of.value - truth);
+    const double truth = t->limit(), unknown = e.in_percent(0.5 * t->total()),
+                 off = e.in_percent(e.of.value - truth);
     const double bar = e.in_percent(e.total());
     std::string verdict;
     if (asked) {
@@ -227,8 +247,9 @@ void judge(const Options& o, const std::string& name, const Answer& answer, cons
     const double limit = e.in_percent(e.limit() - truth);
     counts.nearer += asked && e.has_limit && std::abs(limit) < std::abs(off);
     if (!holds) verdict += " bar fails";
-    fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {} | {:.1f} |\n", name, e.of.name, e.of.value, off, unknown,
-               bar, e.has_limit ? fmt::format("{:+.2f}", limit) : "", verdict, answer.seconds);
+    fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {} | {:.1f} |\n", name,
+               e.of.name, e.of.value, off, unknown, bar,
+               e.has_limit ? fmt::format("{:+.2f}", limit) : "", verdict, answer.seconds);
   }
 }
 
@@ -236,7 +257,8 @@ void say_forecasts(Counts& counts) {
   std::vector<double>& took = counts.forecasts;
   std::sort(took.begin(), took.end());
   if (took.empty()) return;
-  const auto within = std::count_if(took.begin(), took.end(), [](double x) { return x > 1 / 1.5 && x < 1.5; });
+  const auto within =
+      std::count_if(took.begin(), took.end(), [](double x) { return x > 1 / 1.5 && x < 1.5; });
   fmt::print(
       "{} of {} limits are nearer. {} of {} levels of {:g} s and more took what was told within 1.5 times; {:.2f} to {:.2f} times.\n",
       counts.nearer, counts.bars, within, took.size(), shortest, took.front(), took.back());
@@ -253,13 +275,16 @@ int main(int argc, char** argv) try {
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (int i = o.from; i < o.from + o.scenes; ++i) {
     const test::DrawnScene scene = test::drawn_scene(o.seed, i, o.kind);
-    std::ofstream(o.folder + "/" + scene.name + ".yaml") << scene.yaml << "accuracy: " << o.asked << "%\n";
+    std::ofstream(o.folder + "/" + scene.name + ".yaml")
+        << scene.yaml << "accuracy: " << o.asked << "%\n";
     try {
-      SolveConfig config = read_config<SolveConfig>(parse_yaml(scene.yaml, scene.name + ".yaml")).config;
+      SolveConfig config =
+          read_config<SolveConfig>(parse_yaml(scene.yaml, scene.name + ".yaml")).config;
       config.accuracy = fmt::format("{:g}%", o.asked);
       const Answer answer = asked_for(config, o.seconds);
       ++counts.ended;
-      counts.forecasts.insert(counts.forecasts.end(), answer.forecasts.begin(), answer.forecasts.end());
+      counts.forecasts.insert(counts.forecasts.end(), answer.forecasts.begin(),
+                              answer.forecasts.end());
       if (o.by_default) {
         const Answer plain = by_default(config);
         if (plain.solved.errors.empty()) fmt::print("| {} | no bar | | | | | | | |\n", scene.name);
@@ -278,21 +303,26 @@ int main(int argc, char** argv) try {
       if (o.steps) judge_steps(scene.name, answer.solved, truth, counts);
     } catch (const TooLong& too_long) {
       ++counts.left;
-      fmt::print("| {} | left: {:.0f} s for one solve | | | | | | | |\n", scene.name, too_long.seconds);
+      fmt::print("| {} | left: {:.0f} s for one solve | | | | | | | |\n", scene.name,
+                 too_long.seconds);
     } catch (const Failure& failure) {
       ++counts.refused;
-      fmt::print("| {} | ended with code {} | {} | | | | | | |\n", scene.name, static_cast<int>(failure.code()), failure.what());
+      fmt::print("| {} | ended with code {} | {} | | | | | | |\n", scene.name,
+                 static_cast<int>(failure.code()), failure.what());
     }
     std::fflush(stdout);
   }
-  fmt::print("\n{} scenes of seed {}, asked for {:g} %: {} ended with success, {} with a code of their own, {} were left.\n",
-             o.scenes, o.seed, o.asked, counts.ended, counts.refused, counts.left);
-  fmt::print("Asked of: {} within, {} outside, {} not decided, {} without a truth. ", counts.within, counts.outside,
-             counts.undecided, counts.without_truth);
-  fmt::print("Their bars: {} of {} hold, {} more than five times the error. All else: {} of {} bars hold.\n", counts.hold,
-             counts.bars, counts.wide, counts.others_hold, counts.others);
+  fmt::print(
+      "\n{} scenes of seed {}, asked for {:g} %: {} ended with success, {} with a code of their own, {} were left.\n",
+      o.scenes, o.seed, o.asked, counts.ended, counts.refused, counts.left);
+  fmt::print("Asked of: {} within, {} outside, {} not decided, {} without a truth. ", counts.within,
+             counts.outside, counts.undecided, counts.without_truth);
+  fmt::print(
+      "Their bars: {} of {} hold, {} more than five times the error. All else: {} of {} bars hold.\n",
+      counts.hold, counts.bars, counts.wide, counts.others_hold, counts.others);
   say_forecasts(counts);
-  if (o.steps) fmt::print("At steps before the end: {} of {} hold.\n", counts.steps_hold, counts.steps);
+  if (o.steps)
+    fmt::print("At steps before the end: {} of {} hold.\n", counts.steps_hold, counts.steps);
   return 0;
 } catch (const std::logic_error& wrong) {
   fmt::print(

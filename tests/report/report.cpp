@@ -6,13 +6,15 @@
 #include "report/labels.hpp"
 #include "report/packed.hpp"
 #include "report/page.hpp"
-#include "report/sources.hpp"
 #include "report/report_symmetry.hpp"
+#include "report/sources.hpp"
 
 using namespace langer::report;
 
 TEST_CASE("base64 as RFC 4648 has it") {
-  const auto packed = [](const std::string& s) { return base64(s.data(), s.size()); };
+  const auto packed = [](const std::string& s) {
+    return base64(s.data(), s.size());
+  };
   CHECK(packed("") == "");
   CHECK(packed("f") == "Zg==");
   CHECK(packed("fo") == "Zm8=");
@@ -32,7 +34,8 @@ TEST_CASE("a field keeps its ends, its order and what is not a number") {
   CHECK(quantised(std::vector<double>{1, 1}, same) == std::vector<std::uint16_t>{0, 0});
 }
 
-TEST_CASE("a sweep that is symmetric has no residual and one value turned by 1 percent shows as such") {
+TEST_CASE(
+    "a sweep that is symmetric has no residual and one value turned by 1 percent shows as such") {
   const std::vector<double> angle{0, 30, 60, 90, 120, 150, 180};
   std::vector<double> a, b;
   for (double x : angle) {
@@ -66,20 +69,24 @@ TEST_CASE("files are called by the folders that tell them apart") {
   CHECK(sweep[1].label == "alpha = 30");
   CHECK(sweep[1].numbered);
   CHECK(labelled({"run/post/curves.h5"})[0].label == "post");
-  const auto two = labelled({"run/code_FER/alpha_000/post/curves.h5", "run/code_ANSYS/alpha_060/post/curves.h5"});
+  const auto two = labelled(
+      {"run/code_FER/alpha_000/post/curves.h5", "run/code_ANSYS/alpha_060/post/curves.h5"});
   CHECK(two[1].label == "code: ANSYS, alpha = 60");
   CHECK(labelled({"a.h5", "b.h5"})[1].label == "b");
 }
 
-TEST_CASE("no text of a config can leave the page's script, and the page asks for nothing from elsewhere") {
+TEST_CASE(
+    "no text of a config can leave the page's script, and the page asks for nothing from elsewhere") {
   ReportPage page;
   page.title = "a < b & c";
   page.verdicts.push_back({Level::warning, "x", "</script><script>alert(1)</script>"});
-  page.tables.push_back({"t", {{"v", "-"}}, {{std::numeric_limits<double>::quiet_NaN()}, {std::string("\"\n\\")}}});
+  page.tables.push_back(
+      {"t", {{"v", "-"}}, {{std::numeric_limits<double>::quiet_NaN()}, {std::string("\"\n\\")}}});
   const std::string text = html(page);
   CHECK(text.find("alert(1)</script>") == std::string::npos);
   CHECK(text.find("<title>a &lt; b &amp; c</title>") != std::string::npos);
   CHECK(text.find("{{") == std::string::npos);
   CHECK(text.find("[[null],[\"\\\"\\n\\\\\"]]") != std::string::npos);
-  for (const char* outside : {" src=", "href=\"http", "@import", "url("}) CHECK(text.find(outside) == std::string::npos);
+  for (const char* outside : {" src=", "href=\"http", "@import", "url("})
+    CHECK(text.find(outside) == std::string::npos);
 }

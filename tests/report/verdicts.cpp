@@ -1,4 +1,5 @@
-// What a report says of a solution: whether an indenter touches, and whether its force is as near as the reader asks.
+// What a report says of a solution: whether an indenter touches, and whether its force is as near
+// as the reader asks.
 #include <doctest/doctest.h>
 
 #include "report/sources.hpp"
@@ -10,8 +11,10 @@ using namespace langer::report;
 namespace {
 
 // the verdicts on a solution whose force ends at `force`, with what its estimate says
-std::vector<Verdict> verdicts(double force, const std::vector<Summary>& estimate, const std::string& accuracy) {
-  const std::string path = example::folder(force > 1e-6 ? "verdicts_of_errors" : "verdicts_of_touch") + "/solution.h5";
+std::vector<Verdict> verdicts(double force, const std::vector<Summary>& estimate,
+                              const std::string& accuracy) {
+  const std::string path =
+      example::folder(force > 1e-6 ? "verdicts_of_errors" : "verdicts_of_touch") + "/solution.h5";
   SolutionWriter writer(path, example::header(true));
   for (int i = 0; i < 3; ++i) {
     StepRecord step = example::step(i, true);
@@ -27,8 +30,9 @@ std::vector<Verdict> verdicts(double force, const std::vector<Summary>& estimate
 }
 
 bool says(const std::vector<Verdict>& all, Level level, const std::string& words) {
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Verdict& v) { return v.level == level && v.text.find(words) != std::string::npos; });
+  return std::any_of(all.begin(), all.end(), [&](const Verdict& v) {
+    return v.level == level && v.text.find(words) != std::string::npos;
+  });
 }
 
 // of a force of 2 N whose limit is 1.95 N
@@ -41,7 +45,8 @@ std::vector<Summary> with_error(double newton) {
 
 }  // namespace
 
-TEST_CASE("an indenter whose force is 0 in every step never touches the body: a warning, and no good word of contact") {
+TEST_CASE(
+    "an indenter whose force is 0 in every step never touches the body: a warning, and no good word of contact") {
   const auto none = verdicts(0, {}, "3%"), some = verdicts(1e-7, {}, "3%");
   CHECK(says(none, Level::warning, "indenter never touches the body"));
   CHECK_FALSE(says(none, Level::good, "touches the body"));
@@ -49,7 +54,8 @@ TEST_CASE("an indenter whose force is 0 in every step never touches the body: a 
   CHECK_FALSE(says(some, Level::warning, "never touches"));
 }
 
-TEST_CASE("a force is good where its estimated error is within what the reader asks, and a warning where it is not") {
+TEST_CASE(
+    "a force is good where its estimated error is within what the reader asks, and a warning where it is not") {
   for (const double percent : {0.5, 2.9, 3.1, 40.}) {
     CAPTURE(percent);
     const auto all = verdicts(2, with_error(2 * percent / 100), "3%");

@@ -1,4 +1,5 @@
-// Bodies of which every node is moved as told: nothing is to be solved, and the reactions are those of the law.
+// Bodies of which every node is moved as told: nothing is to be solved, and the reactions are those
+// of the law.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,9 +9,11 @@
 
 using namespace langer;
 
-TEST_CASE("a body whose every node is moved has the reactions of its law: confined compression, a layer in shear") {
+TEST_CASE(
+    "a body whose every node is moved has the reactions of its law: confined compression, a layer in shear") {
   const double a1 = 0.05, d = 0.01, l = 0.9;
-  const std::string law = "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.01}}}\npath: {steps: 2}\n";
+  const std::string law =
+      "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.01}}}\npath: {steps: 2}\n";
   const auto block = [](const std::string& divisions) {
     return "mesh: {geometry: {block: {size: [2, 1, 3], divisions: " + divisions + "}}}\n";
   };
@@ -34,9 +37,9 @@ TEST_CASE("a body whose every node is moved has the reactions of its law: confin
       CHECK(end.reaction("x_max")[0] == doctest::Approx(-end.reaction("x_min")[0]).epsilon(1e-12));
     }
   // F = 1 + gamma e_x e_y, J = 1: P_xy = 2 a1 gamma
-  const test::Ended sheared =
-      test::run("mesh: {geometry: {block: {size: [4, 1, 3], divisions: [4, 1, 3]}}}\n" + law +
-                "supports: [{on: bottom, hold: [x, y, z]}, {on: top, hold: [y, z]}]\nloads: [{on: top, displacement: {x: 0.2}}]\n");
+  const test::Ended sheared = test::run(
+      "mesh: {geometry: {block: {size: [4, 1, 3], divisions: [4, 1, 3]}}}\n" + law +
+      "supports: [{on: bottom, hold: [x, y, z]}, {on: top, hold: [y, z]}]\nloads: [{on: top, displacement: {x: 0.2}}]\n");
   CHECK(sheared.reaction("top")[0] == doctest::Approx(12 * 2 * a1 * 0.2).epsilon(1e-12));
   CHECK(sheared.reaction("bottom")[0] == doctest::Approx(-12 * 2 * a1 * 0.2).epsilon(1e-12));
 }

@@ -5,27 +5,31 @@
 
 #include <numbers>
 
+#include "core/tensor/stress.hpp"
 #include "scene/model/solve_config.hpp"
 #include "support/block.hpp"
 #include "support/solved_scene.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 
 namespace {
 
-const std::string neo_hooke = "material: {matrix: {neo_hooke: {a1: 0.2}}, volume: {quadratic: {d: 0.01}}}\n";
+const std::string neo_hooke =
+    "material: {matrix: {neo_hooke: {a1: 0.2}}, volume: {quadratic: {d: 0.01}}}\n";
 const std::string fibrous =
     "material: {matrix: {yeoh: {a1: 0.2, a2: 0.1, a3: 0.1}}, fibres: [{hgo: {c1: 0.3, c2: 0.5}, alpha: 30}], "
     "volume: {quadratic: {d: 1e-3}}";
 const std::string held = "supports: [{on: bottom, hold: [x, y, z]}]\n";
 
-Mat3 stress_of(const StepRecord& step, int e) { return Eigen::Map<const Mat3>(step.cell_fields.at("stress").data() + 9 * e); }
+Mat3 stress_of(const StepRecord& step, int e) {
+  return Eigen::Map<const Mat3>(step.cell_fields.at("stress").data() + 9 * e);
+}
 double value_of(const StepRecord& step, int k, int e) {
   return step.cell_fields.at("principal_stress_" + std::to_string(k))[static_cast<std::size_t>(e)];
 }
 Vec3 direction_of(const StepRecord& step, int k, int e) {
-  return Eigen::Map<const Vec3>(step.cell_fields.at("principal_direction_" + std::to_string(k)).data() + 3 * e);
+  return Eigen::Map<const Vec3>(
+      step.cell_fields.at("principal_direction_" + std::to_string(k)).data() + 3 * e);
 }
 double largest(const StepRecord& step) {
   double most = 0;
@@ -50,7 +54,8 @@ struct Body3 {
   }
   // to the end of the path, the tensors with it
   std::vector<StepRecord> followed() const {
-    Run run(mesh, config, config.material, test::nowhere, config.homogeneous == Homogeneous::automatic);
+    Run run(mesh, config, config.material, test::nowhere,
+            config.homogeneous == Homogeneous::automatic);
     CellStressRecorder recorder(run.mesh, run.scene, CellStress::principal);
     std::vector<StepRecord> steps;
     RunListener each;
@@ -70,7 +75,10 @@ std::vector<Body3> bodies(const std::string& material) {
     Mesh mesh = test::block(test::even(0, 2, 2), test::even(0, 1, 2), test::even(0, 2, 2));
     for (Vec3& X : mesh.X) X += Vec3(0.1 * X[1] * X[2], 0.07 * X[0] * X[0], -0.05 * X[0] * X[1]);
     if (type != CellType::hex8) mesh = test::raised_block(mesh, type);
-    found.emplace_back(material + "supports: [{on: x_min, hold: [x]}]\nloads: [{on: x_max, displacement: {x: 0.1}}]\n", mesh);
+    found.emplace_back(
+        material +
+            "supports: [{on: x_min, hold: [x]}]\nloads: [{on: x_max, displacement: {x: 0.1}}]\n",
+        mesh);
   }
   return found;
 }
@@ -98,7 +106,8 @@ void check_fields(const Mesh& mesh, const StepRecord& step) {
 
 }  // namespace
 
-TEST_CASE("cell stress: simple shear of a neo-Hookean body, 2 W1 (B - I1/3), directions at tan 2 theta = 2 / gamma") {
+TEST_CASE(
+    "cell stress: simple shear of a neo-Hookean body, 2 W1 (B - I1/3), directions at tan 2 theta = 2 / gamma") {
   const double gamma = 0.6, mu = 0.4;
   Mat3 F = Mat3::Identity();
   F(0, 1) = gamma;
@@ -109,52 +118,63 @@ TEST_CASE("cell stress: simple shear of a neo-Hookean body, 2 W1 (B - I1/3), dir
     for (int e = 0; e < body.mesh.n_cells(); ++e) {
       CHECK((stress_of(step, e) - exact).norm() < 1e-12);
       CHECK(stress_of(step, e)(0, 1) == doctest::Approx(mu * gamma));
-      CHECK(std::abs(direction_of(step, 1, e).dot(Vec3(std::cos(theta), std::sin(theta), 0))) == doctest::Approx(1).epsilon(1e-12));
+      CHECK(std::abs(direction_of(step, 1, e).dot(Vec3(std::cos(theta), std::sin(theta), 0))) ==
+            doctest::Approx(1).epsilon(1e-12));
       CHECK(std::abs(direction_of(step, 2, e)[2]) == doctest::Approx(1).epsilon(1e-12));
       CHECK(value_of(step, 1, e) == doctest::Approx(principal_stresses(exact)[0]).epsilon(1e-12));
     }
   }
 }
 
-TEST_CASE("cell stress: a body that is turned after it was deformed has its tensors and directions turned") {
+TEST_CASE(
+    "cell stress: a body that is turned after it was deformed has its tensors and directions turned") {
   Mat3 F;
   F << 1.2, 0.3, 0.1, -0.1, 0.9, 0.2, 0.05, 0.1, 1.05;
   const Mat3 R = (Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized())).toRotationMatrix();
   for (const Body3& body : bodies(fibrous + "}\n")) {
     const StepRecord step = body.under(F), turned = body.under(R * F);
     for (int e = 0; e < body.mesh.n_cells(); ++e) {
-      CHECK((stress_of(turned, e) - R * stress_of(step, e) * R.transpose()).norm() <= 1e-12 * largest(step));
+      CHECK((stress_of(turned, e) - R * stress_of(step, e) * R.transpose()).norm() <=
+            1e-12 * largest(step));
       for (int k = 1; k <= 3; ++k) {
         CHECK(value_of(turned, k, e) == doctest::Approx(value_of(step, k, e)).epsilon(1e-10));
-        CHECK(std::abs(direction_of(turned, k, e).dot(R * direction_of(step, k, e))) == doctest::Approx(1).epsilon(1e-10));
+        CHECK(std::abs(direction_of(turned, k, e).dot(R * direction_of(step, k, e))) ==
+              doctest::Approx(1).epsilon(1e-10));
       }
     }
   }
 }
 
-TEST_CASE("cell stress: uniaxial tension, the force over the deformed area along x and nothing across") {
+TEST_CASE(
+    "cell stress: uniaxial tension, the force over the deformed area along x and nothing across") {
   for (const char* cells : {"hex8", "hex27"})
     for (const char* homogeneous : {"auto", "off"}) {
-      const Body3 body(std::string("mesh: {geometry: {block: {size: [4, 2, 3], divisions: [2, 2, 2]}}, cells: ") + cells +
-                       "}\nsupports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
-                       "loads: [{on: x_max, displacement: {x: 1.2}}]\nsolver: {newton: {relative: 1e-12}}\nhomogeneous: " +
-                       homogeneous + "\n" + neo_hooke);
+      const Body3 body(
+          std::string(
+              "mesh: {geometry: {block: {size: [4, 2, 3], divisions: [2, 2, 2]}}, cells: ") +
+          cells +
+          "}\nsupports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
+          "loads: [{on: x_max, displacement: {x: 1.2}}]\nsolver: {newton: {relative: 1e-12}}\nhomogeneous: " +
+          homogeneous + "\n" + neo_hooke);
       const StepRecord step = body.followed().back();
       double force = 0;
-      for (int node : body.mesh.node_sets.at("x_max")) force += step.reaction[static_cast<std::size_t>(node)][0];
+      for (int node : body.mesh.node_sets.at("x_max"))
+        force += step.reaction[static_cast<std::size_t>(node)][0];
       const double across = 1 + step.u.back()[1] / 2, along = 1.3, J = along * across * across;
       // sigma_xx - sigma_yy of 2 W1 J^(-5/3) dev B, where sigma_yy = 0
       const double exact = 0.4 * std::pow(J, -5.0 / 3) * (along * along - across * across);
       CHECK(exact == doctest::Approx(force / (6 * across * across)).epsilon(1e-9));
       for (int e = 0; e < body.mesh.n_cells(); ++e) {
-        CHECK((stress_of(step, e) - exact * Vec3::UnitX() * Vec3::UnitX().transpose()).norm() <= 1e-9 * exact);
+        CHECK((stress_of(step, e) - exact * Vec3::UnitX() * Vec3::UnitX().transpose()).norm() <=
+              1e-9 * exact);
         CHECK(std::abs(direction_of(step, 1, e)[0]) == doctest::Approx(1).epsilon(1e-9));
       }
       check_fields(body.mesh, step);
     }
 }
 
-TEST_CASE("cell stress: of a part that symmetry leaves, the whole body has the tensors of the whole solve") {
+TEST_CASE(
+    "cell stress: of a part that symmetry leaves, the whole body has the tensors of the whole solve") {
   const auto pressed = [](const std::string& symmetry, const std::string& material) {
     return Body3(
         "mesh: {geometry: {block: {origin: [-3, 0, -3], size: [6, 2, 6], divisions: [4, 2, 4]}}, "
@@ -165,7 +185,8 @@ TEST_CASE("cell stress: of a part that symmetry leaves, the whole body has the t
         material + "symmetry: " + symmetry + "\n");
   };
   for (const auto& [symmetry, material] :
-       {std::pair<const char*, std::string>{"quarter", neo_hooke}, {"half_turn", fibrous + "}\n"}}) {
+       {std::pair<const char*, std::string>{"quarter", neo_hooke},
+        {"half_turn", fibrous + "}\n"}}) {
     const Body3 whole = pressed("none", material), part = pressed(symmetry, material);
     const StepRecord a = whole.followed().back(), b = part.followed().back();
     double sheared = 0;
@@ -188,26 +209,33 @@ TEST_CASE("cell stress: a tube's section has radial, axial and hoop stress along
   const StepRecord step = body.followed().back();
   for (int e = 0; e < body.mesh.n_cells(); ++e) {
     const Mat3 sigma = stress_of(step, e);
-    for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}}) CHECK(std::abs(sigma(i, j)) <= 1e-4 * largest(step));
+    for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+      CHECK(std::abs(sigma(i, j)) <= 1e-4 * largest(step));
     double r = 0, u = 0, slope = 0;
     const auto nodes = body.mesh.cell(e);
     std::vector<std::pair<double, double>> line;
-    for (int n : nodes) line.emplace_back(body.mesh.X[static_cast<std::size_t>(n)][0], step.u[static_cast<std::size_t>(n)][0]);
+    for (int n : nodes)
+      line.emplace_back(body.mesh.X[static_cast<std::size_t>(n)][0],
+                        step.u[static_cast<std::size_t>(n)][0]);
     const auto [first, last] = std::minmax_element(line.begin(), line.end());
     r = (first->first + last->first) / 2, u = (first->second + last->second) / 2;
     slope = (last->second - first->second) / (last->first - first->first);
     const double lr = 1 + slope, lt = 1 + u / r, J = lr * lt;
-    const double difference = 0.4 * std::pow(J, -5.0 / 3) * (lr * lr - lt * lt);  // radial less hoop
+    const double difference =
+        0.4 * std::pow(J, -5.0 / 3) * (lr * lr - lt * lt);  // radial less hoop
     CHECK(sigma(0, 0) - sigma(2, 2) == doctest::Approx(difference).epsilon(5e-3));
   }
   check_fields(body.mesh, step);
 }
 
-TEST_CASE("cell stress: of a viscous body with fibres they are those of pressure and von Mises beside them, at every step") {
+TEST_CASE(
+    "cell stress: of a viscous body with fibres they are those of pressure and von Mises beside them, at every step") {
   for (const char* cells : {"hex8", "hex27"}) {
-    const Body3 body(std::string("mesh: {geometry: {block: {size: [4, 2, 4], divisions: [2, 2, 2]}}, cells: ") + cells + "}\n" +
-                     held + "loads: [{on: top, displacement: {x: 0.8, y: 0.2}}]\npath: {steps: 4, seconds: 3}\n" + fibrous +
-                     ", viscous: [{tau: 0.5, gamma: 0.8}, {tau: 20, gamma: 0.4, of: matrix}]}\n");
+    const Body3 body(
+        std::string("mesh: {geometry: {block: {size: [4, 2, 4], divisions: [2, 2, 2]}}, cells: ") +
+        cells + "}\n" + held +
+        "loads: [{on: top, displacement: {x: 0.8, y: 0.2}}]\npath: {steps: 4, seconds: 3}\n" +
+        fibrous + ", viscous: [{tau: 0.5, gamma: 0.8}, {tau: 20, gamma: 0.4, of: matrix}]}\n");
     const std::vector<StepRecord> steps = body.followed();
     REQUIRE(steps.size() == 4);
     for (const StepRecord& step : steps) check_fields(body.mesh, step);

@@ -7,8 +7,10 @@
 
 using namespace langer;
 
-// With a few shear moduli for what the modes leave of J - 1 cells buckle within themselves near the end of this path (solid.hpp).
-TEST_CASE("quadratic cells hold under a sphere pressed 44 % of the thickness into a stiffening body") {
+// With a few shear moduli for what the modes leave of J - 1 cells buckle within themselves near the
+// end of this path (solid.hpp).
+TEST_CASE(
+    "quadratic cells hold under a sphere pressed 44 % of the thickness into a stiffening body") {
   const std::string folder = std::string(SOURCE_DIR) + "/configs/solve";
   const std::string text = R"(
 mesh:
@@ -22,7 +24,9 @@ contacts:
 path: {first: 0.1, largest: 0.1, smallest: 0.05}
 symmetry: auto
 )";
-  const SolveConfig config = read_config<SolveConfig>(parse_yaml(text, folder + "/deep.yaml", folder)).config;
-  const auto found = end_of_path(config, config.material, [](const std::string&) { return Place{}; });
+  const SolveConfig config =
+      read_config<SolveConfig>(parse_yaml(text, folder + "/deep.yaml", folder)).config;
+  const auto found =
+      end_of_path(config, config.material, [](const std::string&) { return Place{}; });
   CHECK(found[0].value == doctest::Approx(186.1).epsilon(0.01));
 }

@@ -1,4 +1,5 @@
-// A body that deforms alike everywhere is solved on one hexahedron, and what it then says of the mesh is what the mesh says.
+// A body that deforms alike everywhere is solved on one hexahedron, and what it then says of the
+// mesh is what the mesh says.
 #include "scene/run/homogeneous.hpp"
 
 #include <doctest/doctest.h>
@@ -6,13 +7,13 @@
 #include <random>
 #include <regex>
 
+#include "accuracy/checks/run_watch.hpp"
 #include "scene/run/equilibrium_by.hpp"
 #include "scene/run/step_record.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/solved_scene.hpp"
-#include "accuracy/checks/run_watch.hpp"
 
 using namespace langer;
 
@@ -38,11 +39,13 @@ Scene scene_of(const Case& c, const Mesh& mesh) {
   Material material = test::stable(0, 1e-3);
   const auto fibre = material.fibres.at(0);
   material.fibres.clear();
-  for (double angle : c.angles) material.fibres.push_back(fibre), material.fibres.back().alpha_deg = angle;
+  for (double angle : c.angles)
+    material.fibres.push_back(fibre), material.fibres.back().alpha_deg = angle;
   scene.materials = {material};
   scene.directions = test::directions(mesh, scene.materials);
   std::vector<Prescribed> held;
-  for (const auto& [face, k, value] : {std::tuple{"x_min", 0, 0.}, {"y_min", 1, 0.}, {"z_min", 2, 0.}, {"x_max", 0, 0.8}})
+  for (const auto& [face, k, value] :
+       {std::tuple{"x_min", 0, 0.}, {"y_min", 1, 0.}, {"z_min", 2, 0.}, {"x_max", 0, 0.8}})
     for (int i : mesh.node_sets.at(face)) held.push_back({3 * i + k, value});
   scene.dofs = number_dofs(mesh.n_nodes(), held).dofs;
   return scene;
@@ -84,7 +87,8 @@ bool is_homogeneous(const Mesh& mesh, const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy of the whole mesh to 1e-8") {
+TEST_CASE(
+    "one hexahedron gives displacements, reactions, cell fields and energy of the whole mesh to 1e-8") {
   for (const Case& c : {Case{},
                         {CellType::hex8, {}},
                         {CellType::hex8, {90}},
@@ -110,7 +114,8 @@ TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy
       double u = 0, force = 0, most = 0;
       for (std::size_t i = 0; i < a.u.size(); ++i) {
         u = std::max(u, (a.u[i] - b.u[i]).norm());
-        force = std::max(force, (a.reaction[i] - b.reaction[i]).norm()), most = std::max(most, b.reaction[i].norm());
+        force = std::max(force, (a.reaction[i] - b.reaction[i]).norm()),
+        most = std::max(most, b.reaction[i].norm());
       }
       CHECK(most > 0);
       CHECK(u < 1e-8);
@@ -127,12 +132,14 @@ TEST_CASE("one hexahedron gives displacements, reactions, cell fields and energy
         }
         CHECK(worst < 1e-8 * scale);
       }
-      for (const char* scalar : {"energy", "J_min"}) CHECK(std::abs(a.scalars.at(scalar) / b.scalars.at(scalar) - 1) < 1e-8);
+      for (const char* scalar : {"energy", "J_min"})
+        CHECK(std::abs(a.scalars.at(scalar) / b.scalars.at(scalar) - 1) < 1e-8);
     }
   }
 }
 
-TEST_CASE("a block under uniform tractions and pressures is solved at a point, and gives what its mesh gives") {
+TEST_CASE(
+    "a block under uniform tractions and pressures is solved at a point, and gives what its mesh gives") {
   const auto scene = [](const char* loads) {
     return test::config_of(
         "mesh: {geometry: {block: {size: [3, 2, 2], divisions: [3, 2, 2]}}, cells: hex8}\n"
@@ -145,12 +152,16 @@ TEST_CASE("a block under uniform tractions and pressures is solved at a point, a
     reduced = run.reduction.kind() == Reduction::Kind::homogeneous;
     std::vector<StepRecord> steps;
     RunListener each;
-    each.of_whole = [&](const StepRecord& step, const SolveReport&) { steps.push_back(step); };
+    each.of_whole = [&](const StepRecord& step, const SolveReport&) {
+      steps.push_back(step);
+    };
     REQUIRE(run.follow(each).path.complete);
     return steps;
   };
-  for (const char* loads : {"[{on: x_max, traction: {x: 0.3}}]",
-                            "[{on: x_max, force: {x: 1}}, {on: top, pressure: [{t: 0.5, to: 0.1}, {t: 1, to: 0.1}]}]"}) {
+  for (
+      const char* loads :
+      {"[{on: x_max, traction: {x: 0.3}}]",
+       "[{on: x_max, force: {x: 1}}, {on: top, pressure: [{t: 0.5, to: 0.1}, {t: 1, to: 0.1}]}]"}) {
     CAPTURE(loads);
     bool reduced = false;
     const auto point = states(scene(loads), true, reduced);
@@ -161,7 +172,8 @@ TEST_CASE("a block under uniform tractions and pressures is solved at a point, a
     for (std::size_t i = 0; i < point.size(); ++i) {
       CHECK(test::largest_difference(point[i].u, mesh[i].u) < 1e-6);
       CHECK(test::largest_difference(point[i].reaction, mesh[i].reaction) < 1e-6);
-      CHECK(point[i].scalars.at("energy") == doctest::Approx(mesh[i].scalars.at("energy")).epsilon(1e-6));
+      CHECK(point[i].scalars.at("energy") ==
+            doctest::Approx(mesh[i].scalars.at("energy")).epsilon(1e-6));
     }
   }
   bool reduced = true;
@@ -207,12 +219,14 @@ TEST_CASE("what does not deform alike everywhere is solved as it is") {
   SUBCASE("fibres that turn from cell to cell") {
     Scene turning = scene;
     turning.directions = Directions(true);
-    for (int e = 0; e < mesh.n_cells(); ++e) turning.directions.append({Vec3(std::cos(0.01 * e), 0, std::sin(0.01 * e))});
+    for (int e = 0; e < mesh.n_cells(); ++e)
+      turning.directions.append({Vec3(std::cos(0.01 * e), 0, std::sin(0.01 * e))});
     CHECK_FALSE(is_homogeneous(mesh, turning));
   }
   SUBCASE("contact") {
     Scene touched = scene;
-    touched.contacts = {RigidContact{"ball", Sphere{1, {3, 3, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.1, 0)}}}};
+    touched.contacts = {RigidContact{
+        "ball", Sphere{1, {3, 3, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.1, 0)}}}};
     CHECK_FALSE(is_homogeneous(mesh, touched));
   }
   SUBCASE("a body that is no box") {
@@ -239,7 +253,9 @@ Judged judged(const std::string& text, bool at_a_point) {
   Judged out;
   out.at_a_point = run.reduction.kind() == Reduction::Kind::homogeneous;
   RunListener listener;
-  listener.of_part = [&](StepRecord& step) { return watch.of_part(step); };
+  listener.of_part = [&](StepRecord& step) {
+    return watch.of_part(step);
+  };
   listener.of_whole = [&](StepRecord& step, const SolveReport& report) {
     CHECK(!watch.of_whole(step, report));
     out.steps.push_back(step);
@@ -247,7 +263,8 @@ Judged judged(const std::string& text, bool at_a_point) {
   run.follow(listener);
   // which of equal cells is the weakest is a matter of rounding
   const std::regex place(R"( (near|in cell \d+ at) \([^)]*\) mm)");
-  for (const std::string& line : watch.warnings()) out.warnings.push_back(std::regex_replace(line, place, ""));
+  for (const std::string& line : watch.warnings())
+    out.warnings.push_back(std::regex_replace(line, place, ""));
   out.unstable = std::regex_replace(watch.unstable(), place, "");
   out.summary = watch.stability_summary();
   return out;
@@ -255,43 +272,51 @@ Judged judged(const std::string& text, bool at_a_point) {
 
 }  // namespace
 
-TEST_CASE("a state at a point is judged as the mesh that it stands for: the same verdicts in words, steps and summary") {
+TEST_CASE(
+    "a state at a point is judged as the mesh that it stands for: the same verdicts in words, steps and summary") {
   std::mt19937 random(41);
   std::uniform_real_distribution<double> part(0, 1);
   int unstable = 0, stopped = 0;
   for (int n = 0; n < 12; ++n) {
     CAPTURE(n);
     const double c1 = -0.5 * part(random), pull = 0.5 + 1.5 * part(random);
-    const char* angles[] = {"{hgo: {c1: C, c2: 0.3}, alpha: 0}", "{hgo: {c1: C, c2: 0.3}, alpha: 90}",
-                            "{hgo: {c1: C, c2: 0.3}, alpha: 50}, {hgo: {c1: C, c2: 0.3}, alpha: -50}"};
-    const std::string fibres = std::regex_replace(angles[n % 3], std::regex("C"), std::to_string(c1));
+    const char* angles[] = {
+        "{hgo: {c1: C, c2: 0.3}, alpha: 0}", "{hgo: {c1: C, c2: 0.3}, alpha: 90}",
+        "{hgo: {c1: C, c2: 0.3}, alpha: 50}, {hgo: {c1: C, c2: 0.3}, alpha: -50}"};
+    const std::string fibres =
+        std::regex_replace(angles[n % 3], std::regex("C"), std::to_string(c1));
     const std::string text =
-        "mesh: {geometry: {block: {size: [4, 1, 2], divisions: [4, 2, 2]}}, cells: " + std::string(n % 4 == 3 ? "hex27" : "hex8") +
+        "mesh: {geometry: {block: {size: [4, 1, 2], divisions: [4, 2, 2]}}, cells: " +
+        std::string(n % 4 == 3 ? "hex27" : "hex8") +
         "}\nmaterial: {matrix: {yeoh: {a1: 0.269, a2: 0.1}}, fibres: [" + fibres +
         "], volume: {quadratic: {d: 1.0e-3}}}\n"
         "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\n"
         "loads: [{on: x_max, displacement: {x: " +
         std::to_string(pull) +
-        "}}]\npath: {steps: 5}\nsolver: {newton: {relative: 1.0e-9}}\nstability: " + (n % 5 == 4 ? "last" : "each_step") +
-        "\non_unstable: " + (n % 6 == 5 ? "stop" : "warn") + "\n";
+        "}}]\npath: {steps: 5}\nsolver: {newton: {relative: 1.0e-9}}\nstability: " +
+        (n % 5 == 4 ? "last" : "each_step") + "\non_unstable: " + (n % 6 == 5 ? "stop" : "warn") +
+        "\n";
     const Judged point = judged(text, true), mesh = judged(text, false);
     REQUIRE(point.at_a_point);
     REQUIRE(!mesh.at_a_point);
     CHECK(point.unstable == mesh.unstable);
     REQUIRE(point.warnings.size() == mesh.warnings.size());
-    for (std::size_t i = 0; i < mesh.warnings.size(); ++i) CHECK(point.warnings[i] == mesh.warnings[i]);
+    for (std::size_t i = 0; i < mesh.warnings.size(); ++i)
+      CHECK(point.warnings[i] == mesh.warnings[i]);
     unstable += !mesh.warnings.empty(), stopped += !mesh.unstable.empty();
     REQUIRE(point.summary.size() == mesh.summary.size());
     for (std::size_t i = 0; i < mesh.summary.size(); ++i)
       CHECK(point.summary[i].value == doctest::Approx(mesh.summary[i].value).epsilon(1e-6));
     REQUIRE(point.steps.size() == mesh.steps.size());
     for (std::size_t s = 0; s < mesh.steps.size(); ++s)
-      for (const char* name : {"negative_eigenvalues", "shear_stiffness_min", "unstable_volume", "driving_force",
-                               "isochoric_fibre_stretch_min", "isochoric_fibre_stretch_max"}) {
+      for (const char* name :
+           {"negative_eigenvalues", "shear_stiffness_min", "unstable_volume", "driving_force",
+            "isochoric_fibre_stretch_min", "isochoric_fibre_stretch_max"}) {
         CAPTURE(name);
         REQUIRE(point.steps[s].scalars.count(name) == mesh.steps[s].scalars.count(name));
         if (mesh.steps[s].scalars.count(name))
-          CHECK(point.steps[s].scalars.at(name) == doctest::Approx(mesh.steps[s].scalars.at(name)).epsilon(1e-6));
+          CHECK(point.steps[s].scalars.at(name) ==
+                doctest::Approx(mesh.steps[s].scalars.at(name)).epsilon(1e-6));
       }
   }
   CHECK(unstable > 2);

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/scene.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -19,7 +19,9 @@ namespace {
 const std::string configs = SOURCE_DIR "/configs/";
 
 Mesh mesh_of(const std::string& text) {
-  return make_mesh(read_config<MeshConfig>(parse_yaml(text, "mesh.yaml", configs + "mesh")).config, test::nowhere).mesh;
+  return make_mesh(read_config<MeshConfig>(parse_yaml(text, "mesh.yaml", configs + "mesh")).config,
+                   test::nowhere)
+      .mesh;
 }
 
 // what fits a scene: its own section, or few cells with the sets that it names
@@ -45,7 +47,8 @@ Mesh mesh_for(const std::string& name, const SolveConfig& config) {
 }  // namespace
 
 TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
-  const Material skin = read_config<Material>(load_yaml(configs + "material/abdomen_hgo_yeoh.yaml")).config;
+  const Material skin =
+      read_config<Material>(load_yaml(configs + "material/abdomen_hgo_yeoh.yaml")).config;
   int scenes = 0;
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(configs + "solve")) files.insert(entry.path());
@@ -55,39 +58,50 @@ TEST_CASE("every shipped scene goes with KINSOL where it goes with newton") {
     if (name.starts_with("which_")) continue;     // the others' scenes on one skin
     CAPTURE(name);
     Tree tree = load_yaml(file.string());
-    if (name == "suction_plate") set_value(tree, "mesh.geometry.section.divisions", parse_yaml("[48, 16]", "fewer"));
+    if (name == "suction_plate")
+      set_value(tree, "mesh.geometry.section.divisions", parse_yaml("[48, 16]", "fewer"));
     const SolveConfig config = read_config<SolveConfig>(tree).config;
     // bonds are newton's alone: tests/config/bad/adhesion_kinsol.yaml
-    if (std::any_of(config.contacts.begin(), config.contacts.end(), [](const auto& c) { return c.second.adhesion.has_value(); }))
+    if (std::any_of(config.contacts.begin(), config.contacts.end(),
+                    [](const auto& c) { return c.second.adhesion.has_value(); }))
       continue;
     const Mesh mesh = mesh_for(name, config);
     Material given = config.material ? *config.material : skin;
-    if (mesh.section && !config.material) given.fibres.clear();  // forward_uncertainty: sections bear none along x
+    if (mesh.section && !config.material)
+      given.fibres.clear();  // forward_uncertainty: sections bear none along x
     const Scene scene = make_scene(config, mesh, given, test::nowhere);
     const auto part = ReducedScene::find(config.symmetry, mesh, scene, test::nowhere);
     test::HowToSolve how;
     how.path = config.path;
-    how.path.use_increment(name == "scratch" ? 0.05 : 0.2);  // few: else iterations decide on them, and friction remembers its way
-    if (config.path.seconds) how.path.steps = 4;             // in each stage
+    how.path.use_increment(
+        name == "scratch"
+            ? 0.05
+            : 0.2);  // few: else iterations decide on them, and friction remembers its way
+    if (config.path.seconds) how.path.steps = 4;  // in each stage
     how.solver = NewtonOptions{.relative = 1e-10};
     const std::vector<StepRecord> expected = solved(mesh, scene, part, how).steps;
     double size = 0;
     for (const StepRecord& step : expected)
       for (const Vec3& u : step.u) size = std::max(size, u.norm());
-    constexpr KinsolStrategy in_turn[] = {KinsolStrategy::linesearch, KinsolStrategy::picard, KinsolStrategy::fixed_point};
+    constexpr KinsolStrategy in_turn[] = {KinsolStrategy::linesearch, KinsolStrategy::picard,
+                                          KinsolStrategy::fixed_point};
     for (KinsolStrategy strategy : {KinsolStrategy::newton, in_turn[scenes % 3]}) {
       CAPTURE(static_cast<int>(strategy));
       how.solver = KinsolOptions{.strategy = strategy, .relative = 1e-10};
       const std::vector<StepRecord> found = solved(mesh, scene, part, how).steps;
-      // with a tangent of before the remainder's modulus of hex27 follows round by round: increments may have to be shorter
-      const bool follows = scene.formulation == Formulation::linear_dilatation && strategy >= KinsolStrategy::picard;
+      // with a tangent of before the remainder's modulus of hex27 follows round by round:
+      // increments may have to be shorter
+      const bool follows =
+          scene.formulation == Formulation::linear_dilatation && strategy >= KinsolStrategy::picard;
       if (!follows) REQUIRE(found.size() == expected.size());
       double most = 0;
       for (const StepRecord& step : expected) {
-        const auto same =
-            std::find_if(found.begin(), found.end(), [&](const StepRecord& s) { return std::abs(s.t - step.t) < 1e-12; });
+        const auto same = std::find_if(found.begin(), found.end(), [&](const StepRecord& s) {
+          return std::abs(s.t - step.t) < 1e-12;
+        });
         REQUIRE(same != found.end());
-        for (std::size_t i = 0; i < step.u.size(); ++i) most = std::max(most, (same->u[i] - step.u[i]).norm());
+        for (std::size_t i = 0; i < step.u.size(); ++i)
+          most = std::max(most, (same->u[i] - step.u[i]).norm());
       }
       CHECK(most <= 1e-8 * size);
       MESSAGE(name << ": u differs by " << most / size << " of its largest");

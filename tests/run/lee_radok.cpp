@@ -1,4 +1,5 @@
-// A sphere pressed into a viscoelastic half space and held, small strains, a contact that grows.                           [LR60]
+// A sphere pressed into a viscoelastic half space and held, small strains, a contact that grows.
+// [LR60]
 //   F(t) = 16 sqrt(R)/3 integral of G(t - s) d(d^1.5)/ds ds,   d the depth, G the relaxing shear modulus
 #include <doctest/doctest.h>
 
@@ -26,7 +27,8 @@ double half_space(double t) {
     for (const Branch& b : branches) G += mu * b.gamma * std::exp(-(t - s) / b.tau);
     sum += G * 3 * u * u * end / n;
   }
-  // a layer of a finite thickness, bonded, is stiffer: Dimitriadis et al.'s first term, sqrt(R d) beside the thickness
+  // a layer of a finite thickness, bonded, is stiffer: Dimitriadis et al.'s first term, sqrt(R d)
+  // beside the thickness
   const double chi = std::sqrt(R * depth * std::min(t, ramp) / ramp) / size;
   return 16 * std::sqrt(R) / 3 * std::pow(depth / ramp, 1.5) * sum * (1 + 1.133 * chi);
 }

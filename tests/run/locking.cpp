@@ -1,4 +1,5 @@
-// What is said of a formulation that does not suit, beside what the usual one gives on the same cells.
+// What is said of a formulation that does not suit, beside what the usual one gives on the same
+// cells.
 #include "accuracy/checks/locking.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +30,8 @@ struct Found {
 Found sphere(const LoadCase& scene, CellType cells, std::optional<Formulation> formulation) {
   test::Indentation indentation;
   const int q = cells == CellType::hex8 ? 1 : 2;
-  indentation.cells = cells, indentation.formulation = formulation, indentation.quarter = true, indentation.mu = 0;
+  indentation.cells = cells, indentation.formulation = formulation, indentation.quarter = true,
+  indentation.mu = 0;
   indentation.nx = indentation.nz = 12 / q, indentation.ny = 4 / q, indentation.h = 0.5 * q;
   indentation.radius = scene.sphere, indentation.depth = 0.4, indentation.step = 0.2;
   Found out;
@@ -44,18 +46,21 @@ Found sphere(const LoadCase& scene, CellType cells, std::optional<Formulation> f
 
 Found block(const LoadCase& scene, CellType cells, std::optional<Formulation> formulation) {
   const int n = cells == CellType::hex8 ? 6 : 3;
-  Mesh mesh = test::block(test::even(0, 4, n), test::even(0, 2, n / 2 + n % 2), test::even(0, 4, n));
+  Mesh mesh =
+      test::block(test::even(0, 4, n), test::even(0, 2, n / 2 + n % 2), test::even(0, 4, n));
   test::distort(mesh, 0.08);
   if (cells != CellType::hex8) mesh = test::raised_block(mesh, cells);
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets["y_min"])
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
   for (int i : mesh.node_sets["y_max"]) {
-    const Vec3 from = mesh.X[i] - Vec3(2, 2, 2), u = scene.move + scene.turn * Vec3(from[2], from[0], -from[0]);
+    const Vec3 from = mesh.X[i] - Vec3(2, 2, 2),
+               u = scene.move + scene.turn * Vec3(from[2], from[0], -from[0]);
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, u[k]});
   }
-  Equilibrium body = test::equilibrium(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)),
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body =
+      test::equilibrium(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)),
+                        number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   LoadPathOptions path;
   path.first = path.largest = 0.5;
@@ -89,7 +94,8 @@ std::vector<LoadCase> scenes(double d) {
 
 }  // namespace
 
-TEST_CASE("locking: what is said of displacement and of mean_dilatation on quadratic cells is what the usual formulation shows") {
+TEST_CASE(
+    "locking: what is said of displacement and of mean_dilatation on quadratic cells is what the usual formulation shows") {
   struct Choice {
     CellType cells;
     Formulation formulation;

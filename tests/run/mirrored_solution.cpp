@@ -20,16 +20,16 @@ struct Case {
 };
 
 SolveConfig scene(const Case& c) {
-  return config_of(
-      fmt::format("mesh:\n  geometry: {{block: {{origin: [-3, 0, -3], size: [6, 3, 6], divisions: [{}, 2, {}]}}}}\n"
-                  "  sets: {{contact: {{of: top, within: {{cylinder: {{axis: y, radius: 2.6}}}}}}}}\n"
-                  "supports: [{{on: bottom, hold: [x, y, z]}}]\n"
-                  "contacts: {{ball: {{on: contact, rigid: {{sphere: {{radius: 3, centre: [{}, 6, {}]}}}}, friction: 0.3, "
-                  "motion: [{{t: 1, to: [0, -0.4, 0]}}]}}}}\n"
-                  "fibre_angles: [{}]\nmaterial: {{matrix: {{yeoh: {{a1: 0.1, a2: 0.1, a3: 0.1}}}}, "
-                  "fibres: [{{hgo: {{c1: 0.3, c2: 0.5}}, alpha: 0}}], volume: {{quadratic: {{d: 1e-3}}}}}}\n"
-                  "symmetry: none\npath: {{first: 0.5, largest: 0.5}}\nsolver: {{newton: {{relative: 1e-11}}}}\n",
-                  c.nx, c.nz, c.x, c.z, c.alpha));
+  return config_of(fmt::format(
+      "mesh:\n  geometry: {{block: {{origin: [-3, 0, -3], size: [6, 3, 6], divisions: [{}, 2, {}]}}}}\n"
+      "  sets: {{contact: {{of: top, within: {{cylinder: {{axis: y, radius: 2.6}}}}}}}}\n"
+      "supports: [{{on: bottom, hold: [x, y, z]}}]\n"
+      "contacts: {{ball: {{on: contact, rigid: {{sphere: {{radius: 3, centre: [{}, 6, {}]}}}}, friction: 0.3, "
+      "motion: [{{t: 1, to: [0, -0.4, 0]}}]}}}}\n"
+      "fibre_angles: [{}]\nmaterial: {{matrix: {{yeoh: {{a1: 0.1, a2: 0.1, a3: 0.1}}}}, "
+      "fibres: [{{hgo: {{c1: 0.3, c2: 0.5}}, alpha: 0}}], volume: {{quadratic: {{d: 1e-3}}}}}}\n"
+      "symmetry: none\npath: {{first: 0.5, largest: 0.5}}\nsolver: {{newton: {{relative: 1e-11}}}}\n",
+      c.nx, c.nz, c.x, c.z, c.alpha));
 }
 
 struct Pair {
@@ -41,14 +41,16 @@ struct Pair {
     Case d = c;
     d.alpha = beta;
     const SolveConfig a = scene(c), b = scene(d);
-    one = make_scene(a, mesh, a.material, nowhere), other = make_scene(b, mesh, b.material, nowhere);
+    one = make_scene(a, mesh, a.material, nowhere),
+    other = make_scene(b, mesh, b.material, nowhere);
     operation = operation_between(mesh, one, other, why);
   }
 };
 
 }  // namespace
 
-TEST_CASE("the image of a solution is the solution of the image: 180 - alpha, 90 - alpha, 90 + alpha and the same fibres") {
+TEST_CASE(
+    "the image of a solution is the solution of the image: 180 - alpha, 90 - alpha, 90 + alpha and the same fibres") {
   const SolveConfig config = scene({});
   std::optional<test::Solved> solved;
   for (const auto& [beta, name] : {std::pair(155.0, "mirror x of"),
@@ -63,7 +65,8 @@ TEST_CASE("the image of a solution is the solution of the image: 180 - alpha, 90
     CHECK(pair.operation->name == name);
     const test::HowToSolve how{config.path, config.solver};
     if (!solved) solved = test::solved(pair.mesh, pair.one, std::nullopt, how);
-    StepRecord one = solved->last(), own = test::solved(pair.mesh, pair.other, std::nullopt, how).last();
+    StepRecord one = solved->last(),
+               own = test::solved(pair.mesh, pair.other, std::nullopt, how).last();
     CellStressRecorder(pair.mesh, pair.one, CellStress::tensor).add(one);
     CellStressRecorder(pair.mesh, pair.other, CellStress::tensor).add(own);
     const StepRecord image = image_of_step(one, pair.operation->symmetry, pair.other.contacts);
@@ -74,8 +77,10 @@ TEST_CASE("the image of a solution is the solution of the image: 180 - alpha, 90
     CHECK(image.contacts.at("ball").status == own.contacts.at("ball").status);
     for (const auto& [field, values] : own.cell_fields)
       for (std::size_t e = 0; e < values.size(); ++e)
-        CHECK(image.cell_fields.at(field)[e] == doctest::Approx(values[e]).epsilon(1e-7).scale(field == "stress" ? 1 : 0));
-    CHECK(largest_difference(solved->last().u, own.u) > (beta == 205 ? -1 : 1e-3));  // something was turned
+        CHECK(image.cell_fields.at(field)[e] ==
+              doctest::Approx(values[e]).epsilon(1e-7).scale(field == "stress" ? 1 : 0));
+    CHECK(largest_difference(solved->last().u, own.u) >
+          (beta == 205 ? -1 : 1e-3));  // something was turned
   }
 }
 

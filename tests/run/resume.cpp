@@ -1,4 +1,5 @@
-// A run continued from any of its steps gives the rest of them to the last bit: what a step starts from is in its record.
+// A run continued from any of its steps gives the rest of them to the last bit: what a step starts
+// from is in its record.
 #include <doctest/doctest.h>
 
 #include "support/solved_scene.hpp"
@@ -7,13 +8,15 @@ using namespace langer;
 
 namespace {
 
-const std::string yeoh = "{matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-5}}}\n";
+const std::string yeoh =
+    "{matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-5}}}\n";
 const std::string skin =
     "{matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, fibres: [{hgo: {c1: 0.317, c2: 1.1}, alpha: 60}], "
     "volume: {quadratic: {d: 1.0e-5}}}\n";
 
 std::string block(const std::string& cells, const std::string& divisions) {
-  return "mesh:\n  geometry: {block: {size: [12, 4, 12], divisions: " + divisions + "}}\n  cells: " + cells +
+  return "mesh:\n  geometry: {block: {size: [12, 4, 12], divisions: " + divisions +
+         "}}\n  cells: " + cells +
          "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, through: [6, 0, 6], radius: 3.1}}}}\n"
          "supports: [{on: bottom, hold: [x, y, z]}]\n";
 }
@@ -47,7 +50,8 @@ void check(const std::string& text) {
       REQUIRE(same(a.reaction, b.reaction));
       REQUIRE(a.scalars == b.scalars);
       REQUIRE(a.cell_fields == b.cell_fields);
-      for (const auto& [name, contact] : a.contacts) REQUIRE(same(contact.r, b.contacts.at(name).r));
+      for (const auto& [name, contact] : a.contacts)
+        REQUIRE(same(contact.r, b.contacts.at(name).r));
     }
   }
 }
@@ -71,16 +75,22 @@ TEST_CASE("a continued run is the run: hex27, whose cells are propped by their p
 
 TEST_CASE("a continued run is the run: sections") {
   for (const char* cells : {"hex8", "hex27"}) {
-    const std::string sets = "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 3.1}}}}\n";
-    check("mesh:\n  geometry: {section: {of: axisymmetric, size: [8, 4], divisions: [12, 5]}}\n  cells: " + std::string(cells) +
-          sets + "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " + yeoh +
-          ball("[0, 6.5, 0]", "[{t: 1, to: [0, -0.6, 0]}]"));
-    check("mesh: {geometry: {section: {of: plane_strain, size: [4, 2], divisions: [6, 3]}}, cells: " + std::string(cells) +
-          "}\nsupports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.4, y: -0.3}}]\nmaterial: " + yeoh);
+    const std::string sets =
+        "\n  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 3.1}}}}\n";
+    check(
+        "mesh:\n  geometry: {section: {of: axisymmetric, size: [8, 4], divisions: [12, 5]}}\n  cells: " +
+        std::string(cells) + sets + "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " + yeoh +
+        ball("[0, 6.5, 0]", "[{t: 1, to: [0, -0.6, 0]}]"));
+    check(
+        "mesh: {geometry: {section: {of: plane_strain, size: [4, 2], divisions: [6, 3]}}, cells: " +
+        std::string(cells) +
+        "}\nsupports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.4, y: -0.3}}]\nmaterial: " +
+        yeoh);
   }
 }
 
-TEST_CASE("a continued run is the run: KINSOL, the paper's pointwise dilatation, a pull along oblique fibres") {
+TEST_CASE(
+    "a continued run is the run: KINSOL, the paper's pointwise dilatation, a pull along oblique fibres") {
   const std::string pull =
       "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [6, 3, 3]}}}\nsupports: [{on: x_min, hold: [x, y, z]}]\n"
       "loads: [{on: x_max, displacement: {x: 0.8}}]\nmaterial: " +

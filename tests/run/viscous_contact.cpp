@@ -1,4 +1,5 @@
-// Indenters in viscous bodies: creep of a half space under a force, and where the work of a cycle with friction goes.
+// Indenters in viscous bodies: creep of a half space under a force, and where the work of a cycle
+// with friction goes.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -14,12 +15,14 @@ namespace {
 
 constexpr double R = 10, mu = 1, end = 30;  // [mm], [MPa] left after all has relaxed, [s]
 
-// a sphere on a body some 300 times as deep and wide as the contact; nearly incompressible, strains of some percent
+// a sphere on a body some 300 times as deep and wide as the contact; nearly incompressible, strains
+// of some percent
 std::string half_space(const std::string& branches, const std::string& moved) {
   return "mesh:\n  geometry: {indented_disc: {size: [150, 150], radius: 10, depth: 0.02, edge: 0.125}}\n  cells: hex27\n"
          "  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 1.2}}}}\n"
          "material: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-4}}, viscous: " +
-         branches + "}\nsupports: [{on: bottom, hold: [x, y]}]\ncontacts: {ball: {on: contact, " + moved +
+         branches + "}\nsupports: [{on: bottom, hold: [x, y]}]\ncontacts: {ball: {on: contact, " +
+         moved +
          ", rigid: {sphere: {radius: 10, centre: [0, 160, 0]}}}}\npath: {seconds: 30, first: 0.05, largest: 0.1}\n";
 }
 
@@ -34,14 +37,19 @@ double integral(F f, double until) {
 
 }  // namespace
 
-// [LR60] for a given force, with the creep compliance J: δ^3/2 = 3 / (16 sqrt(R)) ∫ J(t - s) dF/ds ds
-TEST_CASE("viscous: a sphere under a constant force creeps into a half space as Lee and Radok say") {
+// [LR60] for a given force, with the creep compliance J: δ^3/2 = 3 / (16 sqrt(R)) ∫ J(t - s) dF/ds
+// ds
+TEST_CASE(
+    "viscous: a sphere under a constant force creeps into a half space as Lee and Radok say") {
   constexpr double tau = 3, gamma = 0.8, force = 0.08, ramp = 2;
-  const test::Ended found =
-      test::run(half_space("[{tau: 3, gamma: 0.8}]", "control: {force: [{s: 2, to: 0.08}, {s: 30, to: 0.08}]}"));
-  const auto J = [](double t) { return (1 - gamma / (1 + gamma) * std::exp(-t / (tau * (1 + gamma)))) / mu; };
+  const test::Ended found = test::run(half_space(
+      "[{tau: 3, gamma: 0.8}]", "control: {force: [{s: 2, to: 0.08}, {s: 30, to: 0.08}]}"));
+  const auto J = [](double t) {
+    return (1 - gamma / (1 + gamma) * std::exp(-t / (tau * (1 + gamma)))) / mu;
+  };
   const auto depth = [&](double t) {
-    return std::pow(3 / (16 * std::sqrt(R)) * force / ramp * integral([&](double s) { return J(t - s); }, std::min(t, ramp)),
+    return std::pow(3 / (16 * std::sqrt(R)) * force / ramp *
+                        integral([&](double s) { return J(t - s); }, std::min(t, ramp)),
                     2.0 / 3);
   };
   int held = 0;
@@ -56,7 +64,8 @@ TEST_CASE("viscous: a sphere under a constant force creeps into a half space as 
   CHECK(found.last().u_ind.norm() > 1.2 * depth(ramp));
 }
 
-TEST_CASE("viscous: with friction work is stored, dissipated by the branches or by friction, error of second order") {
+TEST_CASE(
+    "viscous: with friction work is stored, dissipated by the branches or by friction, error of second order") {
   std::vector<double> worst;
   for (const char* increments : {"0.05", "0.025"}) {
     const test::Ended found = test::run(
@@ -71,7 +80,8 @@ TEST_CASE("viscous: with friction work is stored, dissipated by the branches or 
     StepRecord rest;
     rest.u.assign(found.mesh.X.size(), Vec3::Zero()), rest.reaction = rest.u;
     path.add(energy_state(rest, found.scene.contacts, {}));
-    for (const StepRecord& step : found.steps) path.add(energy_state(step, found.scene.contacts, {}));
+    for (const StepRecord& step : found.steps)
+      path.add(energy_state(step, found.scene.contacts, {}));
     const std::vector<PathSums> sums = path.sums();
     CHECK(sums.back().dissipated > 0.02);
     CHECK(found.last().scalars.at("viscous_work") > 2.5);

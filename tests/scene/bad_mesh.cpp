@@ -24,11 +24,12 @@ Ended solve_on(const Mesh& mesh) {
   fs::remove_all(folder);
   fs::create_directories(folder);
   write_mesh((folder / "mesh.h5").string(), mesh, {"mesh", "", "0", {}, ""});
-  std::ofstream(folder / "solve.yaml") << "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 0.01}}}\n"
-                                          "supports:\n- {on: y_min, hold: [x, y, z]}\n"
-                                          "loads:\n- {on: y_max, displacement: {y: 0.01}}\n";
-  const std::string command =
-      "cd " + folder.string() + " && " + BIN_DIR + "/langer-solve solve.yaml --mesh mesh.h5 -o solution.h5 > said 2>&1";
+  std::ofstream(folder / "solve.yaml")
+      << "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 0.01}}}\n"
+         "supports:\n- {on: y_min, hold: [x, y, z]}\n"
+         "loads:\n- {on: y_max, displacement: {y: 0.01}}\n";
+  const std::string command = "cd " + folder.string() + " && " + BIN_DIR +
+                              "/langer-solve solve.yaml --mesh mesh.h5 -o solution.h5 > said 2>&1";
   const int status = std::system(command.c_str());
   std::ostringstream said;
   said << std::ifstream(folder / "said").rdbuf();
@@ -38,11 +39,13 @@ Ended solve_on(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a mesh file with a folded, a flat or an inverted cell is refused with the file and the cell") {
+TEST_CASE(
+    "a mesh file with a folded, a flat or an inverted cell is refused with the file and the cell") {
   const Mesh good = test::cube(2);
   CHECK(solve_on(good).code == 0);
   Mesh folded = good;
-  folded.X[folded.cell(5)[6]] = folded.X[folded.cell(5)[0]] - Vec3(0.1, 0.1, 0.1);  // a corner pushed through the opposite one
+  folded.X[folded.cell(5)[6]] = folded.X[folded.cell(5)[0]] -
+                                Vec3(0.1, 0.1, 0.1);  // a corner pushed through the opposite one
   Mesh flat = test::cube(1);
   for (Vec3& X : flat.X) X[2] = 0;
   Mesh inverted = test::cube(1);
@@ -53,7 +56,8 @@ TEST_CASE("a mesh file with a folded, a flat or an inverted cell is refused with
     const Ended run = solve_on(mesh);
     INFO(run.said);
     CHECK(run.code == 3);
-    CHECK(run.said.find("mesh.h5: cell " + std::to_string(cell) + " is folded or flat: Jacobian ") != std::string::npos);
+    CHECK(run.said.find("mesh.h5: cell " + std::to_string(cell) +
+                        " is folded or flat: Jacobian ") != std::string::npos);
     CHECK(run.said.find("expected a positive Jacobian everywhere") != std::string::npos);
   }
 }

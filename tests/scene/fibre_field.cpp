@@ -25,7 +25,8 @@ Directions laid(const FibreField& field, const Mesh& mesh) {
 }
 }  // namespace
 
-TEST_CASE("a formula gives each cell the angle at its centre, and the jump is its slope times the cell's length") {
+TEST_CASE(
+    "a formula gives each cell the angle at its centre, and the jump is its slope times the cell's length") {
   const Mesh mesh = test::block(test::even(0, 8, 4), test::even(0, 1, 1), test::even(0, 3, 3));
   const Directions directions = laid(FormulaField{"30 + 2*x"}, mesh);
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -33,14 +34,18 @@ TEST_CASE("a formula gives each cell the angle at its centre, and the jump is it
     CHECK((directions.of(e)[0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
   }
   const FibreJump jump = largest_jump(mesh, directions);
-  CHECK(jump.degrees == doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
+  CHECK(jump.degrees ==
+        doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
   CHECK(std::fmod(jump.place[0], 2) == doctest::Approx(0));
 }
 
-TEST_CASE("a formula that cannot be read is refused with the place of its key and the position in the text") {
+TEST_CASE(
+    "a formula that cannot be read is refused with the place of its key and the position in the text") {
   const Mesh mesh = test::block(test::even(0, 1, 1), test::even(0, 1, 1), test::even(0, 1, 1));
-  for (const auto& [formula, part] :
-       {std::pair{"30 + 2*q", "character 8"}, {"1/(x - 0.5)", "inf"}, {"1, 2", "2 values"}, {"", ""}}) {
+  for (const auto& [formula, part] : {std::pair{"30 + 2*q", "character 8"},
+                                      {"1/(x - 0.5)", "inf"},
+                                      {"1, 2", "2 values"},
+                                      {"", ""}}) {
     const auto text = std::string(formula);
     CAPTURE(text);
     std::string said;
@@ -55,10 +60,12 @@ TEST_CASE("a formula that cannot be read is refused with the place of its key an
   }
 }
 
-TEST_CASE("directions between points do not depend on the points' signs, and opposite answers are said to be none") {
+TEST_CASE(
+    "directions between points do not depend on the points' signs, and opposite answers are said to be none") {
   MeasuredDirections points{{{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, Vec3(1, 0, 1).normalized()}};
   const Vec3 middle(1, 0, 0), a = direction_at(points, middle, Between::inverse_distance, 2);
-  CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) == doctest::Approx(1));
+  CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) ==
+        doctest::Approx(1));
   points.a[1] = -points.a[1];
   CHECK(a.cross(direction_at(points, middle, Between::inverse_distance, 2)).norm() < 1e-14);
   CHECK(direction_at(points, {0.9, 0, 0}, Between::nearest, 2) == Vec3(1, 0, 0));
@@ -66,10 +73,12 @@ TEST_CASE("directions between points do not depend on the points' signs, and opp
   CHECK(direction_at(points, middle, Between::inverse_distance, 2) == Vec3::Zero());
 }
 
-TEST_CASE("the same points from a CSV file and from an HDF5 file, datasets of unequal length are refused by name") {
+TEST_CASE(
+    "the same points from a CSV file and from an HDF5 file, datasets of unequal length are refused by name") {
   const auto folder = std::filesystem::temp_directory_path() / "langer_fibre_points";
   std::filesystem::create_directories(folder);
-  const std::string csv = (folder / "points.csv").string(), h5_file = (folder / "points.h5").string();
+  const std::string csv = (folder / "points.csv").string(),
+                    h5_file = (folder / "points.h5").string();
   std::ofstream(csv) << "x,y,z,a_x,a_y,a_z\n0,0,0,1,0,0\n2,0,0,3,0,4\n";
   const auto write = [&](std::size_t n_last) {
     h5::File file = h5::File::create(h5_file);
@@ -99,6 +108,7 @@ TEST_CASE("the same points from a CSV file and from an HDF5 file, datasets of un
   }
   std::ofstream(csv) << "x,y,z,a_x,a_y,a_z\n0,0,0,1,0,0\n2,0,0,0,0,0\n";
   field.file.path = csv;
-  CHECK_THROWS_WITH_AS(read_directions(field), doctest::Contains("a direction of no length"), Failure);
+  CHECK_THROWS_WITH_AS(read_directions(field), doctest::Contains("a direction of no length"),
+                       Failure);
   std::filesystem::remove_all(folder);
 }

@@ -1,5 +1,6 @@
-// Families that change places in a mirror, families without direction and indenters that are each other's image: the part of the
-// body that is left gives what the whole body gives; what only looks alike is not taken for an image. By random draws.
+// Families that change places in a mirror, families without direction and indenters that are each
+// other's image: the part of the body that is left gives what the whole body gives; what only looks
+// alike is not taken for an image. By random draws.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +19,9 @@ using test::largest_difference, test::nowhere;
 namespace {
 
 using Random = std::mt19937;
-double between_of(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+double between_of(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
 int one_of_n(Random& random, int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); }
 
 const Vec3 middle(3, 0, -2);  // of the block: anywhere
@@ -58,8 +61,8 @@ Scene scene_of(const Mesh& mesh, const std::vector<Fibre>& fibres) {
   return scene;
 }
 
-RigidContact indenter(const std::string& name, const Indenter& shape, const Mesh& mesh, const std::vector<Waypoint>& motion,
-                      double mu) {
+RigidContact indenter(const std::string& name, const Indenter& shape, const Mesh& mesh,
+                      const std::vector<Waypoint>& motion, double mu) {
   return {name, shape, mu, mesh.node_sets.at("y_max"), motion};
 }
 
@@ -82,7 +85,8 @@ double compare(const Mesh& mesh, const Scene& scene, const std::string& words) {
   test::HowToSolve how;
   how.path.first = how.path.largest = 0.5;
   how.solver = NewtonOptions{.relative = 1e-12};
-  const test::Solved whole = solved(mesh, scene, std::nullopt, how), few = solved(mesh, scene, part, how);
+  const test::Solved whole = solved(mesh, scene, std::nullopt, how),
+                     few = solved(mesh, scene, part, how);
   REQUIRE(whole.steps.size() == few.steps.size());
   for (std::size_t s = 0; s < whole.steps.size(); ++s) {
     const StepRecord &a = whole.steps[s], &b = few.steps[s];
@@ -110,12 +114,14 @@ double compare(const Mesh& mesh, const Scene& scene, const std::string& words) {
       CAPTURE(field);
       REQUIRE(b.cell_fields.at(name).size() == values.size());
       double worst = 0;
-      for (std::size_t e = 0; e < values.size(); ++e) worst = std::max(worst, std::abs(values[e] - b.cell_fields.at(name)[e]));
+      for (std::size_t e = 0; e < values.size(); ++e)
+        worst = std::max(worst, std::abs(values[e] - b.cell_fields.at(name)[e]));
       CHECK(worst < 1e-7);
     }
     const BodyState state = part->reduced(b);  // to continue from, and back
     REQUIRE(state.r.size() == part->scene().contacts.size());
-    for (std::size_t c = 0; c < state.r.size(); ++c) CHECK(state.r[c].size() == part->scene().contacts[c].nodes.size());
+    for (std::size_t c = 0; c < state.r.size(); ++c)
+      CHECK(state.r[c].size() == part->scene().contacts[c].nodes.size());
   }
   return static_cast<double>(whole.free) / few.free;
 }
@@ -131,7 +137,8 @@ std::string words_of(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene
 
 }  // namespace
 
-TEST_CASE("two families at +theta and -theta leave a quarter, beside others without direction, in whatever order") {
+TEST_CASE(
+    "two families at +theta and -theta leave a quarter, beside others without direction, in whatever order") {
   Random random(21);
   for (int n = 0; n < 6; ++n) {
     CAPTURE(n);
@@ -143,8 +150,8 @@ TEST_CASE("two families at +theta and -theta leave a quarter, beside others with
     std::shuffle(fibres.begin(), fibres.end(), random);
     const Mesh mesh = mesh_of(n == 3 ? 5 : 6, n == 4 ? 5 : 6);
     Scene scene = scene_of(mesh, fibres);
-    scene.contacts = {indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh, {{1, Vec3(0, -between_of(random, 0.3, 0.6), 0)}},
-                               n % 2 ? 0.3 : 0)};
+    scene.contacts = {indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh,
+                               {{1, Vec3(0, -between_of(random, 0.3, 0.6), 0)}}, n % 2 ? 0.3 : 0)};
     CHECK(compare(mesh, scene, "mirror x and mirror z") > 2.2);
   }
 }
@@ -179,7 +186,8 @@ TEST_CASE("families whose laws or angles differ leave no mirror plane") {
         break;
     }
     Scene scene = scene_of(mesh, {one, other});
-    scene.contacts = {indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh, {{1, Vec3(0, -0.3, 0)}}, 0.3)};
+    scene.contacts = {
+        indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh, {{1, Vec3(0, -0.3, 0)}}, 0.3)};
     CHECK(words_of(SymmetryChoice::mirror_x, mesh, scene).find("fibres") != std::string::npos);
     CHECK(words_of(SymmetryChoice::automatic, mesh, scene).find("half turn") == 0);
   }
@@ -188,15 +196,19 @@ TEST_CASE("families whose laws or angles differ leave no mirror plane") {
   b.law = HgoFibre{1, 1};
   Fibre a_other = a, b_other = b;
   a_other.alpha_deg = b_other.alpha_deg = -40;
-  CHECK(words_of(SymmetryChoice::quarter, mesh, scene_of(mesh, {a, b, b_other, a_other})).find("mirror x") == 0);
-  CHECK(words_of(SymmetryChoice::quarter, mesh, scene_of(mesh, {a, b, b, a_other})).find("fibres") != std::string::npos);
+  CHECK(words_of(SymmetryChoice::quarter, mesh, scene_of(mesh, {a, b, b_other, a_other}))
+            .find("mirror x") == 0);
+  CHECK(
+      words_of(SymmetryChoice::quarter, mesh, scene_of(mesh, {a, b, b, a_other})).find("fibres") !=
+      std::string::npos);
 }
 
 TEST_CASE("a family without direction alone is isotropic, at any angle") {
   Random random(23);
   const Mesh mesh = mesh_of(6, 6);
   Scene scene = scene_of(mesh, {family(random, 37, 1.0 / 3)});
-  scene.contacts = {indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh, {{1, Vec3(0, -0.5, 0)}}, 0.3)};
+  scene.contacts = {
+      indenter("ball", Sphere{2, {middle[0], 5, middle[2]}}, mesh, {{1, Vec3(0, -0.5, 0)}}, 0.3)};
   CHECK(compare(mesh, scene, "mirror x and mirror z") > 2.2);
 }
 
@@ -210,9 +222,11 @@ struct Pair {
 // two indenters, the second the first one's image by `signs`, off both planes or on one
 Pair pair_of(Random& random, const Vec3& signs, bool own_nodes, double apart) {
   Pair p{mesh_of(6 + one_of_n(random, 2), 6 + one_of_n(random, 2)), {}};
-  const double alpha = signs[0] * signs[2] > 0 ? between_of(random, 10, 80) : 90.0 * one_of_n(random, 2);
+  const double alpha =
+      signs[0] * signs[2] > 0 ? between_of(random, 10, 80) : 90.0 * one_of_n(random, 2);
   p.scene = scene_of(p.mesh, {family(random, alpha, 0)});
-  const Vec3 beside = between_of(random, 0.9, 1.1) * apart * Vec3(signs[0] < 0 ? 1 : 0.2, 0, signs[2] < 0 ? 1 : 0.2);
+  const Vec3 beside = between_of(random, 0.9, 1.1) * apart *
+                      Vec3(signs[0] < 0 ? 1 : 0.2, 0, signs[2] < 0 ? 1 : 0.2);
   const Vec3 at = middle + beside;
   const double radius = between_of(random, 1.2, 1.8);
   Indenter shape = Sphere{radius, {at[0], 3 + radius, at[2]}};
@@ -220,16 +234,19 @@ Pair pair_of(Random& random, const Vec3& signs, bool own_nodes, double apart) {
     shape = Ellipsoid{{radius, 1, 1.4}, {at[0], 4, at[2]}};
   else if (kind == 2)
     shape = Cylinder{1, 0.4, {at[0], 3, at[2]}};
-  const Vec3 to(between_of(random, -0.1, 0.1), -between_of(random, 0.2, 0.3), between_of(random, -0.1, 0.1));
+  const Vec3 to(between_of(random, -0.1, 0.1), -between_of(random, 0.2, 0.3),
+                between_of(random, -0.1, 0.1));
   const std::vector<Waypoint> motion{{0.5, Vec3(0, to[1], 0)}, {1, to}};
   std::vector<Waypoint> image = motion;
   for (Waypoint& w : image) w.to = signs.cwiseProduct(w.to);
   const double mu = one_of_n(random, 2) ? 0.25 : 0;
-  p.scene.contacts = {indenter("left", shape, p.mesh, motion, mu), indenter("right", moved(shape, signs), p.mesh, image, mu)};
+  p.scene.contacts = {indenter("left", shape, p.mesh, motion, mu),
+                      indenter("right", moved(shape, signs), p.mesh, image, mu)};
   p.scene.stops = {0.5};
   if (own_nodes)
     for (RigidContact& contact : p.scene.contacts)
-      std::erase_if(contact.nodes, [&](int n) { return shape_at(contact.shape, p.mesh.X[n]).gap > 0.8; });
+      std::erase_if(contact.nodes,
+                    [&](int n) { return shape_at(contact.shape, p.mesh.X[n]).gap > 0.8; });
   return p;
 }
 
@@ -237,16 +254,21 @@ const Vec3 mirrors[]{{-1, 1, 1}, {1, 1, -1}, {-1, 1, -1}};
 
 }  // namespace
 
-TEST_CASE("two indenters, one the other's image: a part with one of them gives the forces of both by name") {
+TEST_CASE(
+    "two indenters, one the other's image: a part with one of them gives the forces of both by name") {
   Random random(24);
   for (int n = 0; n < 9; ++n) {
     CAPTURE(n);
     const Pair p = pair_of(random, mirrors[n % 3], n % 2 == 0, 1.8);
-    CHECK(compare(p.mesh, p.scene, n % 3 == 0 ? "mirror x" : n % 3 == 1 ? "mirror z" : "half turn") > 1.5);
+    CHECK(compare(p.mesh, p.scene,
+                  n % 3 == 0   ? "mirror x"
+                  : n % 3 == 1 ? "mirror z"
+                               : "half turn") > 1.5);
   }
 }
 
-TEST_CASE("two indenters that stand in one mirror plane and are each other's image in the other leave a quarter") {
+TEST_CASE(
+    "two indenters that stand in one mirror plane and are each other's image in the other leave a quarter") {
   Random random(25);
   for (int n = 0; n < 4; ++n) {
     CAPTURE(n);
@@ -257,27 +279,31 @@ TEST_CASE("two indenters that stand in one mirror plane and are each other's ima
     const Vec3 beside = n % 2 ? Vec3(1.9, 0, 0) : Vec3(0, 0, 1.9), aside = 0.1 * beside;
     for (double side : {-1.0, 1.0}) {
       const Vec3 at = middle + side * beside;
-      scene.contacts.push_back(indenter(side > 0 ? "b" : "a", Sphere{1.5, {at[0], 4.5, at[2]}}, mesh,
-                                        {{1, Vec3(0, -0.4, 0) + side * aside}}, n < 2 ? 0.3 : 0));
+      scene.contacts.push_back(indenter(side > 0 ? "b" : "a", Sphere{1.5, {at[0], 4.5, at[2]}},
+                                        mesh, {{1, Vec3(0, -0.4, 0) + side * aside}},
+                                        n < 2 ? 0.3 : 0));
     }
     CHECK(compare(mesh, scene, "mirror x and mirror z") > 2.8);
   }
 }
 
-// without friction: two that stick to one node may push it from both sides, and how hard is not unique
+// without friction: two that stick to one node may push it from both sides, and how hard is not
+// unique
 TEST_CASE("indenters so close that both touch nodes of the plane between them") {
   const Mesh mesh = mesh_of(8, 6);
   Scene scene = scene_of(mesh, {});
   for (double side : {-1.0, 1.0})
-    scene.contacts.push_back(
-        indenter(side > 0 ? "b" : "a", Sphere{2, {middle[0] + side * 0.4, 5, middle[2]}}, mesh, {{1, Vec3(0, -0.4, 0)}}, 0));
+    scene.contacts.push_back(indenter(side > 0 ? "b" : "a",
+                                      Sphere{2, {middle[0] + side * 0.4, 5, middle[2]}}, mesh,
+                                      {{1, Vec3(0, -0.4, 0)}}, 0));
   const auto part = ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere);
   REQUIRE(part.has_value());
   CHECK(part->swaps_indenters());
   CHECK(compare(mesh, scene, "mirror x and mirror z") > 2.5);
 }
 
-TEST_CASE("indenters that only look alike are not images: shape, place, friction, path, its times, the nodes they may touch") {
+TEST_CASE(
+    "indenters that only look alike are not images: shape, place, friction, path, its times, the nodes they may touch") {
   Random random(27);
   for (int n = 0; n < 21; ++n) {
     CAPTURE(n);

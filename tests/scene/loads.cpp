@@ -1,4 +1,5 @@
-// Forces, tractions and pressures of a config: what symmetry and sections make of them, their energy, and what is refused.
+// Forces, tractions and pressures of a config: what symmetry and sections make of them, their
+// energy, and what is refused.
 #include "scene/model/scene_loads.hpp"
 
 #include <doctest/doctest.h>
@@ -39,8 +40,10 @@ Ended solved(const std::string& text) {
   return out;
 }
 
-std::string block(const std::string& loads, const std::string& more = "", const std::string& cells = "hex8") {
-  return "mesh: {geometry: {block: {size: [4, 1.5, 3], divisions: [4, 2, 5]}}, cells: " + cells + "}\n" +
+std::string block(const std::string& loads, const std::string& more = "",
+                  const std::string& cells = "hex8") {
+  return "mesh: {geometry: {block: {size: [4, 1.5, 3], divisions: [4, 2, 5]}}, cells: " + cells +
+         "}\n" +
          "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
          "supports: [{on: bottom, hold: [x, y, z]}]\nsolver: {newton: {relative: 1.0e-11}}\npath: {largest: 0.25}\nloads: " +
          loads + "\n" + more;
@@ -61,15 +64,17 @@ TEST_CASE("a force is borne by the supports as a whole, spread over any set of f
     const Ended end = solved(block("[{on: top, force: {x: 0.05, y: -0.2, z: 0.03}}]", "", cells));
     CHECK((end.reaction("bottom") + Vec3(0.05, -0.2, 0.03)).norm() < 1e-8);
   }
-  const Ended both =
-      solved(block("[{on: top, traction: {y: -0.01}}, {on: x_max, force: {y: [{t: 0.5, to: 0.1}, {t: 1, to: 0.05}]}}]"));
+  const Ended both = solved(block(
+      "[{on: top, traction: {y: -0.01}}, {on: x_max, force: {y: [{t: 0.5, to: 0.1}, {t: 1, to: 0.05}]}}]"));
   CHECK((both.reaction("bottom") - Vec3(0, 0.01 * 12 - 0.05, 0)).norm() < 1e-8);
 }
 
-TEST_CASE("symmetry finds loads that are their own image: part and whole agree, also where the planes cut cells") {
+TEST_CASE(
+    "symmetry finds loads that are their own image: part and whole agree, also where the planes cut cells") {
   for (const auto& [loads, expected] :
        {std::pair{"[{on: top, pressure: 0.01}]", "mirror x and mirror z"},
-        {"[{on: x_max, pressure: 0.01}, {on: x_min, pressure: 0.01}, {on: top, force: {y: 0.1}}]", "mirror x and mirror z"},
+        {"[{on: x_max, pressure: 0.01}, {on: x_min, pressure: 0.01}, {on: top, force: {y: 0.1}}]",
+         "mirror x and mirror z"},
         {"[{on: x_max, pressure: 0.01}]", "mirror z"},
         {"[{on: top, force: {x: 0.05, y: -0.1}}]", "mirror z"},
         {"[{on: x_max, traction: {z: 0.01}}, {on: x_min, traction: {z: -0.01}}]", "half turn"}}) {
@@ -82,13 +87,15 @@ TEST_CASE("symmetry finds loads that are their own image: part and whole agree, 
   CHECK(solved(block("[{on: top, force: {x: 0.05, z: 0.02}}]", "symmetry: auto\n")).words.empty());
 }
 
-TEST_CASE("an axisymmetric section under inside pressure is the thick-walled tube, in plane strain") {
+TEST_CASE(
+    "an axisymmetric section under inside pressure is the thick-walled tube, in plane strain") {
   const double A = 1, B = 2, p = 0.02, a1 = 0.05;
   // the radius at which the closed form has this pressure
   const auto pressure = [&](double a) {
     double sum = 0;
     for (int i = 0; i < 20000; ++i) {
-      const double R = A + (B - A) * (i + 0.5) / 20000, r2 = R * R + a * a - A * A, l2 = r2 / (R * R);
+      const double R = A + (B - A) * (i + 0.5) / 20000, r2 = R * R + a * a - A * A,
+                   l2 = r2 / (R * R);
       sum += 2 * a1 * (l2 - 1 / l2) * R / r2 * (B - A) / 20000;
     }
     return sum;
@@ -97,12 +104,14 @@ TEST_CASE("an axisymmetric section under inside pressure is the thick-walled tub
   for (int i = 0; i < 60; ++i) (pressure(0.5 * (low + high)) < p ? low : high) = 0.5 * (low + high);
   std::vector<double> errors;
   for (int n : {4, 8, 16}) {
-    const Ended end =
-        solved("mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.25], divisions: [" + std::to_string(n) +
-               ", 1]}}}\nmaterial: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-6}}}\n"
-               "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, pressure: 0.02}]\n"
-               "path: {largest: 0.25}\n");
-    errors.push_back(std::abs(A + end.steps.back().u[end.mesh.node_sets.at("x_min").front()][0] - low));
+    const Ended end = solved(
+        "mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.25], divisions: [" +
+        std::to_string(n) +
+        ", 1]}}}\nmaterial: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-6}}}\n"
+        "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, pressure: 0.02}]\n"
+        "path: {largest: 0.25}\n");
+    errors.push_back(
+        std::abs(A + end.steps.back().u[end.mesh.node_sets.at("x_min").front()][0] - low));
   }
   CAPTURE(errors[0]);
   CAPTURE(errors[1]);
@@ -117,7 +126,8 @@ TEST_CASE("an axisymmetric section under inside pressure is the thick-walled tub
   CHECK(pressed.reaction("bottom")[1] == doctest::Approx(0.3).epsilon(1e-3));
 }
 
-TEST_CASE("the work of dead loads and pressures is what the body stores: energy balances, on parts and sections too") {
+TEST_CASE(
+    "the work of dead loads and pressures is what the body stores: energy balances, on parts and sections too") {
   const auto balance = [](const std::string& text) {
     const SolveConfig config = config_of(text);
     const Ended end = solved(text);
@@ -125,7 +135,8 @@ TEST_CASE("the work of dead loads and pressures is what the body stores: energy 
     std::vector<SurfaceLoad> loads = surface_loads(config, end.mesh, nowhere, errors);
     REQUIRE(errors.empty());
     std::vector<double> share;
-    if (end.mesh.section) share.assign(static_cast<std::size_t>(end.mesh.n_cells()), cell_share(*end.mesh.section));
+    if (end.mesh.section)
+      share.assign(static_cast<std::size_t>(end.mesh.n_cells()), cell_share(*end.mesh.section));
     const Loads forces(end.mesh, loads, share);
     EnergyPath path(end.mesh, {}, {0.5});
     StepRecord rest;
@@ -135,7 +146,8 @@ TEST_CASE("the work of dead loads and pressures is what the body stores: energy 
     const auto sums = path.sums();
     CHECK(sums.back().work > 1e-4);
     double worst = 0;  // at first, errors are divided by little work
-    for (std::size_t i = 6; i < sums.size(); ++i) worst = std::max(worst, std::abs(sums[i].balance));
+    for (std::size_t i = 6; i < sums.size(); ++i)
+      worst = std::max(worst, std::abs(sums[i].balance));
     return worst;
   };
   const std::string fine = "path: {first: 0.05, largest: 0.05}\n";
@@ -145,11 +157,16 @@ TEST_CASE("the work of dead loads and pressures is what the body stores: energy 
   };
   CHECK(balance(with("[{on: top, pressure: 0.03}]")) < 1e-3);
   CHECK(balance(with("[{on: top, force: {y: 0.4}}]")) < 1e-3);
-  CHECK(balance(with("[{on: top, pressure: [{t: 0.5, to: 0.03}, {t: 1, to: 0.01}]}, {on: x_max, traction: {x: 0.01}}]")) < 1e-3);
-  CHECK(balance("mesh: {geometry: {section: {of: axisymmetric, size: [2, 1], divisions: [4, 2]}}}\n"
-                "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
-                "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, pressure: 0.03}, {on: x_max, pressure: 0.01}]\n" +
-                fine) < 1e-3);
+  CHECK(
+      balance(with(
+          "[{on: top, pressure: [{t: 0.5, to: 0.03}, {t: 1, to: 0.01}]}, {on: x_max, traction: {x: 0.01}}]")) <
+      1e-3);
+  CHECK(
+      balance(
+          "mesh: {geometry: {section: {of: axisymmetric, size: [2, 1], divisions: [4, 2]}}}\n"
+          "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
+          "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, pressure: 0.03}, {on: x_max, pressure: 0.01}]\n" +
+          fine) < 1e-3);
 }
 
 TEST_CASE("what a load cannot be is refused at its key") {
@@ -157,7 +174,9 @@ TEST_CASE("what a load cannot be is refused at its key") {
     const SolveConfig config = config_of(text);
     return test::said_of_scene(text, mesh_in(config));
   };
-  const auto of_block = [&](const std::string& loads) { return says(block(loads)); };
+  const auto of_block = [&](const std::string& loads) {
+    return says(block(loads));
+  };
   CHECK(of_block("[{on: top, pressure: 0.01}]") == "accepted");
   CHECK(of_block("[{on: tip, pressure: 0.01}]").find("loads[0].on") != std::string::npos);
   const std::string point = of_block("[{on: P, force: {y: -1}}]\n").substr(0, 400);
@@ -166,15 +185,19 @@ TEST_CASE("what a load cannot be is refused at its key") {
   text.replace(text.find("}}, cells"), 2, "}}, sets: {P: {within: {nearest: {to: [0, 1.5, 0]}}}}");
   CHECK(says(text).find("a set without facets") != std::string::npos);
   CHECK(says(text).find("loads[0].on") != std::string::npos);
-  CHECK(of_block("[{on: bottom, force: {y: -1}}]").find("loads[0].force.y: every node of \"bottom\" is held") != std::string::npos);
-  CHECK(of_block("[{on: top, displacement: {x: 1}}, {on: top, traction: {x: -1}}]").find("loads[1].traction.x") !=
-        std::string::npos);
+  CHECK(of_block("[{on: bottom, force: {y: -1}}]")
+            .find("loads[0].force.y: every node of \"bottom\" is held") != std::string::npos);
+  CHECK(of_block("[{on: top, displacement: {x: 1}}, {on: top, traction: {x: -1}}]")
+            .find("loads[1].traction.x") != std::string::npos);
   const std::string pushed =
       "[]\ncontacts: {ball: {on: bottom, rigid: {sphere: {radius: 1, centre: [2, 3, 1.5]}}, control: {force: 1}}}";
-  CHECK(of_block(pushed).find("contacts.ball.on: the surface of \"bottom\" faces away") != std::string::npos);
+  CHECK(of_block(pushed).find("contacts.ball.on: the surface of \"bottom\" faces away") !=
+        std::string::npos);
   const std::string section =
       "mesh: {geometry: {section: {of: axisymmetric, size: [2, 1], divisions: [4, 2]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\nsupports: [{on: bottom, hold: [x, y]}]\nloads: ";
   CHECK(says(section + "[{on: top, force: {y: -1}}]") == "accepted");
-  CHECK(says(section + "[{on: top, force: {x: -1}}]").find("loads[0].force.x: found on a section") != std::string::npos);
+  CHECK(
+      says(section + "[{on: top, force: {x: -1}}]").find("loads[0].force.x: found on a section") !=
+      std::string::npos);
 }

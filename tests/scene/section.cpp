@@ -1,4 +1,5 @@
-// Sections: what an axisymmetric or plane-strain scene gives is what the body of three dimensions gives.
+// Sections: what an axisymmetric or plane-strain scene gives is what the body of three dimensions
+// gives.
 #include "scene/model/scene_section.hpp"
 
 #include <doctest/doctest.h>
@@ -51,9 +52,10 @@ TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a poi
       CAPTURE(cells);
       CAPTURE(way);
       const SolveConfig config = config_of(
-          "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [3, 4]}}, cells: " + std::string(cells) + "}\n" +
-          yeoh + tight + "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: " + std::to_string(way) +
-          "}}]\n");
+          "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [3, 4]}}, cells: " +
+          std::string(cells) + "}\n" + yeoh + tight +
+          "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: " +
+          std::to_string(way) + "}}]\n");
       Mesh mesh = mesh_in(config);
       distort_in_plane(mesh, 0.15);
       const Ended r = run(config, mesh);
@@ -64,7 +66,9 @@ TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a poi
         const double u_r = (point.stretch[1] - 1) * mesh.X[i][0];
         worst = std::max(worst, std::abs(r.last().u[i][0] - u_r));
         worst = std::max(worst, std::abs(r.last().u[i][1] - way * mesh.X[i][1] / 3));
-        worst = std::max(worst, std::abs(r.last().u[i][2] - (point.stretch[1] - 1) * mesh.X[i][2]));  // F_zz = 1 + u_r / r
+        worst =
+            std::max(worst, std::abs(r.last().u[i][2] -
+                                     (point.stretch[1] - 1) * mesh.X[i][2]));  // F_zz = 1 + u_r / r
       }
       CHECK(worst < 1e-9);
       const double force = point.sigma * pi * 4 * point.stretch[1] * point.stretch[1];
@@ -73,12 +77,13 @@ TEST_CASE("a cylinder pulled and one pressed by its ends have the state of a poi
     }
 }
 
-TEST_CASE("a cylinder stretched along its radius and its axis stores the energy of its volume, and pulls as its law says") {
+TEST_CASE(
+    "a cylinder stretched along its radius and its axis stores the energy of its volume, and pulls as its law says") {
   for (const char* cells : {"hex8", "hex27"}) {
     CAPTURE(cells);
     const SolveConfig config = config_of(
-        "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [4, 3]}}, cells: " + std::string(cells) + "}\n" +
-        yeoh + tight +
+        "mesh: {geometry: {section: {of: axisymmetric, size: [2, 3], divisions: [4, 3]}}, cells: " +
+        std::string(cells) + "}\n" + yeoh + tight +
         "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: -0.75}}, {on: x_max, displacement: {x: 0.3}}]\n");
     Mesh mesh = mesh_in(config);
     distort_in_plane(mesh, 0.1);
@@ -88,13 +93,17 @@ TEST_CASE("a cylinder stretched along its radius and its axis stores the energy 
     const Response point = response(*config.material, C, std::span<const Vec3>{});
     CHECK(r.last().scalars.at("energy") == doctest::Approx(point.W * pi * 4 * 3).epsilon(1e-9));
     CHECK(r.reaction("top")[1] == doctest::Approx(0.75 * point.S[1] * pi * 4).epsilon(1e-9));
-    CHECK(r.reaction("x_max")[0] == doctest::Approx(1.15 * point.S[0] * 2 * pi * 2 * 3).epsilon(1e-9));
+    CHECK(r.reaction("x_max")[0] ==
+          doctest::Approx(1.15 * point.S[0] * 2 * pi * 2 * 3).epsilon(1e-9));
   }
 }
 
-TEST_CASE("a thick tube widened from inside converges to the closed form with the order of its cells") {
-  // incompressible, no movement along the axis: r^2 = R^2 + C, pressure inside less outside = integral of (sigma_theta - sigma_r)/r
-  const double mu = 2 * 0.5, inner = 1, outer = 2, u = 0.5, C = (inner + u) * (inner + u) - inner * inner;
+TEST_CASE(
+    "a thick tube widened from inside converges to the closed form with the order of its cells") {
+  // incompressible, no movement along the axis: r^2 = R^2 + C, pressure inside less outside =
+  // integral of (sigma_theta - sigma_r)/r
+  const double mu = 2 * 0.5, inner = 1, outer = 2, u = 0.5,
+               C = (inner + u) * (inner + u) - inner * inner;
   const auto slope = [&](double R) {
     const double r = std::sqrt(R * R + C), lambda = r / R;
     return mu * (lambda * lambda - 1 / (lambda * lambda)) / r * (R / r);  // dr = R/r dR
@@ -112,11 +121,14 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
     std::vector<double> errors;
     for (int divisions : {3, 6}) {  // beyond, what rounding leaves at this d is seen
       const Ended r = run(
-          "mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" + std::to_string(divisions) +
-          ", 1]}}, cells: " + cells + "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-7}}}\n" + tight +
+          "mesh: {geometry: {section: {of: axisymmetric, origin: [1, 0], size: [1, 0.5], divisions: [" +
+          std::to_string(divisions) + ", 1]}}, cells: " + cells +
+          "}\nmaterial: {matrix: {neo_hooke: {a1: 0.5}}, volume: {quadratic: {d: 1.0e-7}}}\n" +
+          tight +
           "supports: [{on: bottom, hold: [y]}, {on: top, hold: [y]}]\nloads: [{on: x_min, displacement: {x: 0.5}}]\n");
       errors.push_back(std::abs(r.reaction("x_min")[0] / force - 1));
-      for (int i : r.mesh.node_sets.at("x_max")) CHECK(r.last().u[i][0] == doctest::Approx(std::sqrt(4 + C) - 2).epsilon(1e-6));
+      for (int i : r.mesh.node_sets.at("x_max"))
+        CHECK(r.last().u[i][0] == doctest::Approx(std::sqrt(4 + C) - 2).epsilon(1e-6));
     }
     MESSAGE(std::string(cells) << ": error of the pressure " << errors[0] << ", " << errors[1]);
     CHECK(std::log2(errors[0] / errors[1]) > order - 0.2);
@@ -126,15 +138,16 @@ TEST_CASE("a thick tube widened from inside converges to the closed form with th
 
 TEST_CASE("plane strain is a layer of the block held along z on both faces") {
   for (const CellType cells : {CellType::hex8, CellType::hex27}) {
-    const SolveConfig config =
-        config_of("mesh: {geometry: {section: {of: plane_strain, size: [3, 2], divisions: [4, 3], thickness: 0.7}}, cells: " +
-                  std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
-                  "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
+    const SolveConfig config = config_of(
+        "mesh: {geometry: {section: {of: plane_strain, size: [3, 2], divisions: [4, 3], thickness: 0.7}}, cells: " +
+        std::string(cells == CellType::hex8 ? "hex8" : "hex27") + "}\n" + yeoh + tight +
+        "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, displacement: {x: 0.8, y: -0.3}}]\n");
     const Mesh mesh = mesh_in(config);
     const Ended flat = run(config, mesh);
     Mesh layer = test::block(test::even(0, 3, 4), test::even(0, 2, 3), {0, 0.7});
     if (cells != CellType::hex8) layer = test::raised_block(layer, cells);
-    layer.node_sets["bottom"] = layer.node_sets["y_min"], layer.node_sets["top"] = layer.node_sets["y_max"];
+    layer.node_sets["bottom"] = layer.node_sets["y_min"],
+    layer.node_sets["top"] = layer.node_sets["y_max"];
     for (int i = 0; i < layer.n_nodes(); ++i) layer.node_sets["all"].push_back(i);
     SolveConfig held = config;
     held.supports.push_back({"all", {Axis::z}});
@@ -144,22 +157,27 @@ TEST_CASE("plane strain is a layer of the block held along z on both faces") {
     int met = 0;
     for (int i = 0; i < mesh.n_nodes(); ++i)
       for (int j = 0; j < layer.n_nodes(); ++j)
-        if ((mesh.X[i] - layer.X[j]).norm() < 1e-12) worst = std::max(worst, (flat.last().u[i] - deep.last().u[j]).norm()), ++met;
+        if ((mesh.X[i] - layer.X[j]).norm() < 1e-12)
+          worst = std::max(worst, (flat.last().u[i] - deep.last().u[j]).norm()), ++met;
     CHECK(met == mesh.n_nodes());
     CHECK(worst < 1e-10);
-    for (int k : {0, 1}) CHECK(flat.reaction("top")[k] == doctest::Approx(deep.reaction("top")[k]).epsilon(1e-10));
-    CHECK(flat.last().scalars.at("energy") == doctest::Approx(deep.last().scalars.at("energy")).epsilon(1e-10));
+    for (int k : {0, 1})
+      CHECK(flat.reaction("top")[k] == doctest::Approx(deep.reaction("top")[k]).epsilon(1e-10));
+    CHECK(flat.last().scalars.at("energy") ==
+          doctest::Approx(deep.last().scalars.at("energy")).epsilon(1e-10));
   }
 }
 
-TEST_CASE("the tangent of a section is the slope of its forces, and its forces are the slope of its energy") {
+TEST_CASE(
+    "the tangent of a section is the slope of its forces, and its forces are the slope of its energy") {
   for (const char* cells : {"hex8", "hex27"})
     for (const char* of : {"axisymmetric", "plane_strain"}) {
       CAPTURE(cells);
       CAPTURE(of);
-      const SolveConfig config =
-          config_of("mesh: {geometry: {section: {of: " + std::string(of) + ", size: [2, 1], divisions: [2, 2]}}, cells: " + cells +
-                    "}\n" + yeoh + "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: 0.1}}]\n");
+      const SolveConfig config = config_of(
+          "mesh: {geometry: {section: {of: " + std::string(of) +
+          ", size: [2, 1], divisions: [2, 2]}}, cells: " + cells + "}\n" + yeoh +
+          "supports: [{on: bottom, hold: [y]}]\nloads: [{on: top, displacement: {y: 0.1}}]\n");
       Mesh mesh = mesh_in(config);
       distort_in_plane(mesh, 0.05);
       const Scene whole = make_scene(config, mesh, config.material, nowhere);
@@ -201,11 +219,13 @@ TEST_CASE("the tangent of a section is the slope of its forces, and its forces a
 }
 
 TEST_CASE("what has no section is refused by name") {
-  const auto words = [](const std::string& of, const std::string& more, const std::string& contact = "") -> std::string {
-    const SolveConfig config =
-        config_of("mesh: {geometry: {section: {of: " + of + ", size: [5, 2], divisions: [4, 2]}}}\n" +
-                  (more.find("material") == std::string::npos ? yeoh : "") + more + "supports: [{on: bottom, hold: [x, y, z]}]\n" +
-                  (contact.empty() ? "" : "contacts: {tool: {on: top, " + contact + "}}\n"));
+  const auto words = [](const std::string& of, const std::string& more,
+                        const std::string& contact = "") -> std::string {
+    const SolveConfig config = config_of(
+        "mesh: {geometry: {section: {of: " + of + ", size: [5, 2], divisions: [4, 2]}}}\n" +
+        (more.find("material") == std::string::npos ? yeoh : "") + more +
+        "supports: [{on: bottom, hold: [x, y, z]}]\n" +
+        (contact.empty() ? "" : "contacts: {tool: {on: top, " + contact + "}}\n"));
     try {
       make_scene(config, mesh_in(config), config.material, nowhere);
       return "taken";
@@ -218,26 +238,42 @@ TEST_CASE("what has no section is refused by name") {
     return text.find(part) != std::string::npos;
   };
   const std::string down = "motion: [{t: 1, to: [0, -0.1, 0]}]";
-  CHECK(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, " + down) == "taken");
-  CHECK(holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0.1, 3, 0]}}, " + down), "contacts.tool.rigid"));
-  CHECK(holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0.1, -0.1, 0]}]"),
-              "contacts.tool.motion[0].to: found [0.1, -0.1, 0], on an axisymmetric section; expected a movement along y"));
-  CHECK(words("axisymmetric", "", "rigid: {plane: {point: [0, 2, 0], normal: [0, -1, 0]}}, " + down) == "taken");
+  CHECK(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, " + down) ==
+        "taken");
   CHECK(
-      holds(words("axisymmetric", "", "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, " + down), "contacts.tool.rigid"));
-  CHECK(holds(words("axisymmetric", "", "rigid: {ellipsoid: {half_axes: [1, 1, 2], centre: [0, 3, 0]}}, " + down),
+      holds(words("axisymmetric", "", "rigid: {sphere: {radius: 1, centre: [0.1, 3, 0]}}, " + down),
+            "contacts.tool.rigid"));
+  CHECK(holds(
+      words(
+          "axisymmetric", "",
+          "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0.1, -0.1, 0]}]"),
+      "contacts.tool.motion[0].to: found [0.1, -0.1, 0], on an axisymmetric section; expected a movement along y"));
+  CHECK(words("axisymmetric", "",
+              "rigid: {plane: {point: [0, 2, 0], normal: [0, -1, 0]}}, " + down) == "taken");
+  CHECK(holds(words("axisymmetric", "",
+                    "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, " + down),
               "contacts.tool.rigid"));
-  CHECK(holds(words("axisymmetric", "", "rigid: {cylinder: {radius: 1, edge: 0.1, face: [0, 2, 0], axis: [1, 0, 0]}}, " + down),
+  CHECK(holds(words("axisymmetric", "",
+                    "rigid: {ellipsoid: {half_axes: [1, 1, 2], centre: [0, 3, 0]}}, " + down),
               "contacts.tool.rigid"));
+  CHECK(holds(
+      words("axisymmetric", "",
+            "rigid: {cylinder: {radius: 1, edge: 0.1, face: [0, 2, 0], axis: [1, 0, 0]}}, " + down),
+      "contacts.tool.rigid"));
   CHECK(words("plane_strain", "",
               "rigid: {plane: {point: [0, 4, 0], normal: [0.1, -1, 0]}}, "
               "motion: [{t: 1, to: [0.1, -0.1, 0]}]") == "taken");
-  CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 1]}}, " + down), "contacts.tool.rigid"));
-  CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0, -0.1, 0.1]}]"),
-              "motion[0].to"));
+  CHECK(holds(words("plane_strain", "", "rigid: {sphere: {radius: 1, centre: [0, 3, 1]}}, " + down),
+              "contacts.tool.rigid"));
+  CHECK(holds(
+      words(
+          "plane_strain", "",
+          "rigid: {sphere: {radius: 1, centre: [0, 3, 0]}}, motion: [{t: 1, to: [0, -0.1, 0.1]}]"),
+      "motion[0].to"));
   const auto fibres = [](double c1, double alpha, double kappa) {
     return "material: {matrix: {neo_hooke: {a1: 0.5}}, fibres: [{hgo: {c1: " + std::to_string(c1) +
-           ", c2: 1}, alpha: " + std::to_string(alpha) + ", kappa: " + (kappa > 0 ? std::string("0.33333333333333331") : "0") +
+           ", c2: 1}, alpha: " + std::to_string(alpha) +
+           ", kappa: " + (kappa > 0 ? std::string("0.33333333333333331") : "0") +
            "}], volume: {quadratic: {d: 1.0e-3}}}\nloads: [{on: top, displacement: {y: 0.1}}]\n";
   };
   CHECK(holds(words("axisymmetric", fibres(0.1, 0, 0)), "fibres in the body \"skin\""));
@@ -246,9 +282,13 @@ TEST_CASE("what has no section is refused by name") {
   CHECK(words("plane_strain", fibres(0.1, 0, 0)) == "taken");
   CHECK(words("plane_strain", fibres(0.1, 90, 0)) == "taken");
   CHECK(holds(words("plane_strain", fibres(0.1, 30, 0)), "fibres in the plane, along z"));
-  CHECK(holds(words("axisymmetric", "loads: [{on: top, displacement: {y: 0.1, z: 0.1}}]\n"), "loads[0].displacement.z"));
-  CHECK(holds(words("axisymmetric", "symmetry: quarter\nloads: [{on: top, displacement: {y: 0.1}}]\n"), "symmetry: found quarter"));
-  CHECK(words("axisymmetric", "symmetry: auto\nloads: [{on: top, displacement: {y: 0.1}}]\n") == "taken");
+  CHECK(holds(words("axisymmetric", "loads: [{on: top, displacement: {y: 0.1, z: 0.1}}]\n"),
+              "loads[0].displacement.z"));
+  CHECK(holds(
+      words("axisymmetric", "symmetry: quarter\nloads: [{on: top, displacement: {y: 0.1}}]\n"),
+      "symmetry: found quarter"));
+  CHECK(words("axisymmetric", "symmetry: auto\nloads: [{on: top, displacement: {y: 0.1}}]\n") ==
+        "taken");
 }
 
 TEST_CASE("a section continues from what was written of it") {
@@ -260,34 +300,39 @@ TEST_CASE("a section continues from what was written of it") {
   const StepRecord& last = r.last();
   REQUIRE(state.r.size() == 1);
   REQUIRE(state.r[0].size() == last.contacts.at("ball").r.size());
-  for (std::size_t i = 0; i < state.r[0].size(); ++i) CHECK(state.r[0][i] == last.contacts.at("ball").r[i]);
+  for (std::size_t i = 0; i < state.r[0].size(); ++i)
+    CHECK(state.r[0][i] == last.contacts.at("ball").r[i]);
   for (int i = 0; i < mesh.n_nodes(); ++i)
     CHECK(Vec3(state.u.segment<3>(3 * i)) == (i < n_front(mesh) ? last.u[i] : Vec3(Vec3::Zero())));
 }
 
-TEST_CASE("fibres along the axis of a cylinder pull as those of a bar do; a degree off it they are refused") {
+TEST_CASE(
+    "fibres along the axis of a cylinder pull as those of a bar do; a degree off it they are refused") {
   const auto written = [](const std::string& name, double degrees) {
-    const std::string path =
-        (std::filesystem::temp_directory_path() / ("langer_section_" + std::to_string(getpid()) + name)).string();
-    std::ofstream(path) << "x,y,z,a_x,a_y,a_z\n0,0,0," << std::sin(degrees * pi / 180) << "," << std::cos(degrees * pi / 180)
-                        << ",0\n";
+    const std::string path = (std::filesystem::temp_directory_path() /
+                              ("langer_section_" + std::to_string(getpid()) + name))
+                                 .string();
+    std::ofstream(path) << "x,y,z,a_x,a_y,a_z\n0,0,0," << std::sin(degrees * pi / 180) << ","
+                        << std::cos(degrees * pi / 180) << ",0\n";
     return path;
   };
   const std::string along = written("along.csv", 0), off = written("off.csv", 1);
-  const auto scene = [](const std::string& geometry, const std::string& file, const std::string& sides) {
+  const auto scene = [](const std::string& geometry, const std::string& file,
+                        const std::string& sides) {
     return "mesh: {geometry: " + geometry + "}\nfibre_field: {points: {file: " + file +
            "}}\nmaterial: {matrix: {neo_hooke: {a1: 0.1}}, fibres: [{hgo: {c1: 0.3, c2: 0.5}}], volume: {quadratic: {d: 1.0e-3}}}\n"
            "supports: [{on: bottom, hold: [y]}" +
            sides + "]\nloads: [{on: top, displacement: {y: 0.3}}]\npath: {steps: 2}\n" + tight;
   };
   const std::string cylinder = "{section: {of: axisymmetric, size: [1.5, 1], divisions: [3, 2]}}";
-  const double bar =
-      run(scene("{block: {size: [1, 1, 1], divisions: [1, 1, 1]}}", along, ", {on: x_min, hold: [x]}, {on: z_min, hold: [z]}"))
-          .reaction("top")[1];
+  const double bar = run(scene("{block: {size: [1, 1, 1], divisions: [1, 1, 1]}}", along,
+                               ", {on: x_min, hold: [x]}, {on: z_min, hold: [z]}"))
+                         .reaction("top")[1];
   const double round = run(scene(cylinder, along, "")).reaction("top")[1];
   CHECK(bar > 0.1);
   CHECK(round == doctest::Approx(pi * 1.5 * 1.5 * bar).epsilon(1e-8));
   const SolveConfig config = config_of(scene(cylinder, off, ""));
-  CHECK(test::said_of_scene(scene(cylinder, off, ""), mesh_in(config)).find("fibres along y") != std::string::npos);
+  CHECK(test::said_of_scene(scene(cylinder, off, ""), mesh_in(config)).find("fibres along y") !=
+        std::string::npos);
   std::filesystem::remove(along), std::filesystem::remove(off);
 }

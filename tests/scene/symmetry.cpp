@@ -26,7 +26,8 @@ struct Case {
 };
 
 Mesh mesh_of(const Case& c) {
-  Mesh mesh = test::block(c.nx % 2 ? test::even(-6, 6, c.nx) : test::graded(6, c.nx, 0.8), test::even(0, 4, 3),
+  Mesh mesh = test::block(c.nx % 2 ? test::even(-6, 6, c.nx) : test::graded(6, c.nx, 0.8),
+                          test::even(0, 4, 3),
                           c.nz % 2 ? test::even(-6, 6, c.nz) : test::graded(6, c.nz, 0.8));
   if (c.cells != CellType::hex8) mesh = test::raised_block(mesh, c.cells);
   for (Vec3& X : mesh.X) X += Vec3(3, 0, -2);  // the middle is anywhere
@@ -42,7 +43,8 @@ Scene scene_of(const Case& c, const Mesh& mesh) {
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
   scene.dofs = number_dofs(mesh.n_nodes(), held).dofs;
-  RigidContact contact{"ball", Sphere{2.5, {3 + c.side[0], 6.5, -2 + c.side[2]}}, c.mu, {}, {{1, c.to}}};
+  RigidContact contact{
+      "ball", Sphere{2.5, {3 + c.side[0], 6.5, -2 + c.side[2]}}, c.mu, {}, {{1, c.to}}};
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0] - 3, mesh.X[i][2] + 2) < 3.5) contact.nodes.push_back(i);
   scene.contacts = {contact};
@@ -65,7 +67,8 @@ double compare(const Case& c) {
   const Scene scene = scene_of(c, mesh);
   const auto part = ReducedScene::find(c.symmetry, mesh, scene, nowhere);
   REQUIRE(part.has_value());
-  const test::Solved whole = solved(mesh, scene, std::nullopt, in_four_steps()), few = solved(mesh, scene, part, in_four_steps());
+  const test::Solved whole = solved(mesh, scene, std::nullopt, in_four_steps()),
+                     few = solved(mesh, scene, part, in_four_steps());
   REQUIRE(whole.steps.size() == few.steps.size());
   for (std::size_t s = 0; s < whole.steps.size(); ++s) {
     const StepRecord &a = whole.steps[s], &b = few.steps[s];
@@ -75,7 +78,8 @@ double compare(const Case& c) {
     CHECK((a.force_ind - b.force_ind).norm() < 1e-8);
     CHECK(a.scalars.at("energy") == doctest::Approx(b.scalars.at("energy")).epsilon(1e-9));
     for (const auto& [name, values] : a.cell_fields)
-      for (std::size_t e = 0; e < values.size(); ++e) CHECK(values[e] == doctest::Approx(b.cell_fields.at(name)[e]).epsilon(1e-7));
+      for (std::size_t e = 0; e < values.size(); ++e)
+        CHECK(values[e] == doctest::Approx(b.cell_fields.at(name)[e]).epsilon(1e-7));
     CHECK(a.contacts.at("ball").status == b.contacts.at("ball").status);
   }
   CHECK(whole.steps.back().force_ind.norm() > 0.5);
@@ -84,14 +88,16 @@ double compare(const Case& c) {
 
 }  // namespace
 
-TEST_CASE("a quarter under aligned fibres and half a body turned by 180 degrees under any others give what the whole body gives") {
+TEST_CASE(
+    "a quarter under aligned fibres and half a body turned by 180 degrees under any others give what the whole body gives") {
   CHECK(compare({.alpha = 0}) > 3);
   CHECK(compare({.alpha = 90}) > 3);
   CHECK(compare({.alpha = 60}) > 1.7);
   CHECK(compare({.alpha = 60, .to = Vec3(0, -0.5, 0), .mu = 0}) > 1.7);
 }
 
-TEST_CASE("cells that lie across a plane of symmetry, or on the axis of the turn, count with their share") {
+TEST_CASE(
+    "cells that lie across a plane of symmetry, or on the axis of the turn, count with their share") {
   CHECK(compare({.nx = 8, .nz = 7, .alpha = 60}) > 1.7);
   CHECK(compare({.nx = 7, .nz = 8, .alpha = 30}) > 1.7);
   CHECK(compare({.nx = 7, .nz = 7, .alpha = 60}) > 1.5);
@@ -109,7 +115,8 @@ TEST_CASE("an indenter drawn along the fibres leaves one mirror plane") {
   CHECK(compare({.alpha = 0, .to = Vec3(0, -0.4, 0.3)}) > 1.7);
 }
 
-TEST_CASE("both ends pulled apart: the part takes the displacements of its own nodes, not of their images") {
+TEST_CASE(
+    "both ends pulled apart: the part takes the displacements of its own nodes, not of their images") {
   const Mesh mesh = test::block(test::even(-2, 2, 4), test::even(0, 1, 1), test::even(-1, 1, 2));
   for (bool other_first : {false, true}) {
     Scene scene;
@@ -118,7 +125,8 @@ TEST_CASE("both ends pulled apart: the part takes the displacements of its own n
     scene.directions = test::directions(mesh, scene.materials);
     std::vector<Prescribed> pulled;
     for (const auto& [side, by] : {std::pair{"x_min", -0.2}, {"x_max", 0.2}})
-      for (int n : mesh.node_sets.at(side)) pulled.insert(pulled.end(), {{3 * n, by}, {3 * n + 1, 0}, {3 * n + 2, 0}});
+      for (int n : mesh.node_sets.at(side))
+        pulled.insert(pulled.end(), {{3 * n, by}, {3 * n + 1, 0}, {3 * n + 2, 0}});
     if (other_first) std::reverse(pulled.begin(), pulled.end());
     scene.dofs = number_dofs(mesh.n_nodes(), pulled).dofs;
     for (SymmetryChoice symmetry : {SymmetryChoice::mirror_x, SymmetryChoice::quarter}) {
@@ -128,14 +136,16 @@ TEST_CASE("both ends pulled apart: the part takes the displacements of its own n
       REQUIRE(!dofs.prescribed.empty());
       for (const Prescribed& p : dofs.prescribed)
         if (p.dof % 3 == 0 && p.value != 0) CHECK(p.value * part->mesh().X[p.dof / 3][0] > 0);
-      const auto whole = solved(mesh, scene, std::nullopt, in_four_steps()), few = solved(mesh, scene, part, in_four_steps());
+      const auto whole = solved(mesh, scene, std::nullopt, in_four_steps()),
+                 few = solved(mesh, scene, part, in_four_steps());
       CHECK(largest_difference(whole.last().u, few.last().u) < 1e-8);
       CHECK(largest_difference(whole.last().reaction, few.last().reaction) < 1e-8);
     }
   }
 }
 
-TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked for and not there is refused with what breaks it") {
+TEST_CASE(
+    "what is not symmetric is not reduced, and a symmetry that is asked for and not there is refused with what breaks it") {
   const auto words = [](const Case& c) -> std::string {
     const Mesh mesh = mesh_of(c);
     Scene scene = scene_of(c, mesh);
@@ -148,19 +158,23 @@ TEST_CASE("what is not symmetric is not reduced, and a symmetry that is asked fo
   CHECK(words({.side = Vec3(0.1, 0, 0)}) == "none");
   CHECK(words({.to = Vec3(0.1, -0.4, 0)}) == "none");  // oblique fibres
   CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::none}) == "none");
-  CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::mirror_x}).find("fibres") != std::string::npos);
-  CHECK(words({.alpha = 0, .side = Vec3(0.1, 0, 0), .symmetry = SymmetryChoice::quarter}).find("indenter \"ball\"") !=
+  CHECK(words({.alpha = 60, .symmetry = SymmetryChoice::mirror_x}).find("fibres") !=
         std::string::npos);
-  CHECK(words({.alpha = 0, .to = Vec3(0.1, -0.4, 0), .symmetry = SymmetryChoice::half_turn}).find("path") != std::string::npos);
+  CHECK(words({.alpha = 0, .side = Vec3(0.1, 0, 0), .symmetry = SymmetryChoice::quarter})
+            .find("indenter \"ball\"") != std::string::npos);
+  CHECK(words({.alpha = 0, .to = Vec3(0.1, -0.4, 0), .symmetry = SymmetryChoice::half_turn})
+            .find("path") != std::string::npos);
 
   const Case c{.alpha = 0};
   const Mesh mesh = mesh_of(c);
   Scene scene = scene_of(c, mesh);
-  scene.dofs = number_dofs(mesh.n_nodes(), {{3 * mesh.node_sets.at("y_min")[0], 0.0}}).dofs;  // one corner held
+  scene.dofs = number_dofs(mesh.n_nodes(), {{3 * mesh.node_sets.at("y_min")[0], 0.0}})
+                   .dofs;  // one corner held
   CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
   scene = scene_of(c, mesh);
   scene.directions = Directions(true);
-  for (int e = 0; e < mesh.n_cells(); ++e) scene.directions.append({e == 5 ? Vec3(0.6, 0, 0.8) : Vec3(1, 0, 0)});
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    scene.directions.append({e == 5 ? Vec3(0.6, 0, 0.8) : Vec3(1, 0, 0)});
   CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
 }
 

@@ -12,7 +12,9 @@ using namespace langer;
 
 namespace {
 
-VecX vec(std::initializer_list<double> x) { return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size())); }
+VecX vec(std::initializer_list<double> x) {
+  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
+}
 
 }  // namespace
 
@@ -36,7 +38,8 @@ TEST_CASE("a linear model has its slopes as effects and no spread, s is twice a 
   CHECK(e.s(1, 0) == doctest::Approx(2 * 2 * std::sqrt(n / (n - 1.))).epsilon(1e-10));
 }
 
-TEST_CASE("a parabola has the mean slope between its bounds and the spread of evenly spaced slopes") {
+TEST_CASE(
+    "a parabola has the mean slope between its bounds and the spread of evenly spaced slopes") {
   const auto phi = [](const VecX& p, VecX& y) {
     y = vec({p[0] * p[0]});
     return true;
@@ -57,10 +60,12 @@ TEST_CASE("effects of both signs do not cancel in mu_star") {
     return true;
   };
   const OneAtATime e = one_at_a_time(phi, vec({0}), vec({-1}), vec({1}), 100);
-  CHECK(e.mu_star(0, 0) == doctest::Approx(1).epsilon(1e-12));  // mean of |2 p| over the midpoints of 100 steps
+  CHECK(e.mu_star(0, 0) ==
+        doctest::Approx(1).epsilon(1e-12));  // mean of |2 p| over the midpoints of 100 steps
 }
 
-TEST_CASE("the others stay at their values: an interaction counts by the value of its partner only") {
+TEST_CASE(
+    "the others stay at their values: an interaction counts by the value of its partner only") {
   const auto phi = [](const VecX& p, VecX& y) {
     y = vec({p[0] * p[1]});
     return true;
@@ -91,7 +96,8 @@ TEST_CASE("zones average the points they contain, both ends included") {
   CHECK(zone_means(of, {0, 0.1, 0.1 + 0.2, 1}, {{0, 0.3}})(0, 0) == 2);
 }
 
-TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed forms, no spread, c2 has one") {
+TEST_CASE(
+    "the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed forms, no spread, c2 has one") {
   const Material truth = table1_hgo_yeoh();
   const std::vector<double> strain{0.1, 0.3, 0.6};
   const auto phi = [&](const VecX& p, VecX& y) {
@@ -102,7 +108,8 @@ TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed
     if (sigma) y = Eigen::Map<const VecX>(sigma->data(), 3);
     return sigma.has_value();
   };
-  const VecX value = vec({0.269, 0.376, 0.415, -0.317, 0.319}), lower = vec({0, 0, 0, -1, 0}), upper = vec({1, 1, 1, 1, 2});
+  const VecX value = vec({0.269, 0.376, 0.415, -0.317, 0.319}), lower = vec({0, 0, 0, -1, 0}),
+             upper = vec({1, 1, 1, 1, 2});
   const OneAtATime e = one_at_a_time(phi, value, lower, upper, 1000);
   REQUIRE(e.complete);
   for (int i = 0; i < 3; ++i) {
@@ -113,7 +120,8 @@ TEST_CASE("the stress of the HGO-Yeoh law is linear in a1, a2, a3 and c1: closed
     CHECK(e.mu_star(2, i) == doctest::Approx(matrix * 3 * x * x).epsilon(1e-10));
     CHECK(e.mu_star(3, i) == doctest::Approx(fibre * std::exp(0.319 * f * f)).epsilon(1e-10));
     // the effects of c2 have one sign: their mean is the change from bound to bound
-    CHECK(e.mu_star(4, i) == doctest::Approx(0.317 * fibre * (std::exp(2 * f * f) - 1) / 2).epsilon(1e-9));
+    CHECK(e.mu_star(4, i) ==
+          doctest::Approx(0.317 * fibre * (std::exp(2 * f * f) - 1) / 2).epsilon(1e-9));
     for (int j = 0; j < 4; ++j) CHECK(e.spread(j, i) <= 1e-9 * e.mu_star(j, i));
     CHECK(e.spread(4, i) > 1e-3 * e.mu_star(4, i));
     CHECK(e.s(4, i) > 2 * e.mu_star(4, i));  // as printed: c1 < 0 makes the effects negative

@@ -12,10 +12,14 @@ using namespace langer;
 
 namespace {
 
-VecX vec(std::initializer_list<double> x) { return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size())); }
+VecX vec(std::initializer_list<double> x) {
+  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
+}
 
 CurveMaker same(ParametricCurve phi) {
-  return [phi] { return phi; };
+  return [phi] {
+    return phi;
+  };
 }
 
 // sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1 on [-pi, pi]^3
@@ -48,7 +52,9 @@ void check_within(const Estimate& e, const VecX& exact, double widest) {
   }
 }
 
-bool equal(const MatX& A, const MatX& B) { return A.size() == B.size() && (A.array() == B.array()).all(); }
+bool equal(const MatX& A, const MatX& B) {
+  return A.size() == B.size() && (A.array() == B.array()).all();
+}
 
 }  // namespace
 
@@ -69,7 +75,8 @@ TEST_CASE("Morris: a linear model has its slopes times the ranges and sigma = 0"
     }
 }
 
-TEST_CASE("Morris: mean, mean size and deviation are those of a sample of the effects along the paths") {
+TEST_CASE(
+    "Morris: mean, mean size and deviation are those of a sample of the effects along the paths") {
   // y = x1^2 + 3 x1 x2 + sin x3 on a box; what the paths visit is written down
   std::vector<VecX> points;
   std::vector<double> values;
@@ -93,7 +100,8 @@ TEST_CASE("Morris: mean, mean size and deviation are those of a sample of the ef
       const VecX moved = (points[i] - points[i - 1]).cwiseQuotient(upper - lower);
       Eigen::Index k;
       moved.cwiseAbs().maxCoeff(&k);
-      CHECK(moved.cwiseAbs().sum() == doctest::Approx(0.6));  // levels/(2 (levels - 1)), by one parameter alone
+      CHECK(moved.cwiseAbs().sum() ==
+            doctest::Approx(0.6));  // levels/(2 (levels - 1)), by one parameter alone
       effects[static_cast<std::size_t>(k)].push_back((values[i] - values[i - 1]) / moved[k]);
     }
     for (int k = 0; k < 3; ++k) {
@@ -107,7 +115,8 @@ TEST_CASE("Morris: mean, mean size and deviation are those of a sample of the ef
       CHECK(e.mu.value(k, 0) == doctest::Approx(mu).epsilon(1e-10));
       CHECK(e.mu_star.value(k, 0) == doctest::Approx(mu_star).epsilon(1e-10));
       // the unbiased variance: half the mean square of the differences of two effects
-      CHECK(e.sigma.value(k, 0) == doctest::Approx(std::sqrt(pairs / (2.0 * n * (n - 1)))).epsilon(1e-10).scale(1));
+      CHECK(e.sigma.value(k, 0) ==
+            doctest::Approx(std::sqrt(pairs / (2.0 * n * (n - 1)))).epsilon(1e-10).scale(1));
     }
   }
 }
@@ -140,7 +149,8 @@ TEST_CASE("Morris: an interaction shows as sigma, which one-at-a-time effects do
 
 TEST_CASE("Sobol: Ishigami's shares lie within their intervals") {
   const double pi = std::numbers::pi, a = 7, b = 0.1;
-  const double V1 = std::pow(1 + b * std::pow(pi, 4) / 5, 2) / 2, V2 = a * a / 8, V13 = b * b * std::pow(pi, 8) * 8 / 225;
+  const double V1 = std::pow(1 + b * std::pow(pi, 4) / 5, 2) / 2, V2 = a * a / 8,
+               V13 = b * b * std::pow(pi, 8) * 8 / 225;
   const double V = V1 + V2 + V13;
   const Sobol s = sobol(same(ishigami()), vec({-pi, -pi, -pi}), vec({pi, pi, pi}), 65536, {});
   CHECK(s.curves == 65536 * 5);
@@ -155,7 +165,8 @@ TEST_CASE("Sobol: the G function's shares lie within their intervals") {
   double V = 1;
   VecX V_i(5), first(5), total(5);
   for (int i = 0; i < 5; ++i) V_i[i] = 1 / (3 * (1 + a[i]) * (1 + a[i])), V *= 1 + V_i[i];
-  for (int i = 0; i < 5; ++i) first[i] = V_i[i] / (V - 1), total[i] = V_i[i] * (V / (1 + V_i[i])) / (V - 1);
+  for (int i = 0; i < 5; ++i)
+    first[i] = V_i[i] / (V - 1), total[i] = V_i[i] * (V / (1 + V_i[i])) / (V - 1);
   SamplingOptions options;
   options.sequence = Sequence::random;
   const Sobol s = sobol(same(sobol_g(a)), VecX::Zero(5), VecX::Ones(5), 65536, options);
@@ -178,7 +189,8 @@ TEST_CASE("Sobol's intervals hold the truth about as often as they say") {
     options.seed = 1000 + static_cast<std::uint64_t>(study), options.resamples = 200;
     const auto holds = [&](Sequence sequence) {
       options.sequence = sequence;
-      const Sobol s = sobol(same(ishigami()), vec({-pi, -pi, -pi}), vec({pi, pi, pi}), 1024, options);
+      const Sobol s =
+          sobol(same(ishigami()), vec({-pi, -pi, -pi}), vec({pi, pi, pi}), 1024, options);
       return s.first.low(0, 0) <= V1 / V && V1 / V <= s.first.high(0, 0);
     };
     held += holds(Sequence::random), held_by_sequence += holds(Sequence::sobol);
@@ -188,7 +200,8 @@ TEST_CASE("Sobol's intervals hold the truth about as often as they say") {
   CHECK(held_by_sequence >= 0.95 * studies);  // its rows are counted as independent
 }
 
-TEST_CASE("Results do not depend on the number of threads, and points without a curve are counted") {
+TEST_CASE(
+    "Results do not depend on the number of threads, and points without a curve are counted") {
   const auto phi = [](const VecX& p, VecX& y) {
     y = vec({std::exp(p[0]) * p[1], p[1] * p[1] + p[0], 3});
     return p[0] < 0.99;
@@ -198,30 +211,36 @@ TEST_CASE("Results do not depend on the number of threads, and points without a 
   SamplingOptions four = one;
   four.threads = 4;
   const VecX lower = vec({0, -1}), upper = vec({1, 1});
-  const Sobol s = sobol(same(phi), lower, upper, 3000, one), t = sobol(same(phi), lower, upper, 3000, four);
+  const Sobol s = sobol(same(phi), lower, upper, 3000, one),
+              t = sobol(same(phi), lower, upper, 3000, four);
   CHECK(s.without_curve > 10);
   CHECK(s.rows + s.without_curve == 3000);
   CHECK(s.without_curve == t.without_curve);
-  CHECK(equal(s.group_first.value, t.group_first.value) == false);  // NaN: the third point has no variance
+  CHECK(equal(s.group_first.value, t.group_first.value) ==
+        false);  // NaN: the third point has no variance
   CHECK(std::isnan(s.first.value(0, 2)));
   CHECK(equal(s.first.value.leftCols(2), t.first.value.leftCols(2)));
   CHECK(equal(s.total.low.leftCols(2), t.total.low.leftCols(2)));
   CHECK(equal(s.group_total.high.leftCols(1), t.group_total.high.leftCols(1)));
-  const Morris m = morris(same(phi), lower, upper, 50, 4, one), n = morris(same(phi), lower, upper, 50, 4, four);
+  const Morris m = morris(same(phi), lower, upper, 50, 4, one),
+               n = morris(same(phi), lower, upper, 50, 4, four);
   CHECK(m.without_curve > 5);
   CHECK(m.trajectories + m.without_curve == 50);
   CHECK(equal(m.mu_star.low, n.mu_star.low));
   CHECK(equal(m.sigma.value, n.sigma.value));
 }
 
-TEST_CASE("Sobol and Morris tell how far they are, growing to the whole, on any number of threads") {
+TEST_CASE(
+    "Sobol and Morris tell how far they are, growing to the whole, on any number of threads") {
   const auto phi = [](const VecX& p, VecX& y) {
     y = p;
     return true;
   };
   std::vector<double> told;
   SamplingOptions options;
-  options.threads = 3, options.progress = [&](double part) { told.push_back(part); };
+  options.threads = 3, options.progress = [&](double part) {
+    told.push_back(part);
+  };
   sobol(same(phi), vec({0, 0}), vec({1, 1}), 640, options);
   CHECK(told.size() > 9);  // in tenths at least
   CHECK(std::is_sorted(told.begin(), told.end()));

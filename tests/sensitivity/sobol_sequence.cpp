@@ -1,4 +1,5 @@
-// The low-discrepancy sequence: Joe and Kuo's first points, even in one and two dimensions whatever the shift.
+// The low-discrepancy sequence: Joe and Kuo's first points, even in one and two dimensions whatever
+// the shift.
 #include "identification/sensitivity/sobol_sequence.hpp"
 
 #include <doctest/doctest.h>
@@ -10,7 +11,8 @@
 
 using namespace langer;
 
-TEST_CASE("every axis of a shifted Sobol' sequence holds one of its first 2^k points in each of 2^k parts") {
+TEST_CASE(
+    "every axis of a shifted Sobol' sequence holds one of its first 2^k points in each of 2^k parts") {
   for (Eigen::Index dimensions : {1, 7, 40, 3667}) {
     CAPTURE(dimensions);
     SobolSequence sequence(dimensions, Random(3, static_cast<std::uint64_t>(dimensions)));
@@ -39,7 +41,8 @@ TEST_CASE("a sequence that begins later goes on with the same points") {
   }
 }
 
-TEST_CASE("the first two axes are even together, and the sequence is Sobol's: its points differ from each other as theirs do") {
+TEST_CASE(
+    "the first two axes are even together, and the sequence is Sobol's: its points differ from each other as theirs do") {
   SobolSequence sequence(3, Random(9));
   constexpr int n = 64;
   MatX points(n, 3);
@@ -48,10 +51,12 @@ TEST_CASE("the first two axes are even together, and the sequence is Sobol's: it
   for (int a = 0; a <= 6; ++a) {
     std::map<std::pair<int, int>, int> count;
     for (int i = 0; i < n; ++i)
-      ++count[{static_cast<int>(points(i, 0) * (1 << a)), static_cast<int>(points(i, 1) * (1 << (6 - a)))}];
+      ++count[{static_cast<int>(points(i, 0) * (1 << a)),
+               static_cast<int>(points(i, 1) * (1 << (6 - a)))}];
     CHECK(count.size() == n);
   }
-  // Joe and Kuo's points 0, 1, 2, 3 in three dimensions, in Gray code's order: exclusive ors of the leading bits
+  // Joe and Kuo's points 0, 1, 2, 3 in three dimensions, in Gray code's order: exclusive ors of the
+  // leading bits
   const double first[4][3] = {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.75, 0.25, 0.25}, {0.25, 0.75, 0.75}};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -60,7 +65,8 @@ TEST_CASE("the first two axes are even together, and the sequence is Sobol's: it
     }
 }
 
-TEST_CASE("Sobol's shares by the sequence are several times nearer to the truth than by random samples") {
+TEST_CASE(
+    "Sobol's shares by the sequence are several times nearer to the truth than by random samples") {
   //   product of (|4 x_i - 2| + a_i)/(1 + a_i)
   const VecX a = (VecX(4) << 0, 1, 4.5, 9).finished();
   const CurveMaker maker = [&]() -> ParametricCurve {
@@ -84,7 +90,9 @@ TEST_CASE("Sobol's shares by the sequence are several times nearer to the truth 
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         SamplingOptions options;
         options.seed = seed, options.sequence = sequence, options.resamples = 0;
-        square += (sobol(maker, VecX::Zero(4), VecX::Ones(4), n, options).total.value.col(0) - total).squaredNorm();
+        square +=
+            (sobol(maker, VecX::Zero(4), VecX::Ones(4), n, options).total.value.col(0) - total)
+                .squaredNorm();
       }
       return std::sqrt(square);
     };

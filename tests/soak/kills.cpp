@@ -1,6 +1,8 @@
-// kill -9 at random times in every program and in a whole pipeline; the next run must complete, and what it leaves must be
-// what a run left alone leaves: HDF5 to 1e-12 outside /provenance, every other file byte by byte.
-// --pages all: also every page of an unfinished solution zero, and random, as a power cut may leave it.
+// kill -9 at random times in every program and in a whole pipeline; the next run must complete, and
+// what it leaves must be what a run left alone leaves: HDF5 to 1e-12 outside /provenance, every
+// other file byte by byte.
+// --pages all: also every page of an unfinished solution zero, and random, as a power cut may leave
+// it.
 //   langer-soak <project> <programs> <folder of its own> --kills 200 [--seed 1] [--pages all] [--table kills.md]
 #include <fcntl.h>
 #include <signal.h>
@@ -48,14 +50,17 @@ struct Ended {
 };
 
 // runs it in its own process group, which is killed after `limit` seconds
-Ended run(const fs::path& folder, Words command, const std::string& out, double limit, const fs::path& log) {
+Ended run(const fs::path& folder, Words command, const std::string& out, double limit,
+          const fs::path& log) {
   for (std::string& word : command)
     if (const auto at = word.find("OUT"); at != std::string::npos) word.replace(at, 3, out);
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
@@ -89,9 +94,12 @@ std::string bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool is_hdf5(const fs::path& path) { return path.extension() == ".h5" || path.extension() == ".hdf"; }
+bool is_hdf5(const fs::path& path) {
+  return path.extension() == ".h5" || path.extension() == ".hdf";
+}
 bool is_left_over(const fs::path& path) {
-  return path.extension() == ".part" || path.extension() == ".lock" || path.extension() == ".log" || path.extension() == ".steps";
+  return path.extension() == ".part" || path.extension() == ".lock" || path.extension() == ".log" ||
+         path.extension() == ".steps";
 }
 
 Words differences(const fs::path& expected, const fs::path& found) {
@@ -99,7 +107,8 @@ Words differences(const fs::path& expected, const fs::path& found) {
   const auto files = [&](const fs::path& folder) {
     std::map<std::string, fs::path> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && !is_left_over(entry.path())) names[fs::relative(entry.path(), folder).string()] = entry.path();
+      if (entry.is_regular_file() && !is_left_over(entry.path()))
+        names[fs::relative(entry.path(), folder).string()] = entry.path();
     return names;
   };
   const auto in_expected = files(expected), in_found = files(found);
@@ -120,14 +129,16 @@ Words differences(const fs::path& expected, const fs::path& found) {
   return all;
 }
 
-// What a power cut may leave of an unfinished solution: each of its pages zero or random. The next run has to end with the expected file.
+// What a power cut may leave of an unfinished solution: each of its pages zero or random. The next
+// run has to end with the expected file.
 struct Pages {
   int scanned = 0, wrong = 0, failed = 0;
 };
-Pages scan_pages(const fs::path& project, const Job& solve, double duration, const fs::path& expected, const fs::path& log,
-                 unsigned seed) {
+Pages scan_pages(const fs::path& project, const Job& solve, double duration,
+                 const fs::path& expected, const fs::path& log, unsigned seed) {
   constexpr std::size_t page = 4096;
-  const fs::path out = project / "out", part = out / "solution.h5.part", steps = out / "solution.h5.steps";
+  const fs::path out = project / "out", part = out / "solution.h5.part",
+                 steps = out / "solution.h5.steps";
   for (double share = 0.6; share > 0.05 && !fs::exists(steps); share *= 0.8) {
     fs::remove_all(out), fs::create_directories(out);
     run(project, solve.command, "out", share * duration, log);
@@ -141,7 +152,8 @@ Pages scan_pages(const fs::path& project, const Job& solve, double duration, con
       for (const bool zero : {true, false}) {
         fs::remove_all(out), fs::create_directories(out);
         std::string spoilt = of_part ? whole_part : whole_steps;
-        for (std::size_t i = at; i < std::min(at + page, spoilt.size()); ++i) spoilt[i] = zero ? '\0' : static_cast<char>(random());
+        for (std::size_t i = at; i < std::min(at + page, spoilt.size()); ++i)
+          spoilt[i] = zero ? '\0' : static_cast<char>(random());
         std::ofstream(part, std::ios::binary) << (of_part ? spoilt : whole_part);
         std::ofstream(steps, std::ios::binary) << (of_part ? whole_steps : spoilt);
         const Ended end = run(project, solve.command, "out", 0, log);
@@ -149,8 +161,8 @@ Pages scan_pages(const fs::path& project, const Job& solve, double duration, con
         const Words wrong = failed ? Words{bytes(log)} : differences(expected, out);
         ++pages.scanned, pages.failed += failed, pages.wrong += !failed && !wrong.empty();
         if (!wrong.empty())
-          std::printf("FAILED page %zu of %s, %s:\n%s\n", at / page, of_part ? ".part" : ".steps", zero ? "zero" : "random",
-                      fmt::format("{}", fmt::join(wrong, "\n")).c_str());
+          std::printf("FAILED page %zu of %s, %s:\n%s\n", at / page, of_part ? ".part" : ".steps",
+                      zero ? "zero" : "random", fmt::format("{}", fmt::join(wrong, "\n")).c_str());
       }
   return pages;
 }
@@ -159,8 +171,12 @@ Pages scan_pages(const fs::path& project, const Job& solve, double duration, con
 
 int main(int argc, char** argv) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  if (argc < 4) return std::printf("langer-soak <project> <programs> <folder> --kills 200 [--seed 1] [--table kills.md]\n"), 2;
-  const fs::path root = fs::canonical(argv[1]), bin = fs::absolute(argv[2]), work = fs::absolute(argv[3]);
+  if (argc < 4)
+    return std::printf(
+               "langer-soak <project> <programs> <folder> --kills 200 [--seed 1] [--table kills.md]\n"),
+           2;
+  const fs::path root = fs::canonical(argv[1]), bin = fs::absolute(argv[2]),
+                 work = fs::absolute(argv[3]);
   int kills = 200;
   bool pages = false;
   unsigned seed = 1;
@@ -177,7 +193,9 @@ int main(int argc, char** argv) {
   const fs::path project = work / "project";
   for (const char* folder : {"configs", "pipelines", "data"})
     fs::copy(root / folder, project / folder, fs::copy_options::recursive);
-  const auto program = [&](const std::string& stage) { return (bin / ("langer-" + stage)).string(); };
+  const auto program = [&](const std::string& stage) {
+    return (bin / ("langer-" + stage)).string();
+  };
   const Words solve{program("solve"),
                     "configs/solve/smoke.yaml",
                     "--mesh",
@@ -191,7 +209,8 @@ int main(int argc, char** argv) {
                     "-o"};
   const auto ended = [&](Words command) {
     const fs::path log = work / "input.log";
-    if (!run(project, std::move(command), "in", 0, log).exited()) throw std::runtime_error(bytes(log));
+    if (!run(project, std::move(command), "in", 0, log).exited())
+      throw std::runtime_error(bytes(log));
   };
   const auto solve_to = [&](const std::string& output) {
     Words command = solve;
@@ -203,33 +222,48 @@ int main(int argc, char** argv) {
   ended({program("mesh"), "configs/mesh/smoke.yaml", "-o", "in/mesh.h5"});
   ended({program("fit"), "configs/fit/abdomen_yeoh.yaml", "-o", "in/material.h5"});
   ended(solve_to("in/solution.h5"));
-  ended({program("post"), "configs/post/smoke.yaml", "--solution", "in/solution.h5", "-o", "in/curves.h5"});
-  std::ofstream(project / "table.yaml") << "columns: [force]\nmembers:\n  - {path: a, at: [\"1\"]}\n  - {path: b, at: [\"2\"]}\n"
-                                           "axes: [{name: n, unit: \"-\"}]\n";
+  ended({program("post"), "configs/post/smoke.yaml", "--solution", "in/solution.h5", "-o",
+         "in/curves.h5"});
+  std::ofstream(project / "table.yaml")
+      << "columns: [force]\nmembers:\n  - {path: a, at: [\"1\"]}\n  - {path: b, at: [\"2\"]}\n"
+         "axes: [{name: n, unit: \"-\"}]\n";
   std::ofstream(project / "ranks.yaml") << "{}\n";
 
   const std::vector<Job> jobs{
       {"mesh", {program("mesh"), "configs/mesh/indentation.yaml", "-o", "OUT/mesh.h5"}, "mesh.h5"},
-      {"fit", {program("fit"), "configs/fit/abdomen_hgo.yaml", "--set", "starts=2", "-o", "OUT/material.h5"}, "material.h5"},
+      {"fit",
+       {program("fit"), "configs/fit/abdomen_hgo.yaml", "--set", "starts=2", "-o",
+        "OUT/material.h5"},
+       "material.h5"},
       {"sensitivity",
-       {program("sensitivity"), "ranks.yaml", "--material", "in/material.h5", "-o", "OUT/sensitivity.h5"},
+       {program("sensitivity"), "ranks.yaml", "--material", "in/material.h5", "-o",
+        "OUT/sensitivity.h5"},
        "sensitivity.h5"},
       {"solve", solve_to("OUT/solution.h5"), "solution.h5"},
-      {"post", {program("post"), "configs/post/smoke.yaml", "--solution", "in/solution.h5", "-o", "OUT/curves.h5"}, "curves.h5"},
+      {"post",
+       {program("post"), "configs/post/smoke.yaml", "--solution", "in/solution.h5", "-o",
+        "OUT/curves.h5"},
+       "curves.h5"},
       {"gather",
-       {program("gather"), "table.yaml", "--curves", "in/curves.h5", "--curves", "in/curves.h5", "-o", "OUT/sweep.h5"},
+       {program("gather"), "table.yaml", "--curves", "in/curves.h5", "--curves", "in/curves.h5",
+        "-o", "OUT/sweep.h5"},
        "sweep.h5"},
-      // a plate pressed on and suction, a sphere that turns with friction, one that is pushed, bonds that come loose
-      {"suction", {program("solve"), "configs/solve/suction_plate.yaml", "-o", "OUT/solution.h5"}, "solution.h5"},
+      // a plate pressed on and suction, a sphere that turns with friction, one that is pushed,
+      // bonds that come loose
+      {"suction",
+       {program("solve"), "configs/solve/suction_plate.yaml", "-o", "OUT/solution.h5"},
+       "solution.h5"},
       {"twist",
-       {program("solve"), "configs/solve/twist_friction.yaml", "--set", "mesh.geometry.indented_block.edge=0.5", "-o",
-        "OUT/solution.h5"},
+       {program("solve"), "configs/solve/twist_friction.yaml", "--set",
+        "mesh.geometry.indented_block.edge=0.5", "-o", "OUT/solution.h5"},
        "solution.h5"},
       {"pushed",
-       {program("solve"), "configs/solve/indentation_force.yaml", "--mesh", "in/mesh.h5", "-o", "OUT/solution.h5"},
+       {program("solve"), "configs/solve/indentation_force.yaml", "--mesh", "in/mesh.h5", "-o",
+        "OUT/solution.h5"},
        "solution.h5"},
       {"adhesion",
-       {program("solve"), "configs/solve/pull_off.yaml", "--set", "mesh.geometry.indented_disc.edge=0.08", "-o", "OUT/solution.h5"},
+       {program("solve"), "configs/solve/pull_off.yaml", "--set",
+        "mesh.geometry.indented_disc.edge=0.08", "-o", "OUT/solution.h5"},
        "solution.h5"},
       {"plan", {program("plan"), "pipelines/indentation_angles.yaml", "-o", "OUT"}, "Makefile"},
       {"make", {"make", "-j2", "-C", "OUT"}, "table/sweep.h5"},
@@ -248,7 +282,8 @@ int main(int argc, char** argv) {
     fresh(job, "out");
     const fs::path log = work / (job.name + ".log");
     const Ended whole = run(project, job.command, "out", 0, log);
-    if (!whole.exited() || !fs::exists(project / "out" / job.needed)) throw std::runtime_error(job.name + ":\n" + bytes(log));
+    if (!whole.exited() || !fs::exists(project / "out" / job.needed))
+      throw std::runtime_error(job.name + ":\n" + bytes(log));
     duration[job.name] = whole.seconds;
     fs::rename(project / "out", work / ("expected_" + job.name));
     fs::remove(log);
@@ -263,7 +298,8 @@ int main(int argc, char** argv) {
     const int in_a_row = std::uniform_int_distribution<int>(1, 3)(random);
     Words times;
     for (int k = 0; k < in_a_row && done < kills; ++k) {
-      const double limit = std::uniform_real_distribution<double>(0.001, 1.02 * duration[job.name])(random);
+      const double limit =
+          std::uniform_real_distribution<double>(0.001, 1.02 * duration[job.name])(random);
       times.push_back(fmt::format("{:.3f}", limit));
       const Ended end = run(project, job.command, "out", limit, log);
       if (WIFSIGNALED(end.status) && WTERMSIG(end.status) == SIGKILL)
@@ -272,8 +308,9 @@ int main(int argc, char** argv) {
         ++count.ended_before;
       else {
         ++failures;
-        std::printf("FAILED %s, seed %u, after %s s: ended by itself with status %d\n%s\n", job.name.c_str(), seed,
-                    fmt::format("{}", fmt::join(times, ", ")).c_str(), end.status, bytes(log).c_str());
+        std::printf("FAILED %s, seed %u, after %s s: ended by itself with status %d\n%s\n",
+                    job.name.c_str(), seed, fmt::format("{}", fmt::join(times, ", ")).c_str(),
+                    end.status, bytes(log).c_str());
       }
       for (const auto& entry : fs::recursive_directory_iterator(project / "out"))
         if (entry.path().extension() == ".part") {
@@ -283,12 +320,14 @@ int main(int argc, char** argv) {
     }
     const Ended last = run(project, job.command, "out", 0, log);
     ++count.runs;
-    const Words wrong = last.exited() ? differences(work / ("expected_" + job.name), project / "out")
-                                      : Words{fmt::format("ended with status {}\n{}", last.status, bytes(log))};
+    const Words wrong =
+        last.exited() ? differences(work / ("expected_" + job.name), project / "out")
+                      : Words{fmt::format("ended with status {}\n{}", last.status, bytes(log))};
     if (wrong.empty()) continue;
     ++failures;
     std::printf("FAILED %s, seed %u, killed after %s s:\n%s\n", job.name.c_str(), seed,
-                fmt::format("{}", fmt::join(times, ", ")).c_str(), fmt::format("{}", fmt::join(wrong, "\n")).c_str());
+                fmt::format("{}", fmt::join(times, ", ")).c_str(),
+                fmt::format("{}", fmt::join(wrong, "\n")).c_str());
   }
   std::string text =
       "| program | a run alone, s | kills that met it running | runs that ended before | unfinished files left | "
@@ -296,11 +335,13 @@ int main(int argc, char** argv) {
       "| --- | --- | --- | --- | --- | --- |\n";
   for (const Job& job : jobs)
     if (const auto c = counts.find(job.name); c != counts.end())
-      text += fmt::format("| {} | {:.2f} | {} | {} | {} | {} |\n", job.name, c->second.seconds, c->second.kills,
-                          c->second.ended_before, c->second.with_part, c->second.runs);
+      text +=
+          fmt::format("| {} | {:.2f} | {} | {} | {} | {} |\n", job.name, c->second.seconds,
+                      c->second.kills, c->second.ended_before, c->second.with_part, c->second.runs);
   text += fmt::format("\n{} kills, {} failures, seed {}\n", done, failures, seed);
   if (pages) {
-    const Pages scan = scan_pages(project, jobs[3], duration["solve"], work / "expected_solve", work / "pages.log", seed);
+    const Pages scan = scan_pages(project, jobs[3], duration["solve"], work / "expected_solve",
+                                  work / "pages.log", seed);
     text += fmt::format(
         "\nEvery page of 4 kB of an unfinished solution and its journal, zero and random: {} runs, {} wrong results, {} that did not end well\n",
         scan.scanned, scan.wrong, scan.failed);

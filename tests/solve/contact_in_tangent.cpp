@@ -14,7 +14,8 @@ namespace {
 
 test::Indentation small(double mu) {
   test::Indentation scene;
-  scene.nx = scene.nz = 8, scene.ny = 2, scene.h = 0.7, scene.depth = 0.4, scene.step = 0.2, scene.mu = mu;
+  scene.nx = scene.nz = 8, scene.ny = 2, scene.h = 0.7, scene.depth = 0.4, scene.step = 0.2,
+  scene.mu = mu;
   scene.newton.relative = 1e-11;
   return scene;
 }
@@ -24,7 +25,9 @@ void compare(test::Indentation scene, const Material& law) {
   const auto condensed = scene.run(law);
   scene.contact_by = ContactBy::tangent;
   bool in_tangent = true;
-  scene.after = [&](const Statics& statics, const Equilibrium&) { in_tangent = in_tangent && statics.contact_in_tangent(); };
+  scene.after = [&](const Statics& statics, const Equilibrium&) {
+    in_tangent = in_tangent && statics.contact_in_tangent();
+  };
   const auto sparse = scene.run(law);
   REQUIRE(condensed.path.complete);
   CAPTURE(sparse.path.why);
@@ -42,12 +45,14 @@ void compare(test::Indentation scene, const Material& law) {
     CHECK(b.defect.stick == a.defect.stick);
   }
   CHECK((condensed.u - sparse.u).lpNorm<Eigen::Infinity>() < 1e-8);
-  CHECK(sparse.n_indefinite <= condensed.n_indefinite);  // what gives way without contact may be stable with it
+  CHECK(sparse.n_indefinite <=
+        condensed.n_indefinite);  // what gives way without contact may be stable with it
 }
 
 }  // namespace
 
-TEST_CASE("contact in the tangent: a sphere with and without friction, whole and a quarter whose planes hold candidates") {
+TEST_CASE(
+    "contact in the tangent: a sphere with and without friction, whole and a quarter whose planes hold candidates") {
   for (double mu : {0.0, 0.1, 0.34, 1.0})
     for (bool quarter : {false, true}) {
       const double friction = mu;
@@ -59,12 +64,14 @@ TEST_CASE("contact in the tangent: a sphere with and without friction, whole and
     }
 }
 
-TEST_CASE("contact in the tangent: a plane on all candidates, a sphere that scratches, one that is taken back") {
+TEST_CASE(
+    "contact in the tangent: a plane on all candidates, a sphere that scratches, one that is taken back") {
   for (double mu : {0.0, 0.3}) {
     const double friction = mu;
     CAPTURE(friction);
     auto plane = small(mu);
-    plane.shape = Plane{{0, 4, 0}, {0, -1, 0}}, plane.reach = 30, plane.depth = 0.2, plane.step = 0.1;
+    plane.shape = Plane{{0, 4, 0}, {0, -1, 0}}, plane.reach = 30, plane.depth = 0.2,
+    plane.step = 0.1;
     compare(plane, test::neo_hooke(0.3, 1e-4));
     auto scratch = small(mu);
     scratch.motion = {{0.5, Vec3(0, -0.3, 0)}, {1, Vec3(0.4, -0.3, 0.1)}};
@@ -75,16 +82,20 @@ TEST_CASE("contact in the tangent: a plane on all candidates, a sphere that scra
   }
 }
 
-TEST_CASE("contact in the tangent: many candidates with friction stay condensed on a deep body, where a factorization costs more") {
+TEST_CASE(
+    "contact in the tangent: many candidates with friction stay condensed on a deep body, where a factorization costs more") {
   for (int layers : {2, 24})
     for (double mu : {0.0, 0.3}) {
       CAPTURE(layers);
       const double friction = mu;
       CAPTURE(friction);
       test::Indentation scene;
-      scene.nx = scene.nz = 20, scene.ny = layers, scene.h = 0, scene.depth = 1e-3, scene.step = 1e-3, scene.mu = mu;
+      scene.nx = scene.nz = 20, scene.ny = layers, scene.h = 0, scene.depth = 1e-3,
+      scene.step = 1e-3, scene.mu = mu;
       bool in_tangent = false;
-      scene.after = [&](const Statics& statics, const Equilibrium&) { in_tangent = statics.contact_in_tangent(); };
+      scene.after = [&](const Statics& statics, const Equilibrium&) {
+        in_tangent = statics.contact_in_tangent();
+      };
       scene.shape = Plane{{0, 4, 0}, {0, -1, 0}}, scene.reach = 30;
       REQUIRE(scene.run(test::neo_hooke(0.3, 1e-4)).path.complete);
       CHECK(in_tangent == (mu == 0 || layers == 2));

@@ -1,4 +1,5 @@
-// A body whose cells are divided among ranks: what each makes of its own is together what one makes of all.
+// A body whose cells are divided among ranks: what each makes of its own is together what one makes
+// of all.
 #include <doctest/doctest.h>
 
 #include <mutex>
@@ -34,16 +35,16 @@ struct Slab {
 
   Equilibrium equilibrium(std::optional<Division> division = {}) const {
     const std::vector<Material> laws{test::table1(30, 1e-6)};
-    return Equilibrium(mesh, laws, test::directions(mesh, laws), Formulation::mean_dilatation, dofs, 1, Kernel::packets, {},
-                       std::move(division));
+    return Equilibrium(mesh, laws, test::directions(mesh, laws), Formulation::mean_dilatation, dofs,
+                       1, Kernel::packets, {}, std::move(division));
   }
   // some cells here, some there
   Division division(const Ranks& ranks) const {
     Division out{&ranks, {}};
     for (int e = 0; e < mesh.n_cells(); ++e)
       out.rank_of.push_back(mesh.X[mesh.connectivity[static_cast<std::size_t>(e) * 8]][0] < -0.5 ? 0
-                            : (e * 7) % 5 < 2                                                    ? ranks.n() - 1
-                                                                                                 : e % ranks.n());
+                            : (e * 7) % 5 < 2 ? ranks.n() - 1
+                                              : e % ranks.n());
     return out;
   }
 };
@@ -69,9 +70,11 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
       VecX product = part.K_times(v);
       ranks.sum(product.data(), static_cast<std::size_t>(product.size()));
       const double J_min = part.smallest_J(scene.u);
-      const Equilibrium::VolumetricPart volume = part.volumetric_part(), all = whole.volumetric_part();
+      const Equilibrium::VolumetricPart volume = part.volumetric_part(),
+                                        all = whole.volumetric_part();
       VecX turned = scene.u;
-      turned[3 * scene.mesh.n_nodes() / 2] += 100;  // a cell of one rank is turned inside out: all know
+      turned[3 * scene.mesh.n_nodes() / 2] +=
+          100;  // a cell of one rank is turned inside out: all know
       const bool of_turned = part.assemble(turned, false);
       const std::lock_guard lock(alone);
       CHECK(assembled);
@@ -95,7 +98,8 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
   }
 }
 
-TEST_CASE("divided: the Schur complement of the pressures is factorized exactly, however the cells lie") {
+TEST_CASE(
+    "divided: the Schur complement of the pressures is factorized exactly, however the cells lie") {
   const Slab scene;
   std::vector<int> rows = scene.equilibrium().cell_dofs();
   for (int& row : rows)
@@ -105,7 +109,8 @@ TEST_CASE("divided: the Schur complement of the pressures is factorized exactly,
   for (double& x : scaled) x = random.uniform() - 0.5;
   const int cells = scene.mesh.n_cells();
   VecX inverse_D(cells), g(cells);
-  for (int e = 0; e < cells; ++e) inverse_D[e] = 1e-3 * (1 + random.uniform()), g[e] = random.uniform() - 0.5;
+  for (int e = 0; e < cells; ++e)
+    inverse_D[e] = 1e-3 * (1 + random.uniform()), g[e] = random.uniform() - 0.5;
   PressureSchur whole(rows, scene.dofs.n, nullptr, 1);
   REQUIRE(whole.factorize(scaled, inverse_D));
   const VecX wanted = whole.solve(g);
@@ -124,7 +129,9 @@ TEST_CASE("divided: the Schur complement of the pressures is factorized exactly,
       }
     });
   };
-  const auto x_of = [&](int e) { return scene.mesh.X[scene.mesh.connectivity[static_cast<std::size_t>(e) * 8]][0]; };
+  const auto x_of = [&](int e) {
+    return scene.mesh.X[scene.mesh.connectivity[static_cast<std::size_t>(e) * 8]][0];
+  };
   same(2, [&](int e) { return x_of(e) < 0 ? 0 : 1; });  // a layer between them
   same(3, [&](int e) { return x_of(e) < -0.5 ? 2 : x_of(e) < 0.5 ? 0 : 1; });
   same(2, [&](int e) { return e % 2; });                // nearly all between them: rank 0 has them

@@ -1,17 +1,18 @@
 // Extreme cases: each gives the right answer within a tolerance, or a refusal that says why.
-// The long ones are in pipelines/extremes.yaml; what meshes refuse is in tests/stages/extremes.cmake.
+// The long ones are in pipelines/extremes.yaml; what meshes refuse is in
+// tests/stages/extremes.cmake.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/tensor/stress.hpp"
 #include "mechanics/material/uniaxial.hpp"
 #include "mechanics/mesh/quality.hpp"
 #include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/stress.hpp"
 
 using namespace langer;
 
@@ -55,7 +56,8 @@ struct Pull {
       for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
     for (int i : mesh.node_sets["x_max"]) length = mesh.X[i][0];
     for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, (stretch - 1) * length});
-    Equilibrium body = test::equilibrium(mesh, materials, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+    Equilibrium body = test::equilibrium(mesh, materials, Formulation::mean_dilatation,
+                                         number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.steps = steps_of, options.smallest = smallest;
@@ -72,8 +74,9 @@ struct Pull {
     u = statics.accepted().u;
     sigma.clear();
     for (int e = 0; e < mesh.n_cells(); ++e)
-      for (const GaussState& g : gauss_states(Formulation::mean_dilatation, body.material(e), body.geometry(e), body.fibres(e),
-                                              body.element_displacements(u, e)))
+      for (const GaussState& g :
+           gauss_states(Formulation::mean_dilatation, body.material(e), body.geometry(e),
+                        body.fibres(e), body.element_displacements(u, e)))
         sigma.push_back(g.sigma);
     reaction = 0;
     const VecX r = statics.reactions();
@@ -84,7 +87,9 @@ struct Pull {
 }  // namespace
 
 TEST_CASE("extremes: d from 1e-1 to 1e-10, the force goes to its limit and stays there") {
-  const auto force = [](double d) { return final_force(small_scene(), test::stable(30, d)); };
+  const auto force = [](double d) {
+    return final_force(small_scene(), test::stable(30, d));
+  };
   const double limit = force(1e-7);
   double before = 0;
   for (double d : {1e-1, 1e-2, 1e-3, 1e-4}) {
@@ -142,12 +147,14 @@ TEST_CASE("extremes: I4 = 1 crossed from both sides, in small and in large strid
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
         for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
       for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, 3});
-      Equilibrium body = test::equilibrium(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation,
-                                           number_dofs(mesh.n_nodes(), held).dofs);
+      Equilibrium body =
+          test::equilibrium(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation,
+                            number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {}, {});
       std::vector<double> way;  // up, down through rest, up again
       for (double turn : {1.0, -1.0, 1.0})
-        for (double s = stride; s < 2.001 * 0.3; s += stride) way.push_back(turn * (s <= 0.3001 ? s : 0.6 - s));
+        for (double s = stride; s < 2.001 * 0.3; s += stride)
+          way.push_back(turn * (s <= 0.3001 ? s : 0.6 - s));
       VecX at_top, at_bottom;
       for (double t : way) {
         statics.begin(t);
@@ -158,7 +165,8 @@ TEST_CASE("extremes: I4 = 1 crossed from both sides, in small and in large strid
         statics.accept();
         if (std::abs(t) < 1e-9) CHECK(statics.accepted().u.lpNorm<Eigen::Infinity>() < 1e-8);
         if (std::abs(t - 0.3) < 1e-9) {
-          if (at_top.size() > 0) CHECK((statics.accepted().u - at_top).lpNorm<Eigen::Infinity>() < 1e-7);
+          if (at_top.size() > 0)
+            CHECK((statics.accepted().u - at_top).lpNorm<Eigen::Infinity>() < 1e-7);
           at_top = statics.accepted().u;
         }
       }
@@ -210,7 +218,8 @@ TEST_CASE("extremes: friction from 0 to 10, more of it never makes it softer") {
   }
 }
 
-TEST_CASE("extremes: elements of aspect 1 to 1000, skewed and nearly inverted, pass the patch test") {
+TEST_CASE(
+    "extremes: elements of aspect 1 to 1000, skewed and nearly inverted, pass the patch test") {
   const double exact = uniaxial(yeoh(1e-6), 1.3).sigma;
   for (double aspect : {1.0, 10.0, 100.0, 1000.0}) {
     CAPTURE(aspect);
@@ -279,7 +288,8 @@ TEST_CASE("extremes: soft beside stiff by 1e6, in a row and around") {
   double stiff_strain = 0;
   for (int i : mesh.node_sets["x_max"])
     for (int k = 0; k < mesh.n_nodes(); ++k)
-      if (std::abs(mesh.X[k][0] - 1) < 1e-9 && mesh.X[k][1] == mesh.X[i][1] && mesh.X[k][2] == mesh.X[i][2])
+      if (std::abs(mesh.X[k][0] - 1) < 1e-9 && mesh.X[k][1] == mesh.X[i][1] &&
+          mesh.X[k][2] == mesh.X[i][2])
         stiff_strain = std::max(stiff_strain, std::abs(pull.u[3 * i] - pull.u[3 * k]));
   CHECK(stiff_strain < 1e-5);
   // between free contraction and none at the bonded face
@@ -302,7 +312,8 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, to[k]});
       }
     Equilibrium body =
-        test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+        test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation,
+                          number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.first = options.largest = 0.1;
@@ -320,7 +331,8 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
     return std::pair{body.W(), Vec3(R.transpose() * Vec3([&] {
                                       Vec3 sum = Vec3::Zero();
                                       const VecX r = statics.reactions();
-                                      for (int i : mesh.node_sets["x_max"]) sum += r.segment<3>(3 * i);
+                                      for (int i : mesh.node_sets["x_max"])
+                                        sum += r.segment<3>(3 * i);
                                       return sum;
                                     }()))};
   };

@@ -26,28 +26,38 @@ struct Cubes {
       a.residual = f.norm(), a.reference = 8;
       return a;
     };
-    p.correction = [this]() -> std::optional<VecX> { return VecX((8 - at.array().cube()) / (3 * at.array().square())); };
-    p.admissible = [](const VecX&) { return true; };
-    p.moved = [](const VecX&, double) {};
+    p.correction = [this]() -> std::optional<VecX> {
+      return VecX((8 - at.array().cube()) / (3 * at.array().square()));
+    };
+    p.admissible = [](const VecX&) {
+      return true;
+    };
+    p.moved = [](const VecX&, double) {
+    };
     return p;
   }
   FreeBalance balance() {
     FreeBalance b;
     for (int i = 0; i < n; ++i) b.free.push_back(i);
     b.residual = [this](const VecX& x, VecX& f) {
-      if ((x.array().abs() > 1e100).any()) return f.setConstant(1e100), false;  // its cube is no number
+      if ((x.array().abs() > 1e100).any())
+        return f.setConstant(1e100), false;  // its cube is no number
       f = x.array().cube() - 8;
       if (++calls >= spoil_from) f[0] = std::nan("");
       return true;
     };
-    b.tangent = [this](const VecX& x) { return at = x, true; };
-    b.solve = [this](const VecX& rhs, bool) { return VecX(rhs.array() / (3 * at.array().square())); };
+    b.tangent = [this](const VecX& x) {
+      return at = x, true;
+    };
+    b.solve = [this](const VecX& rhs, bool) {
+      return VecX(rhs.array() / (3 * at.array().square()));
+    };
     return b;
   }
 };
 
-const KinsolStrategy strategies[] = {KinsolStrategy::newton, KinsolStrategy::linesearch, KinsolStrategy::picard,
-                                     KinsolStrategy::fixed_point};
+const KinsolStrategy strategies[] = {KinsolStrategy::newton, KinsolStrategy::linesearch,
+                                     KinsolStrategy::picard, KinsolStrategy::fixed_point};
 
 }  // namespace
 
@@ -79,9 +89,11 @@ TEST_CASE("a residual that becomes NaN is never a success and never hangs, whene
     }
 }
 
-// f(x) = log x has no value left of 0, where Newton's first step from x = 5 leads: x - x log x = -3. KINSOL must be told, so that
-// it halves the step; a residual that is no number would stand in its vectors for good.
-TEST_CASE("a step to where the residual is no number, or is too large to be squared, is shortened and the root is found") {
+// f(x) = log x has no value left of 0, where Newton's first step from x = 5 leads: x - x log x =
+// -3. KINSOL must be told, so that it halves the step; a residual that is no number would stand in
+// its vectors for good.
+TEST_CASE(
+    "a step to where the residual is no number, or is too large to be squared, is shortened and the root is found") {
   for (bool too_large : {false, true})
     for (KinsolStrategy strategy : {KinsolStrategy::newton, KinsolStrategy::linesearch}) {
       CAPTURE(too_large);
@@ -95,19 +107,29 @@ TEST_CASE("a step to where the residual is no number, or is too large to be squa
         outside += !(x[0] > 0);
         return true;  // as if it were a number
       };
-      b.tangent = [&](const VecX& x) { return at = x, true; };
-      b.solve = [&](const VecX& rhs, bool) { return VecX(rhs.cwiseProduct(at)); };
+      b.tangent = [&](const VecX& x) {
+        return at = x, true;
+      };
+      b.solve = [&](const VecX& rhs, bool) {
+        return VecX(rhs.cwiseProduct(at));
+      };
       Problem p;
       p.assess = [&](const VecX& x, bool) {
         Assessment a;
         a.residual = std::abs(std::log(x[0])), a.reference = 1;
         return a;
       };
-      p.correction = []() -> std::optional<VecX> { return VecX::Zero(1); };  // nothing is imposed: KINSOL does it all
-      p.admissible = [](const VecX&) { return true; };
-      p.moved = [](const VecX&, double) {};
+      p.correction = []() -> std::optional<VecX> {
+        return VecX::Zero(1);
+      };  // nothing is imposed: KINSOL does it all
+      p.admissible = [](const VecX&) {
+        return true;
+      };
+      p.moved = [](const VecX&, double) {
+      };
       KinsolOptions options;
-      options.strategy = strategy, options.relative = 1e-10, options.rounds = 3, options.largest_move = 100;
+      options.strategy = strategy, options.relative = 1e-10, options.rounds = 3,
+      options.largest_move = 100;
       VecX x = VecX::Constant(1, 5.0);
       CHECK(kinsol(p, b, x, options).converged());
       CHECK(std::abs(x[0] - 1) < 1e-9);
@@ -117,7 +139,8 @@ TEST_CASE("a step to where the residual is no number, or is too large to be squa
 
 TEST_CASE("indentation with friction: every strategy agrees with newton to 1e-8 mm") {
   test::Indentation scene;
-  scene.nx = scene.nz = 10, scene.ny = 3, scene.h = 0.6, scene.depth = 0.4, scene.newton.relative = 1e-9;
+  scene.nx = scene.nz = 10, scene.ny = 3, scene.h = 0.6, scene.depth = 0.4,
+  scene.newton.relative = 1e-9;
   const Material skin = test::table1(60, 1e-6);
   const auto reference = scene.run(skin);
   REQUIRE(reference.path.complete);
@@ -128,9 +151,9 @@ TEST_CASE("indentation with friction: every strategy agrees with newton to 1e-8 
     const auto result = scene.run(skin);
     CAPTURE(static_cast<int>(strategy));
     REQUIRE(result.path.complete);
-    MESSAGE("strategy " << static_cast<int>(strategy) << ": " << result.path.iterations << " iterations, "
-                        << result.cost.factorizations << " factorizations, " << result.path.cut_backs << " cuts; newton "
-                        << reference.path.iterations);
+    MESSAGE("strategy " << static_cast<int>(strategy) << ": " << result.path.iterations
+                        << " iterations, " << result.cost.factorizations << " factorizations, "
+                        << result.path.cut_backs << " cuts; newton " << reference.path.iterations);
     CHECK((result.u - reference.u).lpNorm<Eigen::Infinity>() < 1e-8);
     for (const auto& step : result.steps) {
       CHECK(step.defect.penetration <= 1e-9);

@@ -1,4 +1,5 @@
-// Every fibre law with every law of volume change: a cube under tension is the homogeneous state, in each formulation.
+// Every fibre law with every law of volume change: a cube under tension is the homogeneous state,
+// in each formulation.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -14,10 +15,12 @@ using test::config_of, test::nowhere;
 
 namespace {
 
-const std::vector<std::string> fibre_laws{"hgo: {c1: 0.3, c2: 0.8}", "exp_pow: {ksi: 0.4, alpha: 0.5, beta: 2.5}",
+const std::vector<std::string> fibre_laws{"hgo: {c1: 0.3, c2: 0.8}",
+                                          "exp_pow: {ksi: 0.4, alpha: 0.5, beta: 2.5}",
                                           "pow_linear: {E: 1.5, lam0: 1.08, beta: 3}"};
 std::vector<std::string> volume_laws(double bulk_modulus) {
-  return {fmt::format("quadratic: {{d: {}}}", 2 / bulk_modulus), fmt::format("logarithmic: {{bulk_modulus: {}}}", bulk_modulus),
+  return {fmt::format("quadratic: {{d: {}}}", 2 / bulk_modulus),
+          fmt::format("logarithmic: {{bulk_modulus: {}}}", bulk_modulus),
           fmt::format("simo_taylor: {{bulk_modulus: {}}}", bulk_modulus)};
 }
 
@@ -37,17 +40,22 @@ TEST_CASE("A pulled cube of any fibre law and any volume law is in the homogeneo
           CAPTURE(text);
           const SolveConfig config = config_of(text);
           const Scene scene = make_scene(config, small, config.material, nowhere);
-          const StepRecord last = test::solved(small, scene, std::nullopt, {config.path, config.solver}).steps.back();
+          const StepRecord last =
+              test::solved(small, scene, std::nullopt, {config.path, config.solver}).steps.back();
           double force = 0;
           for (int n : small.node_sets.at("x_max")) force += last.reaction[n][0];
-          const double length = small.X[small.node_sets.at("x_max")[0]][0], stretch = 1 + 0.3 / length;
+          const double length = small.X[small.node_sets.at("x_max")[0]][0],
+                       stretch = 1 + 0.3 / length;
           const Uniaxial exact = uniaxial(*config.material, stretch);
           REQUIRE(exact.converged);
-          CHECK(force == doctest::Approx(exact.sigma * (1 + exact.J_minus_1) / stretch * length * length).epsilon(1e-7));
+          CHECK(force ==
+                doctest::Approx(exact.sigma * (1 + exact.J_minus_1) / stretch * length * length)
+                    .epsilon(1e-7));
         }
 }
 
-TEST_CASE("Cells of second order take the same increments with any volume law, and differ by what the laws do") {
+TEST_CASE(
+    "Cells of second order take the same increments with any volume law, and differ by what the laws do") {
   std::map<std::string, double> found;  // force
   for (const std::string& volume : volume_laws(2e4)) {
     const SolveConfig config = config_of(fmt::format(
@@ -59,7 +67,8 @@ TEST_CASE("Cells of second order take the same increments with any volume law, a
         volume));
     const Mesh mesh = test::mesh_in(config);
     const Scene scene = make_scene(config, mesh, config.material, nowhere);
-    const test::Solved solved = test::solved(mesh, scene, std::nullopt, {config.path, config.solver});
+    const test::Solved solved =
+        test::solved(mesh, scene, std::nullopt, {config.path, config.solver});
     REQUIRE(solved.steps.size() == 3);
     double force = 0;
     for (int n : mesh.node_sets.at("y_max")) force += solved.last().reaction[n][1];

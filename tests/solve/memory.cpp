@@ -1,4 +1,5 @@
-// An elastic body has no memory: its force follows from where the indenter is, not from how it got there.
+// An elastic body has no memory: its force follows from where the indenter is, not from how it got
+// there.
 #include <doctest/doctest.h>
 
 #include "core/base/random.hpp"
@@ -40,13 +41,15 @@ Way way(test::Indentation scene, const Material& material, double depth, double 
 
 }  // namespace
 
-TEST_CASE("no memory: the same force going in and coming out, in long increments and in short ones") {
+TEST_CASE(
+    "no memory: the same force going in and coming out, in long increments and in short ones") {
   for (CellType cells : {CellType::hex8, CellType::hex27, CellType::tet15})
     for (double c1 : {0.317, 0.0, -0.317}) {
       CAPTURE(static_cast<int>(cells));
       CAPTURE(c1);
       const Material material = test::table1(0, 1e-6, c1);
-      const Way coarse = way(quarter(cells), material, 1, 0.5), fine = way(quarter(cells), material, 1, 0.125);
+      const Way coarse = way(quarter(cells), material, 1, 0.5),
+                fine = way(quarter(cells), material, 1, 0.125);
       CHECK(coarse.out == doctest::Approx(coarse.in).epsilon(1e-8));
       CHECK(fine.out == doctest::Approx(fine.in).epsilon(1e-8));
       CHECK(fine.in == doctest::Approx(coarse.in).epsilon(1e-8));
@@ -56,7 +59,9 @@ TEST_CASE("no memory: the same force going in and coming out, in long increments
 
 TEST_CASE("no memory: spheres, depths, fibres and moduli drawn at random") {
   Random random(17);
-  const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * random.uniform();
+  };
   for (int k = 0; k < 6; ++k) {
     CAPTURE(k);
     test::Indentation scene = quarter(k % 2 == 0 ? CellType::hex27 : CellType::tet15);
@@ -65,14 +70,16 @@ TEST_CASE("no memory: spheres, depths, fibres and moduli drawn at random") {
     Material material = test::table1(90 * (k % 3 == 1), std::pow(10, draw(-8, -2)), draw(-a1, 0.6));
     material.matrix = {Yeoh{a1, draw(0, 0.4), draw(0, 0.4)}};
     const double depth = draw(0.4, 1.1);
-    const Way coarse = way(scene, material, depth, depth / 2), fine = way(scene, material, depth, depth / 6);
+    const Way coarse = way(scene, material, depth, depth / 2),
+              fine = way(scene, material, depth, depth / 6);
     CHECK(coarse.out == doctest::Approx(coarse.in).epsilon(1e-8));
     CHECK(fine.in == doctest::Approx(coarse.in).epsilon(1e-8));
     CHECK(fine.deepest == doctest::Approx(coarse.deepest).epsilon(1e-8));
   }
 }
 
-TEST_CASE("no memory: KINSOL finds the state that newton finds in quadratic cells, with tangents of before too") {
+TEST_CASE(
+    "no memory: KINSOL finds the state that newton finds in quadratic cells, with tangents of before too") {
   for (CellType cells : {CellType::hex27, CellType::tet15}) {
     test::Indentation scene = quarter(cells);
     scene.nx = scene.nz = 6, scene.depth = 0.5, scene.step = 0.25;

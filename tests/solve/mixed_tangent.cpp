@@ -1,4 +1,5 @@
-// Iterative solution of large bodies: the split of the tangent, and results beside those of a factor. Without PETSc nothing is tried.
+// Iterative solution of large bodies: the split of the tangent, and results beside those of a
+// factor. Without PETSc nothing is tried.
 #include "mechanics/linear/mixed_tangent.hpp"
 
 #include <doctest/doctest.h>
@@ -47,21 +48,23 @@ void same_by_both(test::Indentation s, const Material& material) {
     CHECK(found.steps[i].defect.penetration <= 1e-9);
     CHECK(found.steps[i].defect.status == direct.steps[i].defect.status);
   }
-  CHECK((found.u - direct.u).lpNorm<Eigen::Infinity>() <= 1e-8 * direct.u.lpNorm<Eigen::Infinity>());
+  CHECK((found.u - direct.u).lpNorm<Eigen::Infinity>() <=
+        1e-8 * direct.u.lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace
 
 TEST_CASE("iterative: the tangent is what its two parts make") {
   if (!petsc_is_here()) return;
-  const Mesh mesh = test::block(test::graded(2, 6, 0.3), test::even(0, 1.5, 3), test::even(-2, 2, 5));
+  const Mesh mesh =
+      test::block(test::graded(2, 6, 0.3), test::even(0, 1.5, 3), test::even(-2, 2, 5));
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k)
       if (k != 0 || i % 2 == 0) held.push_back({3 * i + k, 0});
   for (int i : mesh.node_sets.at("y_max")) held.push_back({3 * i + 1, -0.1});
-  Equilibrium body =
-      test::equilibrium(mesh, {test::table1(30, 1e-6)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body = test::equilibrium(mesh, {test::table1(30, 1e-6)}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), held).dofs);
   Random random(3);
   VecX u(body.dofs().n), du = VecX::Zero(body.dofs().n);
   for (double& x : u) x = 0.01 * (random.uniform() - 0.5);
@@ -87,7 +90,8 @@ TEST_CASE("iterative: the tangent is what its two parts make") {
   const VecX whole = body.K_times(d);
   CHECK((by_parts - whole).norm() <= 1e-12 * whole.norm());
 
-  // of a solution, q = D B d + what is missing already, the pressures are those that the linearised dilatation has
+  // of a solution, q = D B d + what is missing already, the pressures are those that the linearised
+  // dilatation has
   const VecX q = mixed->D().cwiseProduct(Bd) + mixed->known_force();
   CHECK((mixed->known_strain() + q.cwiseQuotient(mixed->D()) - Bd).norm() <= 1e-12 * Bd.norm());
   const VecX before = body.volumetric_part().missing;
@@ -99,17 +103,20 @@ TEST_CASE("iterative: the tangent is what its two parts make") {
   CHECK((dp - change).norm() <= 1e-9 * change.norm());
 }
 
-TEST_CASE("iterative: some ten products, on even and flat cells, with fibres, whatever the bulk modulus") {
+TEST_CASE(
+    "iterative: some ten products, on even and flat cells, with fibres, whatever the bulk modulus") {
   if (!petsc_is_here()) return;
   for (const bool flat : {false, true})
-    for (const Material& material : {test::neo_hooke(0.05, 1e-8), test::neo_hooke(0.05, 1e-3), test::neo_hooke(0.05, 20),
-                                     test::stable(30, 1e-6), test::table1(60, 1e-6)}) {
+    for (const Material& material :
+         {test::neo_hooke(0.05, 1e-8), test::neo_hooke(0.05, 1e-3), test::neo_hooke(0.05, 20),
+          test::stable(30, 1e-6), test::table1(60, 1e-6)}) {
       const auto along = flat ? test::graded(15, 16, 0.2) : test::even(-4, 4, 12);
       const Mesh mesh = test::block(along, test::even(0, 4, 6), along);
       std::vector<Prescribed> held;
       for (int i : mesh.node_sets.at("y_min"))
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                           number_dofs(mesh.n_nodes(), held).dofs);
       const VecX rest = VecX::Zero(body.dofs().n);
       REQUIRE(body.assemble(rest, true));
       std::string why;
@@ -118,14 +125,16 @@ TEST_CASE("iterative: some ten products, on even and flat cells, with fibres, wh
       mixed->linearise(body, rest);
       VecX f = VecX::Zero(body.dofs().n_free());  // pressed on a patch
       for (int i : mesh.node_sets.at("y_max"))
-        if (mesh.X[i].head<1>().norm() < 1.5 && std::abs(mesh.X[i][2]) < 1.5) f[body.dofs().equation[3 * i + 1]] = -0.01;
+        if (mesh.X[i].head<1>().norm() < 1.5 && std::abs(mesh.X[i][2]) < 1.5)
+          f[body.dofs().equation[3 * i + 1]] = -0.01;
       ContactInTangent nothing(body, {}, 1);
       VecX dp;
       const std::vector<RigidContact> none;
       const std::vector<VecX> no_start;
       const std::vector<Vec3> no_move;
       const Reactions no_reactions;
-      const auto found = nothing.solve({none, mesh.X, rest, no_start, no_move, no_move, no_reactions}, body, f, *mixed, dp);
+      const auto found = nothing.solve(
+          {none, mesh.X, rest, no_start, no_move, no_move, no_reactions}, body, f, *mixed, dp);
       REQUIRE(found);
       CHECK(found->solutions <= 20);
       LinearSolver direct(body.pattern());
@@ -152,7 +161,8 @@ TEST_CASE("iterative: a law that is hardly resisted in volume, and one with stif
   same_by_both(scene(0.1), test::stable(45, 1e-8));
 }
 
-TEST_CASE("iterative: another indenter, away from the middle, on a quarter, over a base that glides") {
+TEST_CASE(
+    "iterative: another indenter, away from the middle, on a quarter, over a base that glides") {
   if (!petsc_is_here()) return;
   test::Indentation s = scene(0.2);
   s.shape = Plane{{0, 4, 0}, {0, 1, 0}}, s.reach = 3, s.depth = 0.2, s.step = 0.1;
@@ -165,7 +175,8 @@ TEST_CASE("iterative: another indenter, away from the middle, on a quarter, over
   same_by_both(s, test::neo_hooke(0.05, 1e-5));
 }
 
-// A body that its law turns against itself has no such solution; whoever asks for one gets what a factor gives.
+// A body that its law turns against itself has no such solution; whoever asks for one gets what a
+// factor gives.
 TEST_CASE("iterative: what does not converge is left to a factor") {
   if (!petsc_is_here()) return;
   const Mesh mesh = test::block(test::even(0, 1, 2), test::even(0, 1, 2), test::even(0, 1, 2));
@@ -174,7 +185,8 @@ TEST_CASE("iterative: what does not converge is left to a factor") {
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
   for (int i : mesh.node_sets.at("y_max")) held.push_back({3 * i, 0.01});
   Equilibrium body =
-      test::equilibrium(mesh, {test::neo_hooke(-0.05, 1)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      test::equilibrium(mesh, {test::neo_hooke(-0.05, 1)}, Formulation::mean_dilatation,
+                        number_dofs(mesh.n_nodes(), held).dofs);
   const auto solved = [&](LinearBy linear_by) {
     StaticsOptions options;
     options.linear_by = linear_by;

@@ -38,8 +38,11 @@ struct Rosenbrock {
       H << 2 - 400 * at[1] + 1200 * at[0] * at[0], -400 * at[0], -400 * at[0], 200;
       return VecX(-H.inverse() * f(at));
     };
-    p.admissible = [](const VecX&) { return true; };
-    p.moved = [](const VecX&, double) {};
+    p.admissible = [](const VecX&) {
+      return true;
+    };
+    p.moved = [](const VecX&, double) {
+    };
     return p;
   }
 };
@@ -60,7 +63,8 @@ Pattern chain(int n) {
 MatX dense(const Pattern& p, const std::vector<double>& values) {
   MatX A = MatX::Zero(p.n, p.n);
   for (int c = 0; c < p.n; ++c)
-    for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k) A(p.row[k], c) = A(c, p.row[k]) = values[k];
+    for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+      A(p.row[k], c) = A(c, p.row[k]) = values[k];
   return A;
 }
 
@@ -79,7 +83,8 @@ TEST_CASE("Newton finds Rosenbrock's minimum with a quadratic tail") {
   CHECK(report.iterations <= 8);
 }
 
-TEST_CASE("no component moves further in an iteration than the largest move; the step keeps its direction") {
+TEST_CASE(
+    "no component moves further in an iteration than the largest move; the step keeps its direction") {
   Rosenbrock r;
   for (double largest : {0.03, 0.3, 100.0}) {
     CAPTURE(largest);
@@ -103,7 +108,8 @@ TEST_CASE("no component moves further in an iteration than the largest move; the
   }
 }
 
-TEST_CASE("Newton says why it stops: too few iterations, a singular tangent, a force that is not finite") {
+TEST_CASE(
+    "Newton says why it stops: too few iterations, a singular tangent, a force that is not finite") {
   Rosenbrock r;
   VecX x(2);
   x << -1.2, 1;
@@ -113,13 +119,19 @@ TEST_CASE("Newton says why it stops: too few iterations, a singular tangent, a f
   CHECK(few.outcome == Outcome::not_converged);
   CHECK(few.why.find("after 1 iterations") != std::string::npos);
   Problem p = r.problem();
-  p.correction = []() -> std::optional<VecX> { return std::nullopt; };
+  p.correction = []() -> std::optional<VecX> {
+    return std::nullopt;
+  };
   CHECK(newton(p, x, {}).outcome == Outcome::singular);
   p = r.problem();
-  p.assess = [](const VecX&, bool) { return Assessment{true, std::nan(""), 1, 0, true, ""}; };
+  p.assess = [](const VecX&, bool) {
+    return Assessment{true, std::nan(""), 1, 0, true, ""};
+  };
   CHECK(newton(p, x, {}).outcome == Outcome::inadmissible);
   p = r.problem();
-  p.correction = []() -> std::optional<VecX> { return VecX::Constant(2, std::nan("")); };
+  p.correction = []() -> std::optional<VecX> {
+    return VecX::Constant(2, std::nan(""));
+  };
   CHECK(newton(p, x, {}).outcome == Outcome::singular);
 }
 
@@ -131,24 +143,28 @@ TEST_CASE("the load path cuts back, grows again, hits its stops and ends at 1") 
   double from = 0;
   const auto attempt = [&](double t) {
     SolveReport r;
-    r.outcome = t - from > 0.03 && t > 0.4 && from < 0.5 ? Outcome::not_converged : Outcome::converged;
+    r.outcome =
+        t - from > 0.03 && t > 0.4 && from < 0.5 ? Outcome::not_converged : Outcome::converged;
     r.iterations = 3;
     return r;
   };
-  const PathReport report = load_path(options, 0, {}, {0.3}, attempt, [&](double t, double, double, const SolveReport&) {
-    reached.push_back(from = t);
-    return true;
-  });
+  const PathReport report =
+      load_path(options, 0, {}, {0.3}, attempt, [&](double t, double, double, const SolveReport&) {
+        reached.push_back(from = t);
+        return true;
+      });
   CHECK(report.complete);
   CHECK(reached.back() == 1);
   CHECK(std::find(reached.begin(), reached.end(), 0.3) != reached.end());
   CHECK(report.cut_backs >= 2);
   double widest = 0;
-  for (std::size_t i = 1; i < reached.size(); ++i) widest = std::max(widest, reached[i] - reached[i - 1]);
+  for (std::size_t i = 1; i < reached.size(); ++i)
+    widest = std::max(widest, reached[i] - reached[i - 1]);
   CHECK(widest > 0.1);  // grown again after the hard place
 }
 
-TEST_CASE("increments grow by half where the step was easy, stay where it was not, and are no longer than the largest") {
+TEST_CASE(
+    "increments grow by half where the step was easy, stay where it was not, and are no longer than the largest") {
   LoadPathOptions options;
   options.first = 0.001, options.largest = 0.2, options.easy = 4;
   std::vector<double> taken, asked;
@@ -283,7 +299,8 @@ TEST_CASE("the linear solver handles definite, indefinite and singular matrices 
   CHECK_FALSE(linear.factorize_indefinite(values));
 }
 
-TEST_CASE("with seconds increments are fractions of a stage, and those of a short stage grow into a long one") {
+TEST_CASE(
+    "with seconds increments are fractions of a stage, and those of a short stage grow into a long one") {
   LoadPathOptions options;
   options.seconds = 100;
   options.first = options.largest = 0.25;
@@ -301,7 +318,8 @@ TEST_CASE("with seconds increments are fractions of a stage, and those of a shor
   CHECK(std::count_if(reached.begin(), reached.end(), [](double t) { return t <= 0.001; }) == 4);
   CHECK(reached[4] - reached[3] == doctest::Approx(0.00025));
   CHECK(reached[5] - reached[4] == doctest::Approx(1.5 * 0.00025));
-  for (std::size_t i = 5; i < reached.size(); ++i) CHECK(reached[i] - reached[i - 1] <= 0.25 * 0.999 + 1e-12);
+  for (std::size_t i = 5; i < reached.size(); ++i)
+    CHECK(reached[i] - reached[i - 1] <= 0.25 * 0.999 + 1e-12);
   reached.clear();
   options.steps = 5;
   REQUIRE(load_path(options, 0, {}, {0.001}, attempt, accepted).complete);
@@ -310,7 +328,8 @@ TEST_CASE("with seconds increments are fractions of a stage, and those of a shor
   CHECK(reached[7] == doctest::Approx(0.001 + 0.6 * 0.999));
 }
 
-TEST_CASE("an increment of too large an error in time is begun again, and none is cut short for nothing") {
+TEST_CASE(
+    "an increment of too large an error in time is begun again, and none is cut short for nothing") {
   LoadPathOptions options;
   options.seconds = 1, options.time_error = 1e-3;
   double from = 0, largest = 0;
@@ -324,11 +343,12 @@ TEST_CASE("an increment of too large an error in time is begun again, and none i
     REQUIRE(++attempts < 1000);
     return r;
   };
-  const PathReport report = load_path(options, 0, {}, {}, attempt, [&](double t, double by, double, const SolveReport& r) {
-    largest = std::max(largest, r.time_error);
-    taken.push_back(by), from = t;
-    return true;
-  });
+  const PathReport report = load_path(options, 0, {}, {}, attempt,
+                                      [&](double t, double by, double, const SolveReport& r) {
+                                        largest = std::max(largest, r.time_error);
+                                        taken.push_back(by), from = t;
+                                        return true;
+                                      });
   REQUIRE(report.complete);
   CHECK(largest <= options.time_error);
   CHECK(largest > 0.2 * options.time_error);
@@ -339,7 +359,8 @@ TEST_CASE("an increment of too large an error in time is begun again, and none i
   CHECK(*std::max_element(taken.begin(), taken.end()) > 0.09);
 }
 
-TEST_CASE("an increment that is a little too long for its error is not stretched to the end of its stage again") {
+TEST_CASE(
+    "an increment that is a little too long for its error is not stretched to the end of its stage again") {
   LoadPathOptions options;
   options.seconds = 1, options.first = options.largest = 1, options.time_error = 1e-3;
   double from = 0;

@@ -27,10 +27,15 @@ struct Roots {
       slope = Eigen::Vector2d(2 * at[0], 3 * at[1] * at[1]);
       return VecX(-f().cwiseQuotient(slope));
     };
-    p.correction_again = [this]() -> std::optional<VecX> { return VecX(-f().cwiseQuotient(slope)); };
+    p.correction_again = [this]() -> std::optional<VecX> {
+      return VecX(-f().cwiseQuotient(slope));
+    };
     p.price = price;
-    p.admissible = [](const VecX&) { return true; };
-    p.moved = [](const VecX&, double) {};
+    p.admissible = [](const VecX&) {
+      return true;
+    };
+    p.moved = [](const VecX&, double) {
+    };
     return p;
   }
   VecX f() const { return Eigen::Vector2d(at[0] * at[0] - 2, at[1] * at[1] * at[1] - 3); }
@@ -61,14 +66,17 @@ TEST_CASE("old tangents are used where they are cheap and the answer is as good"
 
   // an old tangent that leads nowhere is given up after one attempt
   Problem misled = roots.problem(1000);
-  misled.correction_again = []() -> std::optional<VecX> { return VecX(Eigen::Vector2d(0.01, -0.02)); };
+  misled.correction_again = []() -> std::optional<VecX> {
+    return VecX(Eigen::Vector2d(0.01, -0.02));
+  };
   x = Eigen::Vector2d(1.3, 1.5);
   const SolveReport after = newton(misled, x, NewtonOptions{});
   CHECK(after.converged());
   CHECK(after.again == 1);
 }
 
-TEST_CASE("a tangent that was made where the step begins serves first, and is left where it leads nowhere") {
+TEST_CASE(
+    "a tangent that was made where the step begins serves first, and is left where it leads nowhere") {
   const Eigen::Vector2d exact(std::sqrt(2.0), std::cbrt(3.0));
   for (const double far : {0.02, 0.5}) {
     Roots roots;
@@ -91,13 +99,16 @@ TEST_CASE("indentations with old tangents end where those with a new one each ti
     bool quarter;
     double mu, alpha, d, step;
   };
-  for (const Case& c : {Case{CellType::hex8, false, 0.34, 60, 1e-6, 0.1}, Case{CellType::hex8, true, 0, 0, 1e-9, 0.05},
+  for (const Case& c : {Case{CellType::hex8, false, 0.34, 60, 1e-6, 0.1},
+                        Case{CellType::hex8, true, 0, 0, 1e-9, 0.05},
                         Case{CellType::hex27, true, 0.34, 0, 1e-6, 0.1}}) {
     CAPTURE(c.mu);
     CAPTURE(static_cast<int>(c.cells));
     test::Indentation scene;
-    scene.cells = c.cells, scene.quarter = c.quarter, scene.mu = c.mu, scene.step = c.step, scene.depth = 0.5;
-    scene.nx = scene.nz = c.cells == CellType::hex8 ? 14 : 8, scene.ny = 4, scene.h = c.cells == CellType::hex8 ? 0.45 : 0.6;
+    scene.cells = c.cells, scene.quarter = c.quarter, scene.mu = c.mu, scene.step = c.step,
+    scene.depth = 0.5;
+    scene.nx = scene.nz = c.cells == CellType::hex8 ? 14 : 8, scene.ny = 4,
+    scene.h = c.cells == CellType::hex8 ? 0.45 : 0.6;
     const Material skin = test::table1(c.alpha, c.d);
     const auto with = scene.run(skin);
     scene.newton.reuse_tangent = false;
@@ -109,6 +120,7 @@ TEST_CASE("indentations with old tangents end where those with a new one each ti
     CHECK(with.cost.factorizations < without.cost.factorizations);
     CHECK((with.u - without.u).lpNorm<Eigen::Infinity>() < 1e-8);
     for (std::size_t i = 0; i < with.steps.size(); ++i)
-      CHECK(std::abs(with.steps[i].force - without.steps[i].force) < 1e-8 * without.steps.back().force);
+      CHECK(std::abs(with.steps[i].force - without.steps[i].force) <
+            1e-8 * without.steps.back().force);
   }
 }

@@ -1,4 +1,5 @@
-// An indenter drawn along the surface: the ratio of its forces follows from mu, and its work goes nowhere else.
+// An indenter drawn along the surface: the ratio of its forces follows from mu, and its work goes
+// nowhere else.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,11 +21,16 @@ struct EnergyOf {
       const BodyState& state = statics.accepted();
       const VecX reactions = statics.reactions();
       std::vector<Vec3> u, f;
-      for (Eigen::Index i = 0; i < state.u.size(); i += 3) u.push_back(state.u.segment<3>(i)), f.push_back(reactions.segment<3>(i));
+      for (Eigen::Index i = 0; i < state.u.size(); i += 3)
+        u.push_back(state.u.segment<3>(i)), f.push_back(reactions.segment<3>(i));
       if (!path) {
         path = std::make_unique<EnergyPath>(body.mesh(), statics.contacts());
         const std::vector<Vec3> rest(body.mesh().n_nodes(), Vec3::Zero());
-        path->add({0, rest, rest, {std::vector<Vec3>(statics.contacts()[0].nodes.size(), Vec3::Zero())}, 0});
+        path->add({0,
+                   rest,
+                   rest,
+                   {std::vector<Vec3>(statics.contacts()[0].nodes.size(), Vec3::Zero())},
+                   0});
       }
       path->add({state.t, u, f, state.r, body.W()});
     };
@@ -37,9 +43,11 @@ struct Slide {
 };
 
 // pressed 0.3 mm, drawn 1.5 mm along -x, lifted
-Slide slide(double mu, const std::optional<Indenter>& shape, const Material& material, double step) {
+Slide slide(double mu, const std::optional<Indenter>& shape, const Material& material,
+            double step) {
   test::Indentation scene;
-  scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4, scene.mu = mu, scene.reach = 3.2, scene.step = step;
+  scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4, scene.mu = mu, scene.reach = 3.2,
+  scene.step = step;
   scene.shape = shape;
   scene.motion = {{0.2, Vec3(0, -0.3, 0)}, {0.8, Vec3(-1.5, -0.3, 0)}, {1, Vec3(-1.5, 0, 0)}};
   Slide out;
@@ -62,12 +70,14 @@ TEST_CASE("a rigid plane drawn over the body: the ratio of its forces is mu, as 
   for (double mu : {0.1, 0.34}) {
     const Slide s = slide(mu, plane, test::table1(60, 1e-4), 0.05);
     const auto late = s.ratio[s.ratio.size() * 3 / 4 - 2];  // near the end of the slide
-    // all but exact: while the body still moves sideways under the plane, its slip is not quite along x
+    // all but exact: while the body still moves sideways under the plane, its slip is not quite
+    // along x
     CHECK(std::abs(late) == doctest::Approx(mu).epsilon(1e-5));
   }
 }
 
-TEST_CASE("a sphere drawn over the body: a steady ratio near mu that grows with it, and no force across without friction") {
+TEST_CASE(
+    "a sphere drawn over the body: a steady ratio near mu that grows with it, and no force across without friction") {
   double last = -1;
   for (double mu : {0.0, 0.1, 0.34}) {
     const Slide s = slide(mu, {}, test::table1(60, 1e-4), 0.05);
@@ -75,10 +85,13 @@ TEST_CASE("a sphere drawn over the body: a steady ratio near mu that grows with 
     const std::size_t from = s.ratio.size() / 2, to = s.ratio.size() * 3 / 4;
     for (std::size_t i = from; i < to; ++i) {
       const double r = -s.ratio[i];
-      mean += r / static_cast<double>(to - from), least = std::min(least, r), most = std::max(most, r);
+      mean += r / static_cast<double>(to - from), least = std::min(least, r),
+                                                  most = std::max(most, r);
     }
-    MESSAGE("mu " << mu << ": ratio " << mean << " (" << least << " to " << most << "), energy balance " << s.energy.balance);
-    // an elastic body gives back behind the sphere what it took before it; friction tilts the surface a little
+    MESSAGE("mu " << mu << ": ratio " << mean << " (" << least << " to " << most
+                  << "), energy balance " << s.energy.balance);
+    // an elastic body gives back behind the sphere what it took before it; friction tilts the
+    // surface a little
     CHECK(std::abs(mean) >= mu - 0.01);
     CHECK(std::abs(mean) <= 1.15 * mu + 0.01);
     CHECK(std::abs(mean) > last);
@@ -91,19 +104,22 @@ TEST_CASE("a sphere drawn over the body: a steady ratio near mu that grows with 
   CHECK(fine.energy.dissipated > 0.9 * fine.energy.work);  // what was stored has been given back
 }
 
-TEST_CASE("energy of an indentation: what the sphere does is stored or taken by friction, to 1e-3") {
+TEST_CASE(
+    "energy of an indentation: what the sphere does is stored or taken by friction, to 1e-3") {
   test::Indentation scene;
   scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4;
   const EnergyOf energy(scene);
   REQUIRE(scene.run(test::table1(60, 1e-6)).path.complete);
   const PathSums sums = energy.path->sums().back();
-  MESSAGE("work " << sums.work << " N mm, dissipated " << sums.dissipated << ", balance " << sums.balance);
+  MESSAGE("work " << sums.work << " N mm, dissipated " << sums.dissipated << ", balance "
+                  << sums.balance);
   CHECK(sums.work > 2);
   CHECK(sums.dissipated > 0);
   CHECK(std::abs(sums.balance) <= 1e-3);
 }
 
-TEST_CASE("energy where sticking gives way to sliding: in balance to 1e-3 all along, and better by the square of the step") {
+TEST_CASE(
+    "energy where sticking gives way to sliding: in balance to 1e-3 all along, and better by the square of the step") {
   const auto worst = [](double step) {
     test::Indentation scene;
     scene.nx = scene.nz = 12, scene.ny = 3, scene.h = 0.5, scene.reach = 3.2, scene.step = step;
@@ -112,7 +128,8 @@ TEST_CASE("energy where sticking gives way to sliding: in balance to 1e-3 all al
     REQUIRE(scene.run(test::table1(60, 1e-4)).path.complete);
     double most = 0;
     for (const PathSums& s : energy.path->sums())
-      if (s.path > 0.31) most = std::max(most, std::abs(s.balance));  // from the first movement along the surface on
+      if (s.path > 0.31)
+        most = std::max(most, std::abs(s.balance));  // from the first movement along the surface on
     return most;
   };
   const double coarse = worst(0.0125), fine = worst(0.00625);

@@ -3,28 +3,31 @@
 
 #include <Eigen/Dense>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/assembly/equilibrium.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/dense.hpp"
 
 using namespace langer;
 
 TEST_CASE("springs: an indefinite matrix solved by Cholesky and a few springs taken out again") {
-  const Mesh mesh = test::block(test::even(0, 1, 3), test::even(0, 1.3, 3), test::even(0, 0.8, 3));  // no two alike
+  const Mesh mesh = test::block(test::even(0, 1, 3), test::even(0, 1.3, 3),
+                                test::even(0, 0.8, 3));  // no two alike
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
   Equilibrium body =
-      test::equilibrium(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      test::equilibrium(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation,
+                        number_dofs(mesh.n_nodes(), held).dofs);
   REQUIRE(body.assemble(VecX::Zero(body.dofs().n), true));
   const Pattern& p = body.pattern();
   const auto dense = [&](const std::vector<double>& values) {
     MatX K = MatX::Zero(p.n, p.n);
     for (int c = 0; c < p.n; ++c)
-      for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k) K(p.row[k], c) = K(c, p.row[k]) = values[k];
+      for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+        K(p.row[k], c) = K(c, p.row[k]) = values[k];
     return K;
   };
   const VecX e = symmetric_eigenvalues(dense(body.K()));
@@ -39,8 +42,9 @@ TEST_CASE("springs: an indefinite matrix solved by Cholesky and a few springs ta
     const double shift = negative == 0 ? 0 : 0.5 * (e[negative - 1] + e[negative]);
     for (int c = 0; c < p.n; ++c) values[p.column_start[c]] -= shift;
     CHECK(linear.factorize(values) == (negative == 0));
-    // Springs go where pivots fail, so how many it takes depends on the order of the rows, and that on the version of METIS: 7 modes took 18
-    // with one of them, and with another more than are allowed. Then UMFPACK solves it, as well.
+    // Springs go where pivots fail, so how many it takes depends on the order of the rows, and that
+    // on the version of METIS: 7 modes took 18 with one of them, and with another more than are
+    // allowed. Then UMFPACK solves it, as well.
     if (!linear.factorize_with_springs(values)) {
       CHECK(negative == 7);
       REQUIRE(linear.factorize_indefinite(values));

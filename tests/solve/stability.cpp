@@ -1,4 +1,5 @@
-// What an accepted state says about its stability: signs of the constrained tangent, strong ellipticity, falling force.
+// What an accepted state says about its stability: signs of the constrained tangent, strong
+// ellipticity, falling force.
 #include "accuracy/checks/stability_watch.hpp"
 
 #include <doctest/doctest.h>
@@ -6,11 +7,11 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
-#include "core/tensor/dense.hpp"
 
 using namespace langer;
 
@@ -28,7 +29,8 @@ std::vector<Seen> pull(const Material& material, int n, double to, int steps, do
   for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
     for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
   for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, to - 1});
-  Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+  Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   StabilityWatch watch({});
   LoadPathOptions options;
@@ -68,13 +70,15 @@ MatX dense(const Equilibrium& body) {
   const Pattern& p = body.pattern();
   MatX K = MatX::Zero(p.n, p.n);
   for (int c = 0; c < p.n; ++c)
-    for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k) K(p.row[k], c) = K(c, p.row[k]) = body.K()[k];
+    for (int k = p.column_start[c]; k < p.column_start[c + 1]; ++k)
+      K(p.row[k], c) = K(c, p.row[k]) = body.K()[k];
   return K;
 }
 
 }  // namespace
 
-TEST_CASE("Table 1 along the fibres: the force falls from 1.079 to 1.159 and from 1.621, ellipticity is lost at 1.638") {
+TEST_CASE(
+    "Table 1 along the fibres: the force falls from 1.079 to 1.159 and from 1.621, ellipticity is lost at 1.638") {
   const auto seen = pull(test::table1(0, 1e-6), 1, 1.7, 350);  // steps of 0.002
   const auto falling = spans(seen, [](const StabilityReport& r) { return r.falling; });
   REQUIRE(falling.size() == 2);
@@ -87,14 +91,16 @@ TEST_CASE("Table 1 along the fibres: the force falls from 1.079 to 1.159 and fro
   REQUIRE(lost.size() == 1);
   CHECK(std::abs(lost[0][0] - 1.638) < 0.003);
   CHECK(lost[0][1] == doctest::Approx(1.7));
-  // one element held by its ends cannot neck: nothing is wrong with its equilibrium before the material gives way
+  // one element held by its ends cannot neck: nothing is wrong with its equilibrium before the
+  // material gives way
   for (const Seen& s : seen)
     if (s.stretch < 1.63) CHECK(s.report.signature->negative == 0);
   CHECK(seen.back().report.lost == doctest::Approx(1));
 }
 
 // A thread gives way where its force falls; in a thick bar the neighbours hold a neck back.
-TEST_CASE("n elements in a thread: n - 1 negative eigenvalues where the force falls and none elsewhere") {
+TEST_CASE(
+    "n elements in a thread: n - 1 negative eigenvalues where the force falls and none elsewhere") {
   for (int n : {2, 4}) {
     const auto seen = pull(test::table1(0, 1e-6), n, 1.6, 150, 0.01);
     CAPTURE(n);
@@ -102,14 +108,16 @@ TEST_CASE("n elements in a thread: n - 1 negative eigenvalues where the force fa
     for (const Seen& s : seen) {
       CAPTURE(s.stretch);
       if (s.stretch > 1.084 && s.stretch < 1.155) {
-        CHECK(s.report.signature->negative >= n - 1);  // and a taper of each element where it falls steepest
+        CHECK(s.report.signature->negative >=
+              n - 1);  // and a taper of each element where it falls steepest
         ++unstable;
       } else if (s.stretch < 1.074 || s.stretch > 1.165) {
         CHECK(s.report.signature->negative == 0);
       }
     }
     CHECK(unstable > 10);
-    for (const Seen& s : pull(test::table1(0, 1e-6), n, 1.3, 75)) CHECK(s.report.signature->negative == 0);
+    for (const Seen& s : pull(test::table1(0, 1e-6), n, 1.3, 75))
+      CHECK(s.report.signature->negative == 0);
   }
 }
 
@@ -121,8 +129,10 @@ TEST_CASE("a stable law is called stable all the way to twice its length") {
   }
 }
 
-TEST_CASE("signs with contact: the same from the factor's Schur complement, from L D L^T and from a dense matrix") {
-  // a sphere pressed into a block whose base may glide, with and without friction: K alone is singular or worse
+TEST_CASE(
+    "signs with contact: the same from the factor's Schur complement, from L D L^T and from a dense matrix") {
+  // a sphere pressed into a block whose base may glide, with and without friction: K alone is
+  // singular or worse
   for (const double mu : {0.0, 0.5})
     for (const bool loose : {false, true}) {
       CAPTURE(mu);
@@ -132,9 +142,14 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
       for (int i : mesh.node_sets["y_min"])
         for (int k = 0; k < 3; ++k)
           if (k > 0 || !loose) held.push_back({3 * i + k, 0});
-      const RigidContact contact{"sphere", Sphere{3, {0.1, 5, 0.05}}, mu, mesh.node_sets["y_max"], {{1, Vec3(0, -0.5, 0)}}};
+      const RigidContact contact{"sphere",
+                                 Sphere{3, {0.1, 5, 0.05}},
+                                 mu,
+                                 mesh.node_sets["y_max"],
+                                 {{1, Vec3(0, -0.5, 0)}}};
       const Material material = test::stable(40, 1e-3);
-      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation, number_dofs(mesh.n_nodes(), held).dofs);
+      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                           number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {contact}, {});
       for (double t : {0.1, 0.2, 0.3, 0.4}) {
         statics.begin(t);
@@ -148,13 +163,15 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
         const ContactDefect defect = statics.defects()[0];
         Eigen::Index columns = 0;
         std::vector<int> candidate(static_cast<std::size_t>(mesh.n_nodes()), -1);
-        for (std::size_t i = 0; i < contact.nodes.size(); ++i) candidate[contact.nodes[i]] = static_cast<int>(i);
+        for (std::size_t i = 0; i < contact.nodes.size(); ++i)
+          candidate[contact.nodes[i]] = static_cast<int>(i);
         for (int node = 0; node < mesh.n_nodes(); ++node) {
           Mat3 basis = Mat3::Identity();
           int kept = 3;
           if (const int i = candidate[node]; i >= 0 && defect.status[i] != ContactStatus::open) {
             const Vec3 c = indenter_displacement(contact, t);
-            const ShapePoint shape = shape_at(contact.shape, mesh.X[node] + statics.accepted().u.segment<3>(3 * node) - c);
+            const ShapePoint shape = shape_at(
+                contact.shape, mesh.X[node] + statics.accepted().u.segment<3>(3 * node) - c);
             const Mat3 frame = contact_frame(shape.normal);
             basis << frame.col(1), frame.col(2), frame.col(0);
             kept = defect.status[i] == ContactStatus::slip ? 2 : 0;
@@ -182,12 +199,13 @@ TEST_CASE("signs with contact: the same from the factor's Schur complement, from
           std::vector<double> values = body.K();
           const MatX plain = dense(body);
           const VecX own = symmetric_eigenvalues(plain);
-          const double middle =
-              shift == 0
-                  ? 0
-                  : 0.5 * (own[static_cast<int>(shift * (own.size() - 2))] + own[static_cast<int>(shift * (own.size() - 2)) + 1]);
+          const double middle = shift == 0
+                                    ? 0
+                                    : 0.5 * (own[static_cast<int>(shift * (own.size() - 2))] +
+                                             own[static_cast<int>(shift * (own.size() - 2)) + 1]);
           if (shift == 0 && loose) continue;  // singular
-          for (int c = 0; c < body.pattern().n; ++c) values[body.pattern().column_start[c]] -= middle;
+          for (int c = 0; c < body.pattern().n; ++c)
+            values[body.pattern().column_start[c]] -= middle;
           CHECK(linear.negative_pivots(values) == (own.array() < middle).count());
         }
       }

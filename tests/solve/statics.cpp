@@ -1,4 +1,5 @@
-// What an increment may be given and what it refuses: dead loads in proportion to t, elements that are turned inside out.
+// What an increment may be given and what it refuses: dead loads in proportion to t, elements that
+// are turned inside out.
 #include "mechanics/solve/statics.hpp"
 
 #include <doctest/doctest.h>
@@ -20,7 +21,8 @@ struct Held {
   Equilibrium body;
   Statics statics;
   Held()
-      : body(test::equilibrium(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation, held_below(mesh))),
+      : body(test::equilibrium(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation,
+                               held_below(mesh))),
         statics(body, {}, {}) {}
   static Dofs held_below(const Mesh& mesh) {
     std::vector<Prescribed> held;
@@ -50,14 +52,16 @@ TEST_CASE("a dead load grows in proportion to t: supports bear t times it") {
   }
 }
 
-TEST_CASE("a step that turns an element inside out, or nearly so, is not admissible; one that halves its volume is") {
+TEST_CASE(
+    "a step that turns an element inside out, or nearly so, is not admissible; one that halves its volume is") {
   Held held;
   held.statics.begin(0.5);
   const Problem problem = held.statics.problem();
   const auto by = [&](double share) {  // the upper cells, by this share of their height
     VecX u = VecX::Zero(3 * held.mesh.n_nodes());
     const auto& top = held.mesh.node_sets.at("y_max");
-    const double cell = 0.5 * (held.mesh.X[top[0]][1] - held.mesh.X[held.mesh.node_sets.at("y_min")[0]][1]);
+    const double cell =
+        0.5 * (held.mesh.X[top[0]][1] - held.mesh.X[held.mesh.node_sets.at("y_min")[0]][1]);
     for (int n : top) u[3 * n + 1] = -share * cell;
     return u;
   };
@@ -70,12 +74,14 @@ TEST_CASE("a step that turns an element inside out, or nearly so, is not admissi
   CHECK(!problem.admissible(nan));
 }
 
-TEST_CASE("a state whose forces lie outside Coulomb's cone is no answer, by however little and though nothing slips") {
+TEST_CASE(
+    "a state whose forces lie outside Coulomb's cone is no answer, by however little and though nothing slips") {
   Held held;
   const double mu = 0.4;
   const auto& top = held.mesh.node_sets.at("y_max");
   const Vec3 on_top = held.mesh.X[static_cast<std::size_t>(top[0])];
-  const RigidContact rough{"rough", Plane{{on_top[0], on_top[1], on_top[2]}, {0, -1, 0}}, mu, top, {{1, Vec3(0, 0, 0)}}};
+  const RigidContact rough{
+      "rough", Plane{{on_top[0], on_top[1], on_top[2]}, {0, -1, 0}}, mu, top, {{1, Vec3(0, 0, 0)}}};
   Statics statics(held.body, {rough}, {});
   // at rest the plane just touches: with these forces gap, slip and their work are 0
   const auto assessed = [&](double share, double r_n) {

@@ -1,4 +1,5 @@
-// What a measured file says of itself, in its header or beside it, and what a config may still change.
+// What a measured file says of itself, in its header or beside it, and what a config may still
+// change.
 #include "identification/setup/specimen.hpp"
 
 #include <doctest/doctest.h>
@@ -50,7 +51,8 @@ constexpr const char* table = "ex,ez,sx_kPa,sz_kPa\n0,0,0,0\n10.5,22,5,9\n60,22,
 
 }  // namespace
 
-TEST_CASE("A CSV says in its header what it measured: kind, columns, measures, units, angle, deviation, range") {
+TEST_CASE(
+    "A CSV says in its header what it measured: kind, columns, measures, units, angle, deviation, range") {
   write("header.csv", std::string(header) + table);
   const std::vector<Test> tests = measured_tests(read("{file: header.csv}"));
   REQUIRE(tests.size() == 1);
@@ -72,7 +74,9 @@ TEST_CASE("The config wins over the header, a YAML file beside the CSV does as w
   CHECK(c.data[0].fibre_angle == 60);
   CHECK(measured_tests(c)[0].points() == 3);
   write("beside.csv", table);
-  write("beside.yaml", "kind: biaxial\ncolumns: {strain_x: ex, strain_z: ez, stress_x: sx_kPa, stress_z: sz_kPa}\nweight: 3\n");
+  write(
+      "beside.yaml",
+      "kind: biaxial\ncolumns: {strain_x: ex, strain_z: ez, stress_x: sx_kPa, stress_z: sz_kPa}\nweight: 3\n");
   const Test t = measured_tests(read("{file: beside.csv}"))[0];
   CHECK(t.kind == TestKind::biaxial);
   CHECK(t.weight == 3);
@@ -89,10 +93,12 @@ TEST_CASE("What is wrong in a header is told at its line and column in the CSV")
   holds(bad("# kind: biaxal\n"), "bad.csv:2:3: data[0].kind: found biaxal");
   holds(bad("# kinds: biaxial\n"), "bad.csv:2:3: data[0]: unknown key \"kinds\"");
   holds(bad("# fibre_angle: steep\n"), "bad.csv:2:3: data[0].fibre_angle: found steep");
-  holds(bad("# stress: nominal\n", "strain,cauchy_stress_MPa\n0,0\n0.1,1\n"),
-        "bad.csv:4:8: stress: nominal for the column \"cauchy_stress_MPa\"; expected the measure that the column's name carries");
-  holds(bad("# columns: {strain_x: ex, stress_x: sx_kPa}\n# stress_unit: MPa\n"),
-        "stress_unit: MPa for the column \"sx_kPa\"; expected the unit that the column's name carries");
+  holds(
+      bad("# stress: nominal\n", "strain,cauchy_stress_MPa\n0,0\n0.1,1\n"),
+      "bad.csv:4:8: stress: nominal for the column \"cauchy_stress_MPa\"; expected the measure that the column's name carries");
+  holds(
+      bad("# columns: {strain_x: ex, stress_x: sx_kPa}\n# stress_unit: MPa\n"),
+      "stress_unit: MPa for the column \"sx_kPa\"; expected the unit that the column's name carries");
   holds(bad("# file: other.csv\n"), "bad.csv:2:3: found the key \"file\"");
   holds(bad("# - a list\n"), "bad.csv:1:1: found a list between the lines \"# ---\"");
   write("bad.csv", std::string("# ---\n# kind: uniaxial\n") + table);
@@ -102,17 +108,20 @@ TEST_CASE("What is wrong in a header is told at its line and column in the CSV")
   holds(refusal("{file: both.csv}"), "one of the two");
 }
 
-TEST_CASE("A config beside a CSV of its name is not taken for what the CSV says; a description with a slip is") {
+TEST_CASE(
+    "A config beside a CSV of its name is not taken for what the CSV says; a description with a slip is") {
   write("fit.csv", "strain,cauchy_stress_kPa\n0,0\n0.1,5\n");
   const std::string config =
       "data: [{file: fit.csv}]\nlaw: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 1}}}\n"
       "parameters: [{key: matrix.neo_hooke.a1, lower: 0, upper: 1}]\n";
   write("fit.yaml", config);
-  CHECK(read_config<FitConfig>(load_yaml(folder + "/fit.yaml")).config.data[0].file.path == folder + "/fit.csv");
+  CHECK(read_config<FitConfig>(load_yaml(folder + "/fit.yaml")).config.data[0].file.path ==
+        folder + "/fit.csv");
   CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);  // and from another config
-  for (const char* other :
-       {"parameters: [{key: matrix.neo_hooke.a1, around: 0.5}]\nstrain: {from: 0, to: 0.4, points: 3}\nsteps: 10\n",
-        "columns: [force]\n", "pipeline: fit\nnodes: {}\n", "- a list\n", "just a text\n", "\n"}) {
+  for (
+      const char* other :
+      {"parameters: [{key: matrix.neo_hooke.a1, around: 0.5}]\nstrain: {from: 0, to: 0.4, points: 3}\nsteps: 10\n",
+       "columns: [force]\n", "pipeline: fit\nnodes: {}\n", "- a list\n", "just a text\n", "\n"}) {
     CAPTURE(std::string(other));
     write("fit.yaml", other);
     CHECK(measured_tests(read("{file: fit.csv}")).size() == 1);
@@ -122,7 +131,8 @@ TEST_CASE("A config beside a CSV of its name is not taken for what the CSV says;
   fs::remove(folder + "/fit.yaml");
 }
 
-TEST_CASE("A force in N over an elongation in mm, described in the config, in the header or beside it") {
+TEST_CASE(
+    "A force in N over an elongation in mm, described in the config, in the header or beside it") {
   write("lab.csv", "Weg [mm];Kraft [N]\n0,0;0,0\n4,0;2,5\n");
   const std::string sizes = "width: 10, thickness: 2, gauge_length: 40";
   const Test t = measured_tests(read("{file: lab.csv, " + sizes + "}"))[0];
@@ -132,10 +142,16 @@ TEST_CASE("A force in N over an elongation in mm, described in the config, in th
   write("lab.yaml", "width: 10\nthickness: 2\ngauge_length: 40\n");
   CHECK(measured_tests(read("{file: lab.csv}"))[0].stress_x[1] == doctest::Approx(0.125));
   fs::remove(folder + "/lab.yaml");
-  holds(refusal("{file: lab.csv, thickness: 2, gauge_length: 40}"), "lab.csv:1:10: width: missing, for the column \"Kraft [N]\"");
-  holds(refusal("{file: lab.csv, width: 0, thickness: 2, gauge_length: 40}"), "data[0].width: found 0");
-  holds(refusal("{file: lab.csv, kind: simple_shear, toe: 1, columns: {strain_x: \"Weg [mm]\", stress_x: \"Kraft [N]\"}}"),
-        "toe: found in simple shear");
-  holds(refusal("{file: lab.csv, columns: {strain_x: \"Weg [mm]\", strain_z: b, stress_x: \"Kraft [N]\"}}"),
-        "kind: biaxial, equibiaxial or pure_shear");
+  holds(refusal("{file: lab.csv, thickness: 2, gauge_length: 40}"),
+        "lab.csv:1:10: width: missing, for the column \"Kraft [N]\"");
+  holds(refusal("{file: lab.csv, width: 0, thickness: 2, gauge_length: 40}"),
+        "data[0].width: found 0");
+  holds(
+      refusal(
+          "{file: lab.csv, kind: simple_shear, toe: 1, columns: {strain_x: \"Weg [mm]\", stress_x: \"Kraft [N]\"}}"),
+      "toe: found in simple shear");
+  holds(
+      refusal(
+          "{file: lab.csv, columns: {strain_x: \"Weg [mm]\", strain_z: b, stress_x: \"Kraft [N]\"}}"),
+      "kind: biaxial, equibiaxial or pure_shear");
 }

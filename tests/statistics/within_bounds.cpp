@@ -1,4 +1,5 @@
-// Intervals of fits with parameters on a bound: closed form, limits, and how often they hold the truth.
+// Intervals of fits with parameters on a bound: closed form, limits, and how often they hold the
+// truth.
 #include "identification/statistics/within_bounds.hpp"
 
 #include <doctest/doctest.h>
@@ -15,13 +16,16 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// Yeoh's law in tension to 1.4, a3 small beside what the noise leaves of it; stresses in units of their noise
+// Yeoh's law in tension to 1.4, a3 small beside what the noise leaves of it; stresses in units of
+// their noise
 FitProblem tension(double a3, std::uint64_t seed, std::vector<double>* true_values = nullptr) {
   FitProblem problem;
   problem.law.matrix = {Yeoh{0.05, 0.05, a3}};
   problem.law.volume = QuadraticVolume{1e-3};
   if (true_values) *true_values = {0.05, 0.05, a3};
-  problem.free = {{"matrix.yeoh.a1", 0.05, 0.001, 1}, {"matrix.yeoh.a2", 0.05, 0, 1}, {"matrix.yeoh.a3", a3 + 0.01, 0, 1}};
+  problem.free = {{"matrix.yeoh.a1", 0.05, 0.001, 1},
+                  {"matrix.yeoh.a2", 0.05, 0, 1},
+                  {"matrix.yeoh.a3", a3 + 0.01, 0, 1}};
   Test t;
   for (int i = 1; i <= 25; ++i) t.first.push_back(1 + 0.4 * i / 25);
   t.stress_x.resize(25);
@@ -46,7 +50,8 @@ TEST_CASE("the profile of a parameter in a box is that of an ellipse that is cut
   CHECK(x[1] == doctest::Approx(2 / std::sqrt(1 - c * c)).epsilon(1e-6));  // y follows
   CHECK(y[0] == 0);
   CHECK(y[1] == doctest::Approx(2 / std::sqrt(1 - c * c)).epsilon(1e-6));
-  // a bound that is pressed against lets go later: |x - c y|^2 + (1 - c^2) y^2 + 2 b y rises by what presses
+  // a bound that is pressed against lets go later: |x - c y|^2 + (1 - c^2) y^2 + 2 b y rises by
+  // what presses
   VecX pressed(2);
   pressed << 0, 3;
   const auto late = box_profile(J, pressed, lower, upper, 0, 2);
@@ -57,15 +62,18 @@ TEST_CASE("the profile of a parameter in a box is that of an ellipse that is cut
   blind.col(1).setZero();
   CHECK(box_profile(blind, r, lower, upper, 1, 2)[1] == 10);
   lower.setConstant(-inf), upper.setConstant(inf);
-  CHECK(box_profile(J, r, lower, upper, 0, 2)[0] == doctest::Approx(-2 / std::sqrt(1 - c * c)).epsilon(1e-6));
+  CHECK(box_profile(J, r, lower, upper, 0, 2)[0] ==
+        doctest::Approx(-2 / std::sqrt(1 - c * c)).epsilon(1e-6));
 }
 
-TEST_CASE("away from bounds nothing is said, and far from their reach second moments are the covariance") {
+TEST_CASE(
+    "away from bounds nothing is said, and far from their reach second moments are the covariance") {
   FitProblem problem = tension(0.5, 1);
   const FitResult inside = fit(problem, {.starts = 1});
   CHECK_FALSE(within_bounds(problem, inside));
   const FitRecord record = fit_record(problem, inside);
-  problem.free.push_back({"volume.quadratic.d", 1e-3, 1e-3, 1e-3});  // a box of no width: on its bound, known
+  problem.free.push_back(
+      {"volume.quadratic.d", 1e-3, 1e-3, 1e-3});  // a box of no width: on its bound, known
   const FitResult held = fit(problem, {.starts = 1});
   const auto bounded = within_bounds(problem, held);
   REQUIRE(bounded);
@@ -78,7 +86,8 @@ TEST_CASE("away from bounds nothing is said, and far from their reach second mom
   }
 }
 
-TEST_CASE("intervals hold the truth as often as they say where a parameter often ends on its bound") {
+TEST_CASE(
+    "intervals hold the truth as often as they say where a parameter often ends on its bound") {
   constexpr int seeds = 300;
   for (const double a3 : {0.0, 0.01, 0.03}) {
     CAPTURE(a3);
@@ -96,7 +105,8 @@ TEST_CASE("intervals hold the truth as often as they say where a parameter often
         const auto [low, high] = interval_95(p);
         held[i] += low <= truth[i] && truth[i] <= high;
         const auto k = static_cast<Eigen::Index>(i);
-        taken_as_known[i] += std::abs(p.value - truth[i]) <= p.factor * std::sqrt(found.covariance(k, k));
+        taken_as_known[i] +=
+            std::abs(p.value - truth[i]) <= p.factor * std::sqrt(found.covariance(k, k));
       }
     }
     CHECK(on_bound > 0.03 * seeds);
@@ -104,7 +114,7 @@ TEST_CASE("intervals hold the truth as often as they say where a parameter often
       CAPTURE(i);
       CHECK(held[i] >= 0.92 * seeds);  // 95 % less two and a half standard deviations of 300 fits
     }
-    MESSAGE("a3 ", a3, ": on its bound ", on_bound, ", held ", held[0], " ", held[1], " ", held[2], ", with a3 known ",
-            taken_as_known[0], " ", taken_as_known[1]);
+    MESSAGE("a3 ", a3, ": on its bound ", on_bound, ", held ", held[0], " ", held[1], " ", held[2],
+            ", with a3 known ", taken_as_known[0], " ", taken_as_known[1]);
   }
 }

@@ -7,10 +7,10 @@
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/unit_attribute.hpp"
 #include "refusal.hpp"
-#include "solution_example.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
+#include "solution_example.hpp"
 
 using namespace langer;
 using example::holds;
@@ -37,8 +37,10 @@ void edited(const std::string& path, const std::function<void(hid_t)>& edit) {
 void set_unit(hid_t file, const char* dataset, const char* attribute, const char* unit) {
   const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
   H5Tset_size(type, std::strlen(unit));
-  if (H5Aexists_by_name(file, dataset, attribute, H5P_DEFAULT) > 0) H5Adelete_by_name(file, dataset, attribute, H5P_DEFAULT);
-  const hid_t made = H5Acreate_by_name(file, dataset, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (H5Aexists_by_name(file, dataset, attribute, H5P_DEFAULT) > 0)
+    H5Adelete_by_name(file, dataset, attribute, H5P_DEFAULT);
+  const hid_t made = H5Acreate_by_name(file, dataset, attribute, type, space, H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT);
   REQUIRE(made >= 0);
   H5Awrite(made, type, unit);
   H5Aclose(made), H5Sclose(space), H5Tclose(type);
@@ -51,8 +53,10 @@ void read_all(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("links into another file are refused, direct or through a soft link, of datasets and groups") {
-  for (const char* what : {"/VTKHDF/PointData/u", "/history/t", "/contact", "/material", "/VTKHDF/Points"})
+TEST_CASE(
+    "links into another file are refused, direct or through a soft link, of datasets and groups") {
+  for (const char* what :
+       {"/VTKHDF/PointData/u", "/history/t", "/contact", "/material", "/VTKHDF/Points"})
     for (const bool soft : {false, true}) {
       CAPTURE(what);
       CAPTURE(soft);
@@ -61,7 +65,8 @@ TEST_CASE("links into another file are refused, direct or through a soft link, o
       edited(path, [&](hid_t file) {
         REQUIRE(H5Ldelete(file, what, H5P_DEFAULT) >= 0);
         const char* name = soft ? "/away" : what;
-        REQUIRE(H5Lcreate_external((folder + "/other.h5").c_str(), what, file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        REQUIRE(H5Lcreate_external((folder + "/other.h5").c_str(), what, file, name, H5P_DEFAULT,
+                                   H5P_DEFAULT) >= 0);
         if (soft) REQUIRE(H5Lcreate_soft("/away", file, what, H5P_DEFAULT, H5P_DEFAULT) >= 0);
       });
       const std::string said = refusal([&] { read_all(path); });
@@ -77,16 +82,19 @@ TEST_CASE("arrays whose values are stored in another file are refused") {
     edited(path, [&](hid_t file) {
       REQUIRE(H5Ldelete(file, "/VTKHDF/Points", H5P_DEFAULT) >= 0);
       const hsize_t extent[] = {12, 3};
-      const hid_t space = H5Screate_simple(2, extent, nullptr), list = H5Pcreate(H5P_DATASET_CREATE);
+      const hid_t space = H5Screate_simple(2, extent, nullptr),
+                  list = H5Pcreate(H5P_DATASET_CREATE);
       if (virtually)
         H5Pset_virtual(list, space, (folder + "/other.h5").c_str(), "/VTKHDF/Points", space);
       else
         H5Pset_external(list, (folder + "/raw").c_str(), 0, 36 * 8);
-      const hid_t made = H5Dcreate2(file, "/VTKHDF/Points", H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+      const hid_t made =
+          H5Dcreate2(file, "/VTKHDF/Points", H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
       REQUIRE(made >= 0);
       H5Dclose(made), H5Pclose(list), H5Sclose(space);
     });
-    CHECK(holds(refusal([&] { read_all(path); }), "/VTKHDF/Points: keeps its values in another file"));
+    CHECK(holds(refusal([&] { read_all(path); }),
+                "/VTKHDF/Points: keeps its values in another file"));
   }
 }
 
@@ -95,14 +103,15 @@ TEST_CASE("values in other units are refused, with the unit found and the one ex
   struct Case {
     const char *dataset, *attribute, *unit, *said;
   };
-  for (const Case& c : {Case{"/VTKHDF/Points", "unit", "m", "/VTKHDF/Points: values in m; expected values in mm"},
-                        Case{"/VTKHDF/PointData/u", "unit", "um", "values in um; expected values in mm"},
-                        Case{"/VTKHDF/PointData/reaction", "units", "mN", "values in mN; expected values in N"},
-                        Case{"/VTKHDF/CellData/von_mises", "unit", "kPa", "values in kPa; expected values in MPa"},
-                        Case{"/history/penetration", "unit", "m", "values in m; expected values in mm"},
-                        Case{"/contact/indenter/r", "unit", "kN", "values in kN; expected values in N"},
-                        Case{"/material/matrix/0/yeoh/a1", "unit", "kPa", "values in kPa; expected values in MPa"},
-                        Case{"/history/t", "unit", "s", "values in s; expected a pure number"}}) {
+  for (const Case& c :
+       {Case{"/VTKHDF/Points", "unit", "m", "/VTKHDF/Points: values in m; expected values in mm"},
+        Case{"/VTKHDF/PointData/u", "unit", "um", "values in um; expected values in mm"},
+        Case{"/VTKHDF/PointData/reaction", "units", "mN", "values in mN; expected values in N"},
+        Case{"/VTKHDF/CellData/von_mises", "unit", "kPa", "values in kPa; expected values in MPa"},
+        Case{"/history/penetration", "unit", "m", "values in m; expected values in mm"},
+        Case{"/contact/indenter/r", "unit", "kN", "values in kN; expected values in N"},
+        Case{"/material/matrix/0/yeoh/a1", "unit", "kPa", "values in kPa; expected values in MPa"},
+        Case{"/history/t", "unit", "s", "values in s; expected a pure number"}}) {
     CAPTURE(c.dataset);
     const std::string path = solution(folder);
     CHECK(refusal([&] { read_all(path); }) == "");
@@ -120,7 +129,20 @@ TEST_CASE("fits and curves in other units are refused too") {
   fit.parameters = {{"a1", "MPa", 0.269, 0, 10, 0.01}};
   fit.covariance = MatX::Identity(1, 1), fit.starts = MatX::Ones(2, 1);
   fit.strain = {0, 0.3}, fit.stress = {0, 0.07}, fit.model = {0, 0.07}, fit.strain_max = 0.3;
-  fit.tests = {{"t", "equibiaxial", "nominal", 30, 1, {1, 1.3}, {}, {0, 0.07}, {0, 0.06}, {0, 0.07}, {0, 0.06}, 1, 0, 0}};
+  fit.tests = {{"t",
+                "equibiaxial",
+                "nominal",
+                30,
+                1,
+                {1, 1.3},
+                {},
+                {0, 0.07},
+                {0, 0.06},
+                {0, 0.07},
+                {0, 0.06},
+                1,
+                0,
+                0}};
   Curves curves;
   curves.columns = {{"force", "N", {0, 1}}};
   curves.curves = {{"force", "u_ind", "mm", "force", "N", {0, 1}, {0, 1}}};
@@ -128,7 +150,8 @@ TEST_CASE("fits and curves in other units are refused too") {
   struct Case {
     const char *dataset, *unit, *said;
   };
-  const auto each = [&](const std::string& path, const auto& write, const auto& read, std::initializer_list<Case> cases) {
+  const auto each = [&](const std::string& path, const auto& write, const auto& read,
+                        std::initializer_list<Case> cases) {
     for (const Case& c : cases) {
       CAPTURE(c.dataset);
       write(path);
@@ -140,16 +163,20 @@ TEST_CASE("fits and curves in other units are refused too") {
   Material law;
   law.matrix = {NeoHooke{0.1}};
   law.volume = QuadraticVolume{1e-3};
-  each(folder + "/material.h5", [&](const std::string& path) { write_material(path, law, fit, example::identity()); },
+  each(folder + "/material.h5",
+       [&](const std::string& path) { write_material(path, law, fit, example::identity()); },
        read_material,
        {{"/tests/t/stress_z", "kPa", "values in kPa; expected values in MPa"},
         {"/tests/t/first", "percent", "values in percent; expected a pure number"},
         {"/tests/t/fibre_angle", "rad", "values in rad; expected values in deg"},
         {"/curve/stress", "Pa", "values in Pa; expected values in MPa"},
         {"/fit/parameters/a1/value", "kPa", "values in kPa"},
-        {"/fit/parameters/a1/standard_error", "percent", "values in percent; expected values in MPa"},
+        {"/fit/parameters/a1/standard_error", "percent",
+         "values in percent; expected values in MPa"},
         {"/fit/strain_range", "percent", "values in percent"}});
-  each(folder + "/curves.h5", [&](const std::string& path) { write_curves(path, curves, example::identity()); }, read_curves,
+  each(folder + "/curves.h5",
+       [&](const std::string& path) { write_curves(path, curves, example::identity()); },
+       read_curves,
        {{"/columns/force", "kN", "/columns/force: values in kN"},
         {"/curves/force/x", "um", "/curves/force/x: values in um"},
         {"/summary/force", "mN", "/summary/force: values in mN"}});

@@ -54,8 +54,9 @@ inline bool same(const Mesh& a, const Mesh& b) {
       for (const Facet& f : set) pairs[name].emplace_back(f.cell, f.local);
     return pairs;
   };
-  return a.type == b.type && a.X == b.X && a.connectivity == b.connectivity && a.body == b.body && a.bodies == b.bodies &&
-         a.frames == b.frames && a.node_sets == b.node_sets && facets(a) == facets(b);
+  return a.type == b.type && a.X == b.X && a.connectivity == b.connectivity && a.body == b.body &&
+         a.bodies == b.bodies && a.frames == b.frames && a.node_sets == b.node_sets &&
+         facets(a) == facets(b);
 }
 
 inline std::string bytes(const std::string& path) {

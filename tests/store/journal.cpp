@@ -1,9 +1,10 @@
-// What a power cut may leave of an unfinished solution: pages of zeros or of something else, files cut short. A run that goes on from it
-// ends with the bytes of a run that met nothing, or begins anew and ends with them as well.
+// What a power cut may leave of an unfinished solution: pages of zeros or of something else, files
+// cut short. A run that goes on from it ends with the bytes of a run that met nothing, or begins
+// anew and ends with them as well.
 #include <doctest/doctest.h>
 
-#include "solution_example.hpp"
 #include "results/store/journal.hpp"
+#include "solution_example.hpp"
 
 using namespace langer;
 using example::bytes;
@@ -54,7 +55,8 @@ int continued(const Unfinished& u, const std::string& part, const std::string& s
 }
 
 std::string spoilt(std::string text, std::size_t at, std::size_t length, std::mt19937* random) {
-  for (std::size_t i = at; i < std::min(at + length, text.size()); ++i) text[i] = random ? static_cast<char>((*random)()) : '\0';
+  for (std::size_t i = at; i < std::min(at + length, text.size()); ++i)
+    text[i] = random ? static_cast<char>((*random)()) : '\0';
   return text;
 }
 
@@ -107,7 +109,8 @@ TEST_CASE("a journal cut short or with one wrong bit: the steps before are kept,
   CHECK(most > 0);
 }
 
-TEST_CASE("two signs turned over, records of another journal, records in another order: none of it passes") {
+TEST_CASE(
+    "two signs turned over, records of another journal, records in another order: none of it passes") {
   const std::string folder = example::folder("journal"), path = folder + "/a.steps";
   const auto records = [](const std::string& file) {
     std::vector<std::string> all;
@@ -115,7 +118,8 @@ TEST_CASE("two signs turned over, records of another journal, records in another
     while (auto record = journal.next()) all.push_back(*record);
     return all;
   };
-  const std::vector<std::string> written{std::string(64, 'a'), std::string(64, 'b'), std::string(64, 'c')};
+  const std::vector<std::string> written{std::string(64, 'a'), std::string(64, 'b'),
+                                         std::string(64, 'c')};
   for (const char* name : {"/a.steps", "/b.steps"}) {
     Journal journal(folder + name);
     for (const std::string& record : written) journal.append(record);
@@ -129,8 +133,8 @@ TEST_CASE("two signs turned over, records of another journal, records in another
   CHECK(records(path).empty());
   write_bytes(path, whole.substr(0, begin + length) + other.substr(begin + length));
   CHECK(records(path).size() == 1);
-  write_bytes(path,
-              whole.substr(0, begin + length) + whole.substr(begin + 2 * length, length) + whole.substr(begin + length, length));
+  write_bytes(path, whole.substr(0, begin + length) + whole.substr(begin + 2 * length, length) +
+                        whole.substr(begin + length, length));
   CHECK(records(path).size() == 1);
   {  // what is written behind damage stays readable, and the damage is gone
     Journal journal(path);

@@ -1,4 +1,5 @@
-// NaN and infinity in every real number of every file that a stage reads: refused by file and dataset, wherever they stand.
+// NaN and infinity in every real number of every file that a stage reads: refused by file and
+// dataset, wherever they stand.
 #include <doctest/doctest.h>
 #include <hdf5.h>
 
@@ -8,10 +9,10 @@
 #include <set>
 
 #include "core/hdf5/h5.hpp"
-#include "solution_example.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
+#include "solution_example.hpp"
 
 using namespace langer;
 using example::bytes;
@@ -38,8 +39,8 @@ std::vector<std::string> reals(const std::string& path) {
 }
 
 void put(const std::string& path, const std::string& name, double value) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT),
-              space = H5Dget_space(dataset);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+              dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT), space = H5Dget_space(dataset);
   std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   if (!values.empty()) values.back() = value;
@@ -48,8 +49,10 @@ void put(const std::string& path, const std::string& name, double value) {
 }
 
 // the datasets in which the reader takes the value without a word
-std::set<std::string> taken(const std::string& path, double value, const std::function<void()>& read) {
-  const std::string good = bytes(path).substr(0, bytes(path).size() - 30);  // without its seal, as other tools leave it
+std::set<std::string> taken(const std::string& path, double value,
+                            const std::function<void()>& read) {
+  const std::string good =
+      bytes(path).substr(0, bytes(path).size() - 30);  // without its seal, as other tools leave it
   std::set<std::string> all;
   const std::vector<std::string> names = reals(path);
   CHECK(!names.empty());
@@ -78,9 +81,11 @@ std::string words(const std::set<std::string>& names) {
 
 TEST_CASE("a number that is not finite is refused in every dataset of every input file") {
   const std::string folder = example::folder("not_finite");
-  for (double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     CAPTURE(value);
-    const std::string mesh = folder + "/mesh.h5", material = folder + "/material.h5", solution = folder + "/solution.h5";
+    const std::string mesh = folder + "/mesh.h5", material = folder + "/material.h5",
+                      solution = folder + "/solution.h5";
     write_mesh(mesh, example::bar(), example::identity());
     CHECK(words(taken(mesh, value, [&] { read_mesh(mesh); })) == "");
     write_material(material, example::header(true).material, {}, example::identity());
@@ -96,6 +101,8 @@ TEST_CASE("a number that is not finite is refused in every dataset of every inpu
                       const SolutionReader reader(solution);
                       for (int i = 0; i < reader.n_steps(); ++i) reader.step(i);
                     })) ==
-        "VTKHDF/Steps/Values history/reactions/M history/reactions/x_min ");  // copies of history/t and reaction that no stage reads
+        "VTKHDF/Steps/Values history/reactions/M history/reactions/x_min ");  // copies of history/t
+                                                                              // and reaction that
+                                                                              // no stage reads
   }
 }

@@ -21,6 +21,8 @@ inline std::string refusal(const std::function<void()>& act) {
   return "";
 }
 
-inline bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace langer::example

@@ -6,9 +6,9 @@
 
 #include <array>
 
-#include "example.hpp"
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/seal.hpp"
+#include "example.hpp"
 #include "refusal.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/mesh_file.hpp"
@@ -40,11 +40,12 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
   REQUIRE(mkfifo((folder + "/fifo").c_str(), 0600) == 0);
   std::filesystem::create_symlink(folder + "/target.h5", folder + "/link");
   std::filesystem::create_symlink(folder + "/nowhere", folder + "/dangling");
-  const std::vector<std::array<std::string, 2>> cases{{"/dev/null", "is no plain file"},
-                                                      {folder + "/fifo", "is no plain file"},
-                                                      {folder, "is a folder"},
-                                                      {folder + "/link", "is a link to " + folder + "/target.h5"},
-                                                      {folder + "/dangling", "is a link to"}};
+  const std::vector<std::array<std::string, 2>> cases{
+      {"/dev/null", "is no plain file"},
+      {folder + "/fifo", "is no plain file"},
+      {folder, "is a folder"},
+      {folder + "/link", "is a link to " + folder + "/target.h5"},
+      {folder + "/dangling", "is a link to"}};
   for (const auto& refused : cases) {
     const std::string &path = refused[0], &found = refused[1];
     CAPTURE(path);
@@ -54,7 +55,8 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
   }
   CHECK(refusal([&] { need_own_log("/dev/null"); }) == "");
   CHECK(refusal([&] { need_own_log(folder + "/new.log"); }) == "");
-  for (const char* name : {"/fifo", "/link", "/dangling"}) CHECK(refusal([&] { need_own_log(folder + name); }) != "");
+  for (const char* name : {"/fifo", "/link", "/dangling"})
+    CHECK(refusal([&] { need_own_log(folder + name); }) != "");
 }
 
 TEST_CASE("an output or a log that is there has to be ours") {
@@ -63,26 +65,33 @@ TEST_CASE("an output or a log that is there has to be ours") {
   write_bytes(folder + "/empty.h5", "");
   write_bytes(folder + "/notes.txt", "what I found\n");
   write_bytes(folder + "/cut.h5", example::bytes(folder + "/mesh.h5").substr(0, 9000));
-  write_bytes(folder + "/report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<p>made by langer-report");
+  write_bytes(folder + "/report.html",
+              "<!DOCTYPE html>\n<html lang=\"en\">\n<p>made by langer-report");
   write_bytes(folder + "/page.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<p>my own page");
   write_bytes(folder + "/solve.log", "# langer-solve solve.yaml\n");
   for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"})
     CHECK(refusal([&] { need_own_output(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/solve.log", "/page.html"})
-    CHECK(holds(refusal([&] { need_own_output(folder + name); }), "is there already and was not made by langer"));
-  for (const char* name : {"/solve.log", "/none.log"}) CHECK(refusal([&] { need_own_log(folder + name); }) == "");
+    CHECK(holds(refusal([&] { need_own_output(folder + name); }),
+                "is there already and was not made by langer"));
+  for (const char* name : {"/solve.log", "/none.log"})
+    CHECK(refusal([&] { need_own_log(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/mesh.h5"})
     CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is no log of langer"));
 }
 
-TEST_CASE("beside an output that is made for the first time, a text with another first line is somebody else's") {
-  const std::string folder = example::folder("beside"), ours = "strain,stress_MPa,model_MPa\n0,0,0\n",
+TEST_CASE(
+    "beside an output that is made for the first time, a text with another first line is somebody else's") {
+  const std::string folder = example::folder("beside"),
+                    ours = "strain,stress_MPa,model_MPa\n0,0,0\n",
                     theirs = "strain,stress_MPa\n0,0\n";
   begin_beside(folder + "/material.h5");
   write_bytes(folder + "/fit.csv", theirs);
-  CHECK(holds(refusal([&] { write_text_file(folder + "/fit.csv", ours); }), "was not made by this step"));
+  CHECK(holds(refusal([&] { write_text_file(folder + "/fit.csv", ours); }),
+              "was not made by this step"));
   CHECK(example::bytes(folder + "/fit.csv") == theirs);
-  write_bytes(folder + "/fit.csv", "strain,stress_MPa,model_MPa\n0,0,0.5\n");  // of a run that was killed
+  write_bytes(folder + "/fit.csv",
+              "strain,stress_MPa,model_MPa\n0,0,0.5\n");  // of a run that was killed
   CHECK(refusal([&] { write_text_file(folder + "/fit.csv", ours); }) == "");
   write_bytes(folder + "/material.h5", "");
   begin_beside(folder + "/material.h5");  // other columns in another run of the same step
@@ -90,24 +99,31 @@ TEST_CASE("beside an output that is made for the first time, a text with another
   CHECK(refusal([&] { write_text_file(folder + "/fit.csv", ours); }) == "");
 }
 
-TEST_CASE("a picture or a table of HDF5 beside the output is ours where its script, or a mark, says so") {
+TEST_CASE(
+    "a picture or a table of HDF5 beside the output is ours where its script, or a mark, says so") {
   const std::string folder = example::folder("pictures");
   begin_beside(folder + "/curves.h5");
   write_bytes(folder + "/render.png", "a photograph");
-  CHECK(holds(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }), "was not made by this step"));
+  CHECK(
+      holds(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }),
+            "was not made by this step"));
   write_bytes(folder + "/render.gp", "# made by langer\n");  // of a run that was killed
-  CHECK(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) == "");
+  CHECK(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) ==
+        "");
   CHECK(refusal([&] { need_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) == "");
   write_bytes(folder + "/snapshot_0001.hdf", "\x89HDF\r\n\x1a\n of another program");
-  CHECK(holds(refusal([&] { h5::File::create(folder + "/snapshot_0001.hdf"); }), "was not made by langer"));
+  CHECK(holds(refusal([&] { h5::File::create(folder + "/snapshot_0001.hdf"); }),
+              "was not made by langer"));
   write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<febio_spec/>\n");
-  CHECK(holds(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }), "was not made by langer"));
+  CHECK(holds(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }),
+              "was not made by langer"));
   write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<!-- written by langer 0.2.0 -->\n");
   CHECK(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }) == "");
 }
 
 TEST_CASE("a cell of a CSV table stands between quotes where it has to") {
-  for (const char* plain : {"", "a1", "mu_star_c1_MPa", "0.5 to 1", "Größe", "a/b", "it's"}) CHECK(csv_cell(plain) == plain);
+  for (const char* plain : {"", "a1", "mu_star_c1_MPa", "0.5 to 1", "Größe", "a/b", "it's"})
+    CHECK(csv_cell(plain) == plain);
   CHECK(csv_cell("a,b") == "\"a,b\"");
   CHECK(csv_cell("say \"yes\"") == "\"say \"\"yes\"\"\"");
   CHECK(csv_cell("two\nlines") == "\"two\nlines\"");

@@ -5,11 +5,11 @@
 
 #include "core/hdf5/h5.hpp"
 #include "mechanics/mesh/raise.hpp"
-#include "solution_example.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
 #include "results/store/provenance.hpp"
+#include "solution_example.hpp"
 
 using namespace langer;
 using example::bytes;
@@ -46,7 +46,8 @@ TEST_CASE("arrays of every type and rank come back as written") {
   CHECK(r.read_rows<double>("rows", 3, 2, {2}).values == std::vector<double>{3, 6, 4, 8});
   CHECK(r.read_scalar("x") == 2);
   CHECK(r.unit("x") == "deg");
-  CHECK(r.datasets() == std::vector<std::string>{"bytes", "greek", "integers", "none", "reals", "rows", "word", "x"});
+  CHECK(r.datasets() == std::vector<std::string>{"bytes", "greek", "integers", "none", "reals",
+                                                 "rows", "word", "x"});
   CHECK_THROWS_AS(r.read<double>("reals", {3, 2}), Failure);
   CHECK_THROWS_AS(r.read<double>("integers", {2}), Failure);
   CHECK_THROWS_AS(r.read<double>("nothing", {}), Failure);
@@ -107,7 +108,8 @@ TEST_CASE("equal content gives equal bytes, whenever it is written") {
   const std::string folder = example::folder("bytes");
   setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
   write_mesh(folder + "/a.h5", example::bar(), example::identity());
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // object times, if they were on, count seconds
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(1100));  // object times, if they were on, count seconds
   write_mesh(folder + "/b.h5", example::bar(), example::identity());
   unsetenv("SOURCE_DATE_EPOCH");
   CHECK(bytes(folder + "/a.h5").size() > 2000);
@@ -118,7 +120,8 @@ namespace {
 Material two_families() {
   Material m;
   m.matrix = {Yeoh{0.269, 0.376, 0.415}, NeoHooke{0.1}, YeohI2{0.01, 0.02, 0.03}};
-  m.fibres = {{HgoFibre{-0.317, 0.319}, 30, FibreSwitch::I4}, {HgoFibre{0.1, 0}, -30, FibreSwitch::off}};
+  m.fibres = {{HgoFibre{-0.317, 0.319}, 30, FibreSwitch::I4},
+              {HgoFibre{0.1, 0}, -30, FibreSwitch::off}};
   m.volume = QuadraticVolume{1e-6};
   return m;
 }
@@ -132,8 +135,15 @@ FitRecord fit() {
   f.strain_min = 0, f.strain_max = 0.6;
   f.strain = {0, 0.3, 0.6}, f.stress = {0, 0.0709, 1.0564}, f.model = {0, 0.07, 1.06};
   f.r2 = 0.99, f.aicc = -100, f.bic = -90;
-  FittedTest biaxial{"offx", "biaxial", "nominal", 30, 2, {1, 1.1}, {1, 1.2}, {0, 1}, {0, 2}, {0, 1.1}, {0, 2.1}, 0.97, 1, 3};
-  FittedTest shear{"s", "simple_shear", "cauchy", 0, 1, {0, 0.5, 1}, {}, {0, 1, 2}, {}, {0, 1.1, 2.1}, {}, 0.9, 1, 3};
+  FittedTest biaxial{"offx", "biaxial", "nominal", 30,       2,    {1, 1.1}, {1, 1.2},
+                     {0, 1}, {0, 2},    {0, 1.1},  {0, 2.1}, 0.97, 1,        3};
+  FittedTest shear{"s",      "simple_shear",
+                   "cauchy", 0,
+                   1,        {0, 0.5, 1},
+                   {},       {0, 1, 2},
+                   {},       {0, 1.1, 2.1},
+                   {},       0.9,
+                   1,        3};
   f.tests = {biaxial, shear};
   return f;
 }
@@ -161,7 +171,8 @@ TEST_CASE("a material comes back as written: terms, families, switches") {
 TEST_CASE("every law of fibres and of volume change stands in a group of its key, and comes back") {
   const std::string path = example::folder("laws") + "/material.h5";
   Material m = two_families();
-  m.fibres = {{ExpPowFibre{0.3, 0.8, 2.5}, 30}, {PowLinearFibre{12, 1.06, 3}, -30, FibreSwitch::I4_bar, 0.1}};
+  m.fibres = {{ExpPowFibre{0.3, 0.8, 2.5}, 30},
+              {PowLinearFibre{12, 1.06, 3}, -30, FibreSwitch::I4_bar, 0.1}};
   for (const Volume& volume : {Volume(LogarithmicVolume{1e3}), Volume(SimoTaylorVolume{2e3})}) {
     m.volume = volume;
     write_material(path, m, {}, example::identity());
@@ -198,7 +209,8 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(f.tests[1].kind == "simple_shear");
   CHECK(f.tests[1].stress_z.empty());
   CHECK(f.tests[1].model_x == std::vector{0., 1.1, 2.1});
-  const auto correlation = h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
+  const auto correlation =
+      h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
   CHECK(correlation[1] == doctest::Approx(0.5).epsilon(1e-14));
   bool found = false;
   for (const Summary& s : read_summary(path))
@@ -206,10 +218,12 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(found);
 }
 
-TEST_CASE("correlations do not depend on units, and are not numbers where nothing is determined or nothing varies") {
+TEST_CASE(
+    "correlations do not depend on units, and are not numbers where nothing is determined or nothing varies") {
   MatX covariance(2, 2);
   covariance << 4, -3, -3, 9;
-  for (double scale : {1., 1e-200, 1e-300, 1e200}) {  // the product of two variances leaves the range of doubles
+  for (double scale :
+       {1., 1e-200, 1e-300, 1e200}) {  // the product of two variances leaves the range of doubles
     const MatX r = correlation(scale * covariance);
     CHECK(r(0, 1) == doctest::Approx(-0.5).epsilon(1e-14));
     CHECK(r(1, 1) == doctest::Approx(1).epsilon(1e-14));
@@ -224,7 +238,8 @@ TEST_CASE("curves, columns and summary come back, the CSV names carry units") {
   const std::string folder = example::folder("curves");
   Curves c;
   c.curves = {{"force", "U_ind", "mm", "force", "N", {0, 0.5, 1}, {0, 0.1, 9.3}}};
-  c.columns = {{"u_ind", "mm", {0, 0.1}}, {"force", "N", {0, 1.0 / 3}}, {"contact_nodes", "-", {0, 12}}};
+  c.columns = {
+      {"u_ind", "mm", {0, 0.1}}, {"force", "N", {0, 1.0 / 3}}, {"contact_nodes", "-", {0, 12}}};
   c.summary = {{"force", 9.3, "N"}, {"stretch", 1.1, "-"}};
   write_curves(folder + "/curves.h5", c, example::identity());
   const CurvesFile file = read_curves(folder + "/curves.h5");
@@ -236,7 +251,8 @@ TEST_CASE("curves, columns and summary come back, the CSV names carry units") {
   CHECK(file.curves.columns[0].name == "u_ind");
   CHECK(file.curves.columns[1].values == c.columns[1].values);
   CHECK(read_summary(folder + "/curves.h5").size() == 2);
-  CHECK(bytes(folder + "/curves.csv") == "u_ind_mm,force_N,contact_nodes\n0,0,0\n0.1,0.3333333333333333,12\n");
+  CHECK(bytes(folder + "/curves.csv") ==
+        "u_ind_mm,force_N,contact_nodes\n0,0,0\n0.1,0.3333333333333333,12\n");
   CHECK(csv_name("d", "1/MPa") == "d_per_MPa");
 }
 

@@ -4,8 +4,8 @@
 
 #include <numeric>
 
-#include "example.hpp"
 #include "core/hdf5/h5.hpp"
+#include "example.hpp"
 #include "results/store/provenance.hpp"
 
 using namespace langer;
@@ -18,11 +18,14 @@ std::vector<double> ramp(std::size_t n) {
 }
 }  // namespace
 
-TEST_CASE("a snapshot has the arrays of static VTKHDF: geometry, point and cell fields of 1, 3, 6 and 9 components") {
+TEST_CASE(
+    "a snapshot has the arrays of static VTKHDF: geometry, point and cell fields of 1, 3, 6 and 9 components") {
   const std::string path = example::folder("snapshot") + "/snapshot.h5";
   const Mesh mesh = example::bar();
-  write_snapshot(path, mesh, {{"u", "mm", 3, ramp(36)}, {"sigma", "MPa", 6, ramp(72)}, {"von_mises", "MPa", 1, ramp(12)}},
-                 {{"pressure", "MPa", 1, ramp(2)}, {"F_mean", "-", 9, ramp(18)}}, example::identity());
+  write_snapshot(
+      path, mesh,
+      {{"u", "mm", 3, ramp(36)}, {"sigma", "MPa", 6, ramp(72)}, {"von_mises", "MPa", 1, ramp(12)}},
+      {{"pressure", "MPa", 1, ramp(2)}, {"F_mean", "-", 9, ramp(18)}}, example::identity());
   CHECK(read_origin(path).schema == "snapshot");
   const h5::Group grid = h5::File::open(path).root().group("VTKHDF");
   CHECK(grid.text_attribute("Type") == "UnstructuredGrid");

@@ -25,7 +25,8 @@ std::string write_solution(const std::string& path, int n, bool contact) {
 
 TEST_CASE("a solution comes back as written, with and without contact") {
   for (bool contact : {false, true}) {
-    const std::string path = write_solution(example::folder("solution") + "/solution.h5", 4, contact);
+    const std::string path =
+        write_solution(example::folder("solution") + "/solution.h5", 4, contact);
     CHECK_FALSE(std::filesystem::exists(path + ".part"));
     const SolutionReader reader(path);
     REQUIRE(reader.n_steps() == 4);
@@ -73,7 +74,9 @@ TEST_CASE("a solution has the VTKHDF 2.0 arrays: names, shapes, offsets") {
 TEST_CASE("histories: reactions are summed over each set, contact states are counted") {
   const std::string path = write_solution(example::folder("history") + "/solution.h5", 3, true);
   const h5::Group root = h5::File::open(path).root(), history = root.group("history");
-  const auto sum = history.group("reactions").read<double>("x_min", {3, 3}).values;  // nodes 0 3 6 9, reaction (1, i, n/3)
+  const auto sum = history.group("reactions")
+                       .read<double>("x_min", {3, 3})
+                       .values;  // nodes 0 3 6 9, reaction (1, i, n/3)
   CHECK(sum[6] == 4);
   CHECK(sum[7] == 8);
   CHECK(sum[8] == doctest::Approx(6).epsilon(1e-15));
@@ -87,7 +90,8 @@ TEST_CASE("without contact the file has no contact group, no indenter") {
   const std::string path = write_solution(example::folder("no_contact") + "/solution.h5", 2, false);
   const h5::Group root = h5::File::open(path).root();
   CHECK_FALSE(root.has("contact"));
-  for (const char* name : {"u_ind", "force_ind", "contact_open"}) CHECK_FALSE(root.group("history").has(name));
+  for (const char* name : {"u_ind", "force_ind", "contact_open"})
+    CHECK_FALSE(root.group("history").has(name));
 }
 
 TEST_CASE("an abandoned run continues after its last step, to the same bytes as a run in one go") {
@@ -125,21 +129,29 @@ TEST_CASE("a run with another config, other inputs or another mesh starts anew")
     return kept;
   };
   CHECK(kept_by([](SolutionHeader&) {}) == 1);
-  CHECK(kept_by([](SolutionHeader& h) { h.identity.command = "langer-solve typed otherwise"; }) == 1);
+  CHECK(kept_by([](SolutionHeader& h) { h.identity.command = "langer-solve typed otherwise"; }) ==
+        1);
   CHECK(kept_by([](SolutionHeader& h) { h.identity.config_hash = fnv1a("another"); }) == 0);
   CHECK(kept_by([](SolutionHeader& h) { h.identity.inputs["mesh"] = fnv1a("another"); }) == 0);
   CHECK(kept_by([](SolutionHeader& h) { h.formulation = "displacement"; }) == 0);
   // the same ids, made by other code
   CHECK(kept_by([](SolutionHeader& h) { h.mesh.X[3][0] += 0.125; }) == 0);
-  CHECK(kept_by([](SolutionHeader& h) { std::swap(h.mesh.connectivity[1], h.mesh.connectivity[3]); }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) {
+          std::swap(h.mesh.connectivity[1], h.mesh.connectivity[3]);
+        }) == 0);
   CHECK(kept_by([](SolutionHeader& h) { h.mesh.body[0] = 1 - h.mesh.body[0]; }) == 0);
-  CHECK(kept_by([](SolutionHeader& h) { h.mesh.frames[0].col(0) *= -1, h.mesh.frames[0].col(1) *= -1; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) {
+          h.mesh.frames[0].col(0) *= -1, h.mesh.frames[0].col(1) *= -1;
+        }) == 0);
   CHECK(kept_by([](SolutionHeader& h) { h.mesh.node_sets["x_min"].pop_back(); }) == 0);
   CHECK(kept_by([](SolutionHeader& h) { h.contact_nodes["indenter"] = {3, 4, 6}; }) == 0);
-  CHECK(kept_by([](SolutionHeader& h) { h.mesh.section = Section{SectionOf::plane_strain, 1}; }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) {
+          h.mesh.section = Section{SectionOf::plane_strain, 1};
+        }) == 0);
 }
 
-TEST_CASE("a run with other settings of the solver continues, and the file says which steps were made by which") {
+TEST_CASE(
+    "a run with other settings of the solver continues, and the file says which steps were made by which") {
   const std::string path = example::folder("settings") + "/solution.h5";
   SolutionHeader first = header(false), then = header(false);
   first.identity.steps_hash = then.identity.steps_hash = fnv1a("what steps depend on");
@@ -168,7 +180,9 @@ TEST_CASE("steps that are not good enough any more are made anew, with all behin
     for (int i = 0; i < 5; ++i) writer.append(step(i, true));
   }
   {
-    SolutionWriter writer(path, header(true), [](const StepRecord& s, const EarlierRun&) { return s.residual < 2.5e-9; });
+    SolutionWriter writer(path, header(true), [](const StepRecord& s, const EarlierRun&) {
+      return s.residual < 2.5e-9;
+    });
     CHECK(writer.n_steps() == 2);
     writer.append(step(7, true));
   }
@@ -236,7 +250,8 @@ TEST_CASE("a killed run leaves its committed steps readable, wherever it is hit"
     SolutionWriter writer(path, header(true));
     CHECK(writer.n_steps() >= reported);  // whatever append() returned from is kept
     CHECK(writer.n_steps() <= reported + 1);
-    if (writer.n_steps() > 0) CHECK(example::same(*writer.resumed(), step(writer.n_steps() - 1, true)));
+    if (writer.n_steps() > 0)
+      CHECK(example::same(*writer.resumed(), step(writer.n_steps() - 1, true)));
     most = std::max(most, writer.n_steps());
   }
   CHECK(most > 0);

@@ -1,4 +1,5 @@
-// A made-up run on the two cubes of example.hpp: every number of a step is a known function of the step.
+// A made-up run on the two cubes of example.hpp: every number of a step is a known function of the
+// step.
 #pragma once
 
 #include "example.hpp"
@@ -14,7 +15,9 @@ inline SolutionHeader header(bool contact) {
   h.material.volume = QuadraticVolume{1e-3};
   h.formulation = "mean_dilatation";
   if (contact) h.contact_nodes = {{"indenter", {3, 4, 5}}};
-  if (contact) h.indenter_surfaces["indenter"] = {{{0, 1, 0}, {0, 1, 0.1}, {1, 1.5, 1.0 / 3}, {0.5, 2, 0}}, {{0, 1, 2}, {2, 1, 3}}};
+  if (contact)
+    h.indenter_surfaces["indenter"] = {{{0, 1, 0}, {0, 1, 0.1}, {1, 1.5, 1.0 / 3}, {0.5, 2, 0}},
+                                       {{0, 1, 2}, {2, 1, 3}}};
   h.identity = identity();
   h.identity.stage = "solve";
   return h;
@@ -39,11 +42,12 @@ inline bool same(const StepRecord& a, const StepRecord& b) {
   bool contacts = a.contacts.size() == b.contacts.size();
   for (const auto& [name, c] : a.contacts) {
     const auto found = b.contacts.find(name);
-    contacts = contacts && found != b.contacts.end() && c.r == found->second.r && c.status == found->second.status &&
-               c.gap == found->second.gap;
+    contacts = contacts && found != b.contacts.end() && c.r == found->second.r &&
+               c.status == found->second.status && c.gap == found->second.gap;
   }
-  return contacts && a.t == b.t && a.increment == b.increment && a.iterations == b.iterations && a.residual == b.residual &&
-         a.u == b.u && a.reaction == b.reaction && a.cell_fields == b.cell_fields && a.scalars == b.scalars && a.u_ind == b.u_ind &&
+  return contacts && a.t == b.t && a.increment == b.increment && a.iterations == b.iterations &&
+         a.residual == b.residual && a.u == b.u && a.reaction == b.reaction &&
+         a.cell_fields == b.cell_fields && a.scalars == b.scalars && a.u_ind == b.u_ind &&
          a.force_ind == b.force_ind;
 }
 

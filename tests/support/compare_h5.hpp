@@ -1,5 +1,6 @@
 // Two HDF5 files as values: what differs outside /provenance, object by object.
-// Numbers may differ by `tolerance` times the largest of their dataset; texts, shapes, types and attributes must be equal.
+// Numbers may differ by `tolerance` times the largest of their dataset; texts, shapes, types and
+// attributes must be equal.
 #pragma once
 
 #include <hdf5.h>
@@ -29,7 +30,8 @@ class H5Comparison {
   H5Comparison(const std::string& a, const std::string& b, double tolerance, bool attributes)
       : tolerance_(tolerance), attributes_(attributes) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    a_ = H5Fopen(a.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), b_ = H5Fopen(b.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    a_ = H5Fopen(a.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+    b_ = H5Fopen(b.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (a_ < 0 || b_ < 0)
       differ("", "cannot be opened");
     else
@@ -44,7 +46,9 @@ class H5Comparison {
   double tolerance_;
   bool attributes_;
 
-  void differ(const std::string& where, const std::string& what) { result.differences.push_back({where, what}); }
+  void differ(const std::string& where, const std::string& what) {
+    result.differences.push_back({where, what});
+  }
 
   static std::vector<std::string> names(hid_t file, const std::string& path) {
     std::vector<std::string> all;
@@ -52,7 +56,8 @@ class H5Comparison {
       static_cast<std::vector<std::string>*>(to)->emplace_back(name);
       return 0;
     };
-    H5Literate_by_name(file, path.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &all, H5P_DEFAULT);
+    H5Literate_by_name(file, path.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &all,
+                       H5P_DEFAULT);
     return all;
   }
 
@@ -72,7 +77,8 @@ class H5Comparison {
 
   void attributes(const std::string& path) {
     if (!attributes_) return;
-    const hid_t oa = H5Oopen(a_, path.c_str(), H5P_DEFAULT), ob = H5Oopen(b_, path.c_str(), H5P_DEFAULT);
+    const hid_t oa = H5Oopen(a_, path.c_str(), H5P_DEFAULT),
+                ob = H5Oopen(b_, path.c_str(), H5P_DEFAULT);
     const auto list = [](hid_t object) {
       std::vector<std::string> all;
       const auto add = [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
@@ -86,7 +92,8 @@ class H5Comparison {
     if (in_a != list(ob)) differ(path, "other attributes");
     for (const std::string& name : in_a) {
       const auto value = [&](hid_t object) {
-        const hid_t attribute = H5Aopen(object, name.c_str(), H5P_DEFAULT), type = H5Aget_type(attribute);
+        const hid_t attribute = H5Aopen(object, name.c_str(), H5P_DEFAULT),
+                    type = H5Aget_type(attribute);
         std::vector<char> bytes(H5Aget_storage_size(attribute));
         if (!bytes.empty()) H5Aread(attribute, type, bytes.data());
         H5Tclose(type), H5Aclose(attribute);
@@ -100,12 +107,15 @@ class H5Comparison {
   void dataset(const std::string& path) {
     ++result.datasets;
     attributes(path);
-    const hid_t da = H5Dopen2(a_, path.c_str(), H5P_DEFAULT), db = H5Dopen2(b_, path.c_str(), H5P_DEFAULT);
-    const hid_t ta = H5Dget_type(da), tb = H5Dget_type(db), sa = H5Dget_space(da), sb = H5Dget_space(db);
+    const hid_t da = H5Dopen2(a_, path.c_str(), H5P_DEFAULT),
+                db = H5Dopen2(b_, path.c_str(), H5P_DEFAULT);
+    const hid_t ta = H5Dget_type(da), tb = H5Dget_type(db), sa = H5Dget_space(da),
+                sb = H5Dget_space(db);
     if (H5Tequal(ta, tb) <= 0 || H5Sextent_equal(sa, sb) <= 0)
       differ(path, "other type or shape");
     else {
-      const std::size_t n = static_cast<std::size_t>(H5Sget_simple_extent_npoints(sa)), bytes = n * H5Tget_size(ta);
+      const std::size_t n = static_cast<std::size_t>(H5Sget_simple_extent_npoints(sa)),
+                        bytes = n * H5Tget_size(ta);
       if (H5Tget_class(ta) == H5T_FLOAT) {
         std::vector<double> x(n), y(n);
         if (n > 0) H5Dread(da, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x.data());
@@ -121,7 +131,8 @@ class H5Comparison {
     H5Sclose(sa), H5Sclose(sb), H5Tclose(ta), H5Tclose(tb), H5Dclose(da), H5Dclose(db);
   }
 
-  void numbers(const std::string& path, const std::vector<double>& x, const std::vector<double>& y) {
+  void numbers(const std::string& path, const std::vector<double>& x,
+               const std::vector<double>& y) {
     double scale = 0, largest = 0;
     bool same_blanks = true;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -138,11 +149,13 @@ class H5Comparison {
     if (!same_blanks) differ(path, "finite here, not finite there");
     if (largest == 0) return;
     result.largest = std::max(result.largest, largest / scale);
-    if (!(largest <= tolerance_ * scale)) differ(path, fmt::format("numbers differ by {:.2g} of {:.3g}", largest, scale));
+    if (!(largest <= tolerance_ * scale))
+      differ(path, fmt::format("numbers differ by {:.2g} of {:.3g}", largest, scale));
   }
 };
 
-inline ComparedFiles compare_h5(const std::string& a, const std::string& b, double tolerance, bool attributes = true) {
+inline ComparedFiles compare_h5(const std::string& a, const std::string& b, double tolerance,
+                                bool attributes = true) {
   return H5Comparison(a, b, tolerance, attributes).result;
 }
 

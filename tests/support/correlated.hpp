@@ -1,4 +1,5 @@
-// Biaxial tests of a known law with noise that is correlated along each curve, for what intervals hold.
+// Biaxial tests of a known law with noise that is correlated along each curve, for what intervals
+// hold.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ inline FitProblem protocols(int n) {
   for (const auto& [rx, rz] : {std::pair{1., 1.}, {1., 0.4}, {0.4, 1.}}) {
     Test t;
     t.kind = TestKind::biaxial, t.measure = StressMeasure::nominal;
-    for (int i = 1; i <= n; ++i) t.first.push_back(1 + 0.35 * rx * i / n), t.second.push_back(1 + 0.35 * rz * i / n);
+    for (int i = 1; i <= n; ++i)
+      t.first.push_back(1 + 0.35 * rx * i / n), t.second.push_back(1 + 0.35 * rz * i / n);
     t.stress_x.resize(t.first.size()), t.stress_z.resize(t.first.size());
     std::vector<double> s(t.values());
     if (model_stress(q.law, t, Dilatation::incompressible, s.data())) {
@@ -34,8 +36,8 @@ inline FitProblem protocols(int n) {
   return q;
 }
 
-// Pulled to 1.3 in 0.5 s, held for 60 s in points that get sparser, back and held once more; branches of 0.1, 1 (of strength `middle`)
-// and 10 s.
+// Pulled to 1.3 in 0.5 s, held for 60 s in points that get sparser, back and held once more;
+// branches of 0.1, 1 (of strength `middle`) and 10 s.
 inline FitProblem relaxation_record(double middle) {
   FitProblem q;
   q.law = neo_hooke(0.05, 1e-6);
@@ -64,12 +66,14 @@ inline FitProblem relaxation_record(double middle) {
 // e_i = rho e_(i-1) + sqrt(1 - rho^2) deviation normal, begun as it goes on
 inline void add_noise(std::vector<double>& stress, double deviation, double rho, Random& random) {
   double e = deviation * random.normal();
-  for (double& s : stress) s += e, e = rho * e + std::sqrt(1 - rho * rho) * deviation * random.normal();
+  for (double& s : stress)
+    s += e, e = rho * e + std::sqrt(1 - rho * rho) * deviation * random.normal();
 }
 
 inline FitProblem noisy(FitProblem q, double deviation, double rho, std::uint64_t seed) {
   Random random(123, seed);
-  for (Test& t : q.tests) add_noise(t.stress_x, deviation, rho, random), add_noise(t.stress_z, deviation, rho, random);
+  for (Test& t : q.tests)
+    add_noise(t.stress_x, deviation, rho, random), add_noise(t.stress_z, deviation, rho, random);
   return q;
 }
 

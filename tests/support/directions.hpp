@@ -11,13 +11,16 @@ inline Directions directions(const Mesh& mesh, const std::vector<Material>& mate
   return make_directions(mesh, fibre_angles(materials));
 }
 
-inline Equilibrium equilibrium(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation, Dofs dofs,
-                               int threads = 1, Kernel kernel = Kernel::packets, std::optional<Division> division = {}) {
-  return Equilibrium(mesh, materials, directions(mesh, materials), formulation, std::move(dofs), threads, kernel, {},
-                     std::move(division));
+inline Equilibrium equilibrium(const Mesh& mesh, const std::vector<Material>& materials,
+                               Formulation formulation, Dofs dofs, int threads = 1,
+                               Kernel kernel = Kernel::packets,
+                               std::optional<Division> division = {}) {
+  return Equilibrium(mesh, materials, directions(mesh, materials), formulation, std::move(dofs),
+                     threads, kernel, {}, std::move(division));
 }
 
-inline Body body(const Mesh& mesh, const std::vector<Material>& materials, Formulation formulation) {
+inline Body body(const Mesh& mesh, const std::vector<Material>& materials,
+                 Formulation formulation) {
   return Body(mesh, materials, directions(mesh, materials), formulation);
 }
 

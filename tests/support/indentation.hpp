@@ -1,4 +1,5 @@
-// The paper's indentation as a scene in memory: block 30 x 4 x 30 mm, bottom fixed, sphere of radius 2.5 mm.
+// The paper's indentation as a scene in memory: block 30 x 4 x 30 mm, bottom fixed, sphere of
+// radius 2.5 mm.
 #pragma once
 
 #include <cmath>
@@ -30,10 +31,11 @@ struct Indentation {
   bool loose_base = false;  // the bottom may glide in x
   ContactBy contact_by = ContactBy::by_cost;
   NewtonOptions newton;
-  const Ranks* ranks = nullptr;                                                      // that share the cells
-  std::optional<KinsolOptions> kinsol;                                               // in place of newton
-  std::function<void(Equilibrium&, const Statics&, const LoadPathOptions&)> before;  // told before the first step
-  std::function<void(const Statics&, const Equilibrium&)> after;                     // told after each step
+  const Ranks* ranks = nullptr;         // that share the cells
+  std::optional<KinsolOptions> kinsol;  // in place of newton
+  std::function<void(Equilibrium&, const Statics&, const LoadPathOptions&)>
+      before;                                                     // told before the first step
+  std::function<void(const Statics&, const Equilibrium&)> after;  // told after each step
 
   struct Step {
     double depth, force;
@@ -58,7 +60,8 @@ struct Indentation {
 
   Result run(const Material& material, const std::function<void(const Step&)>& seen = {}) const {
     Result result;
-    auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx), z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
+    auto x = h > 0 ? graded(15, nx, h) : even(-15, 15, nx),
+         z = h > 0 ? graded(15, nz, h) : even(-15, 15, nz);
     if (quarter) x.erase(x.begin(), x.begin() + nx / 2), z.erase(z.begin(), z.begin() + nz / 2);
     result.mesh = block(x, even(0, 4, ny), z);
     if (cells != CellType::hex8) result.mesh = raised_block(result.mesh, cells);
@@ -69,15 +72,19 @@ struct Indentation {
     if (quarter)
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
-    RigidContact contact{"sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, motion};
+    RigidContact contact{
+        "sphere", shape ? *shape : Indenter(Sphere{radius, {0, 4 + radius, 0}}), mu, {}, motion};
     if (motion.empty()) contact.motion = {{1, Vec3(0, -depth, 0)}};
     for (int i : result.mesh.node_sets["y_max"])
       if (std::hypot(result.mesh.X[i][0], result.mesh.X[i][2]) < reach) contact.nodes.push_back(i);
     std::optional<Division> division;
     if (ranks)
-      division = Division{ranks, ranks->divide(result.mesh.connectivity, nodes_per_cell(result.mesh.type), result.mesh.n_nodes())};
-    Equilibrium body = equilibrium(result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
-                                   number_dofs(result.mesh.n_nodes(), held).dofs, threads, Kernel::packets, division);
+      division =
+          Division{ranks, ranks->divide(result.mesh.connectivity, nodes_per_cell(result.mesh.type),
+                                        result.mesh.n_nodes())};
+    Equilibrium body = equilibrium(
+        result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
+        number_dofs(result.mesh.n_nodes(), held).dofs, threads, Kernel::packets, division);
     StaticsOptions options;
     options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by,
     options.linear_by = newton.linear;
@@ -92,7 +99,8 @@ struct Indentation {
         path, 0, {}, stops,
         [&](double t) {
           statics.begin(t);
-          return kinsol ? langer::kinsol(statics.problem(), statics.free_balance(), statics.trial(), *kinsol)
+          return kinsol ? langer::kinsol(statics.problem(), statics.free_balance(), statics.trial(),
+                                         *kinsol)
                         : langer::newton(statics.problem(), statics.trial(), newton);
         },
         [&](double t, double, double, const SolveReport& report) {

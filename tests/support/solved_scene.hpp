@@ -7,15 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "scene/run/run.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/run.hpp"
 
 namespace langer::test {
 
-inline const auto nowhere = [](const std::string&) { return Place{}; };
+inline const auto nowhere = [](const std::string&) {
+  return Place{};
+};
 
-inline SolveConfig config_of(const std::string& text) { return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config; }
+inline SolveConfig config_of(const std::string& text) {
+  return read_config<SolveConfig>(parse_yaml(text, "scene.yaml")).config;
+}
 inline Mesh mesh_in(const SolveConfig& config) { return make_mesh(*config.mesh, nowhere).mesh; }
 
 // what make_scene says of a config on this mesh; "accepted"
@@ -43,13 +47,16 @@ struct HowToSolve {
   const StepRecord* before = nullptr;  // and the one before it; none: the body at rest
 };
 
-inline Solved solved(const Mesh& mesh, const Scene& scene, const std::optional<ReducedScene>& part, const HowToSolve& how) {
+inline Solved solved(const Mesh& mesh, const Scene& scene, const std::optional<ReducedScene>& part,
+                     const HowToSolve& how) {
   Run run(mesh, scene, part, how.path, how.solver);
   if (how.from) run.resume(*how.from, how.before ? std::optional(*how.before) : std::nullopt);
   Solved out;
   out.free = run.body.dofs().n_free();
   RunListener each;
-  each.of_whole = [&](const StepRecord& step, const SolveReport&) { out.steps.push_back(step); };
+  each.of_whole = [&](const StepRecord& step, const SolveReport&) {
+    out.steps.push_back(step);
+  };
   const RunEnd end = run.follow(each);
   CAPTURE(end.path.why);
   REQUIRE(end.path.complete);

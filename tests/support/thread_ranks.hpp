@@ -1,4 +1,5 @@
-// Ranks that are threads of this process: what bodies and matrices divided among ranks do without MPI.
+// Ranks that are threads of this process: what bodies and matrices divided among ranks do without
+// MPI.
 #pragma once
 
 #include <barrier>
@@ -69,7 +70,8 @@ class ThreadRanks : public Ranks {
 inline void on_ranks(int n, const std::function<void(const Ranks&)>& work) {
   Meeting meeting(n);
   std::vector<std::thread> threads;
-  for (int rank = 0; rank < n; ++rank) threads.emplace_back([&meeting, &work, rank] { work(ThreadRanks(meeting, rank)); });
+  for (int rank = 0; rank < n; ++rank)
+    threads.emplace_back([&meeting, &work, rank] { work(ThreadRanks(meeting, rank)); });
   for (std::thread& thread : threads) thread.join();
 }
 

@@ -1,5 +1,5 @@
-// One uniaxial curve, read and fitted: the paper's task.                                  [A23] eqs 35-36
-// A curve of one test along the fibre does not determine a fibre term: see the correlation.
+// One uniaxial curve, read and fitted: the paper's task.                                  [A23] eqs
+// 35-36 A curve of one test along the fibre does not determine a fibre term: see the correlation.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ struct UniaxialFitOptions {
   unsigned seed = 1;
 };
 
-inline FitResult fit_uniaxial(const Curve& curve, const Material& law, const std::vector<FreeParameter>& free,
+inline FitResult fit_uniaxial(const Curve& curve, const Material& law,
+                              const std::vector<FreeParameter>& free,
                               const UniaxialFitOptions& options = {}) {
   Test test;
   test.name = "curve", test.measure = curve.measure, test.stress_x = curve.stress;

@@ -1,4 +1,5 @@
-// Designs of experiments on whole runs: their points are what the methods ask for, and answers give the methods' effects.
+// Designs of experiments on whole runs: their points are what the methods ask for, and answers give
+// the methods' effects.
 #include "pipeline/sweep/design.hpp"
 
 #include <doctest/doctest.h>
@@ -51,7 +52,8 @@ TEST_CASE("A design's points lie in its box, each once, the same every time") {
   CHECK(design_points(d)[20] != points[20]);
 }
 
-TEST_CASE("A linear answer has its slopes times the ranges as effects and no sigma, a product has one") {
+TEST_CASE(
+    "A linear answer has its slopes times the ranges as effects and no sigma, a product has one") {
   Design d = three();
   d.morris = MorrisChoice{8, 4}, d.one_at_a_time = OneAtATimeChoice{3};
   const QuantityEffects e = effects_of(d, "force", "N", answers(d, plane));
@@ -76,8 +78,10 @@ TEST_CASE("Sobol's shares of a product through a design are those of the closed 
   const auto values = answers(d, product);
   CHECK(values.size() == 4096 * 5 + 1);
   const QuantityEffects e = effects_of(d, "force", "N", values);
-  // y = a b, independent: V = Va Vb + Va mb^2 + Vb ma^2 with ma = 2, Va = 1/3, mb = 0.3, Vb = 0.04/3
-  const double Va = 1. / 3, Vb = 0.16 / 12, V = Va * Vb + Va * 0.09 + Vb * 4, first = Va * 0.09 / V, total = first + Va * Vb / V;
+  // y = a b, independent: V = Va Vb + Va mb^2 + Vb ma^2 with ma = 2, Va = 1/3, mb = 0.3, Vb =
+  // 0.04/3
+  const double Va = 1. / 3, Vb = 0.16 / 12, V = Va * Vb + Va * 0.09 + Vb * 4, first = Va * 0.09 / V,
+               total = first + Va * Vb / V;
   CHECK(e.sobol->first.low(0, 0) <= first);
   CHECK(e.sobol->first.high(0, 0) >= first);
   CHECK(e.sobol->total.value(0, 0) == doctest::Approx(total).epsilon(0.05));

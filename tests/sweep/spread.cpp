@@ -1,4 +1,5 @@
-// What a fit leaves open, from a sweep over sets of its parameters: closed form for a linear quantity, bands of curves.
+// What a fit leaves open, from a sweep over sets of its parameters: closed form for a linear
+// quantity, bands of curves.
 #include "pipeline/sweep/spread.hpp"
 
 #include <doctest/doctest.h>
@@ -21,14 +22,16 @@ struct Sampled {
       const double z1 = random.normal(), z2 = random.normal();
       const double p1 = 1 + 0.2 * z1, p2 = 2 + 0.15 * z1 + std::sqrt(0.09 - 0.0225) * z2;
       force.values.push_back(3 * p1 + p2);
-      sets.push_back({{"parameter_a1", p1, "MPa"}, {"parameter_c1", p2, "MPa"}, {"parameter_d", 5, "1/MPa"}});
+      sets.push_back(
+          {{"parameter_a1", p1, "MPa"}, {"parameter_c1", p2, "MPa"}, {"parameter_d", 5, "1/MPa"}});
     }
   }
 };
 
 }  // namespace
 
-TEST_CASE("the spread of a linear quantity is that of its covariance, and what is left without a parameter its conditional one") {
+TEST_CASE(
+    "the spread of a linear quantity is that of its covariance, and what is left without a parameter its conditional one") {
   const Sampled s;
   const auto parameters = sampled_parameters(s.sets);
   REQUIRE(parameters.size() == 2);  // d does not vary
@@ -46,8 +49,8 @@ TEST_CASE("the spread of a linear quantity is that of its covariance, and what i
   CHECK(spread.parts[0].without == doctest::Approx(without_a1).epsilon(0.05));
   CHECK(spread.parts[1].without == doctest::Approx(without_c1).epsilon(0.05));
   CHECK(in_words(spread).find("if a1 were known") != std::string::npos);
-  CHECK(
-      spread_csv({spread}).starts_with("quantity,unit,mean,standard_deviation,lower_95,upper_95,without_a1,without_c1\nforce,N,"));
+  CHECK(spread_csv({spread}).starts_with(
+      "quantity,unit,mean,standard_deviation,lower_95,upper_95,without_a1,without_c1\nforce,N,"));
 }
 
 TEST_CASE("members without a value are left out of a spread, and one value has none") {
@@ -55,12 +58,13 @@ TEST_CASE("members without a value are left out of a spread, and one value has n
   const Spread some = spread_of({"force", "N", {1, std::nan(""), 3, 4}}, {p});
   CHECK(some.mean == doctest::Approx(8.0 / 3));
   CHECK(some.parts.at(0).without == doctest::Approx(0).epsilon(1e-6));
-  CHECK(std::isnan(spread_of({"force", "N", {1, std::nan(""), std::nan(""), std::nan("")}}, {p}).deviation));
+  CHECK(std::isnan(
+      spread_of({"force", "N", {1, std::nan(""), std::nan(""), std::nan("")}}, {p}).deviation));
 }
 
 TEST_CASE("a band is read between the rows of curves that have other places") {
-  const Column x0{"u_ind", "mm", {0, 1, 2}}, x1{"u_ind", "mm", {0, 0.5, 2}}, y0{"force", "N", {0, 2, 4}},
-      y1{"force", "N", {0, 2, 8}};
+  const Column x0{"u_ind", "mm", {0, 1, 2}}, x1{"u_ind", "mm", {0, 0.5, 2}},
+      y0{"force", "N", {0, 2, 4}}, y1{"force", "N", {0, 2, 8}};
   const Band band = band_of("force", {&x0, &x1}, {&y0, &y1});
   CHECK(band.mean.values[1] == doctest::Approx(3));  // 2 and 4
   CHECK(band.deviation.values[1] == doctest::Approx(std::sqrt(2)));

@@ -8,7 +8,9 @@
 using namespace langer;
 
 TEST_CASE("three members of a power law point to its limit and order") {
-  const auto f = [](double h, double order) { return 10.8 - 3 * std::pow(h, order); };
+  const auto f = [](double h, double order) {
+    return 10.8 - 3 * std::pow(h, order);
+  };
   for (double order : {1.0, 2.0, 3.5}) {
     const Limit limit = richardson(f(0.5, order), f(0.25, order), f(0.125, order), 2);
     CHECK(limit.value == doctest::Approx(10.8).epsilon(1e-12));
@@ -17,7 +19,8 @@ TEST_CASE("three members of a power law point to its limit and order") {
   }
 }
 
-TEST_CASE("members fitted with a given order leave their limit at length 0, and say how sure it is") {
+TEST_CASE(
+    "members fitted with a given order leave their limit at length 0, and say how sure it is") {
   const std::vector<double> h{0.125, 0.1, 0.0884, 0.0707};
   std::vector<double> values;
   for (double x : h) values.push_back(9.36 + 6.9 * x * x);
@@ -47,7 +50,8 @@ TEST_CASE("members that do not approach a limit give the finest and their last d
   CHECK(richardson(1, 2, 2, 2).uncertainty == 0);
 }
 
-TEST_CASE("the front holds what nothing beats in both, failures left out, and the cheapest is on it") {
+TEST_CASE(
+    "the front holds what nothing beats in both, failures left out, and the cheapest is on it") {
   const std::vector<double> cost{4, 1, 2, 3, NAN, 0.5, 2}, error{1, 8, 3, 5, 0, NAN, 2};
   CHECK(pareto_front(cost, error) == std::vector<int>{1, 6, 0});
   CHECK(cheapest(cost, error, 8) == 1);
@@ -56,14 +60,16 @@ TEST_CASE("the front holds what nothing beats in both, failures left out, and th
   CHECK(cheapest(cost, error, 0.5) == -1);
 }
 
-TEST_CASE("an error smaller than the uncertainty of the reference counts as large as that: nothing is told for less") {
+TEST_CASE(
+    "an error smaller than the uncertainty of the reference counts as large as that: nothing is told for less") {
   const std::vector<double> cost{1, 2, 3, 4, 5}, error{2, 0.4, 0.01, 0.2, NAN};
   std::vector<double> known;
   for (double e : error) known.push_back(known_error(e, 0.3));
   CHECK(known[2] == 0.3);
   CHECK(known[3] == 0.3);
   CHECK(std::isnan(known[4]));
-  CHECK(pareto_front(cost, known) == std::vector<int>{0, 1, 2});  // what costs more and is not known to be better is none
+  CHECK(pareto_front(cost, known) ==
+        std::vector<int>{0, 1, 2});  // what costs more and is not known to be better is none
   CHECK(cheapest(cost, known, 0.3) == 2);
   CHECK(cheapest(cost, known, 0.29) == -1);
   CHECK(cheapest(cost, error, 0.29) == 2);

@@ -28,11 +28,13 @@ TEST_CASE("J - 1 and E agree with F for large strains") {
   CHECK((2 * green_lagrange(H) + Mat3::Identity() - right_cauchy_green(F)).norm() <= 1e-15);
 }
 
-TEST_CASE("von Mises of uniaxial stress is its size, of pressure nothing, and rotations change neither") {
+TEST_CASE(
+    "von Mises of uniaxial stress is its size, of pressure nothing, and rotations change neither") {
   const Mat3 R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const Mat3 uniaxial = Vec3(-2.5, 0, 0).asDiagonal();
   CHECK(von_mises(uniaxial) == doctest::Approx(2.5).epsilon(1e-15));
-  CHECK(von_mises(R * uniaxial * R.transpose() + 7 * Mat3::Identity()) == doctest::Approx(2.5).epsilon(1e-14));
+  CHECK(von_mises(R * uniaxial * R.transpose() + 7 * Mat3::Identity()) ==
+        doctest::Approx(2.5).epsilon(1e-14));
   CHECK(von_mises(7 * Mat3::Identity()) == 0);
   Mat3 shear = Mat3::Zero();
   shear(0, 2) = shear(2, 0) = 1;

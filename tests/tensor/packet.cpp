@@ -8,7 +8,8 @@
 
 using namespace langer;
 
-TEST_CASE("cube roots of packets are those of the library to two units in the last place, near 1 and away from it") {
+TEST_CASE(
+    "cube roots of packets are those of the library to two units in the last place, near 1 and away from it") {
   for (double around : {1.0, 1e-3, 0.3, 0.985, 1.015, 2.0, 1e6})
     for (int step = -40; step <= 40; ++step) {
       Packet x;

@@ -1,5 +1,6 @@
-// Whether an indenter's force can be believed: every indenter is held against the whole boundary before the path and after every
-// increment (contact/surface_check.hpp). Records are those of the whole body; of a section those of its own mesh.
+// Whether an indenter's force can be believed: every indenter is held against the whole boundary
+// before the path and after every increment (contact/surface_check.hpp). Records are those of the
+// whole body; of a section those of its own mesh.
 //   refused  (Failure(config), at the contact's key) an indenter that starts inside; one smaller than the cells, or between their
 //            nodes deeper than they are apart; a node inside that is no candidate, by more than 1 % of what the body is pressed in;
 //            no reaction though a facet is entered, at the end of the path; one that jumps through the body in an increment
@@ -12,9 +13,9 @@
 #include <vector>
 
 #include "mechanics/contact/surface_check.hpp"
-#include "scene/model/scene.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/scene.hpp"
 
 namespace langer {
 
@@ -24,7 +25,8 @@ class ContactWatch {
   // refers to mesh and scene; throws Failure(config) where an indenter starts inside the body
   ContactWatch(const Mesh& mesh, const Scene& scene, Where where);
   void kept(const StepRecord& step);  // by an earlier run
-  // throws Failure(config); adds penetration_between_nodes, and with several indenters force_<name>, to the record's scalars
+  // throws Failure(config); adds penetration_between_nodes, and with several indenters
+  // force_<name>, to the record's scalars
   void look(StepRecord& record);
   void finish() const;  // at the end of the path; throws Failure(config)
 
@@ -41,12 +43,15 @@ class ContactWatch {
     bool touched = false;
     Vec3 c = Vec3::Zero();  // displacement of the indenter at the last look
     bool away = true;       // which found nothing that touches
-    double share() const;   // of the deepest entry between nodes in what the body is pressed in, at the largest force
+    double share() const;   // of the deepest entry between nodes in what the body is pressed in, at
+                            // the largest force
   };
   void keep(std::size_t contact, const SurfaceLook& look, double t, double force);
-  void refuse_jump(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& from, const Vec3& to, double t) const;
+  void refuse_jump(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& from,
+                   const Vec3& to, double t) const;
   void refuse_mid_path(const RigidContact& contact, const SurfaceLook& look, double t) const;
-  [[noreturn]] void refuse(const std::string& key, std::string found, std::string expected, std::string hint) const;
+  [[noreturn]] void refuse(const std::string& key, std::string found, std::string expected,
+                           std::string hint) const;
 
   const Mesh& mesh_;
   const Scene& scene_;

@@ -9,6 +9,8 @@
 
 namespace langer {
 
-inline std::string place_text(const Vec3& x) { return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]); }
+inline std::string place_text(const Vec3& x) {
+  return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", x[0], x[1], x[2]);
+}
 
 }  // namespace langer

@@ -14,7 +14,8 @@ namespace {
 
 // "3 Newton + 4 modified iterations": modified Newton keeps an older tangent
 std::string iterations(int newton, int modified) {
-  return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified) : fmt::format("{} iterations", newton);
+  return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified)
+                      : fmt::format("{} iterations", newton);
 }
 
 // of several indenters each by name: the sum of a pinch tells nothing
@@ -30,20 +31,23 @@ bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !s
 
 std::string sizes(const Run& run) {
   const Mesh& mesh = run.body.mesh();
-  return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), mesh.cell().names.shape, mesh.n_nodes(),
-                     run.body.dofs().n_free(), names(run.body.formulation())[static_cast<int>(run.body.formulation())]);
+  return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), mesh.cell().names.shape,
+                     mesh.n_nodes(), run.body.dofs().n_free(),
+                     names(run.body.formulation())[static_cast<int>(run.body.formulation())]);
 }
 
 std::string residual_of(const Assessment& found) {
   if (!found.admissible) return "not admissible";
-  return fmt::format("{:.1e}", found.reference > 0 ? found.residual / found.reference : found.residual);
+  return fmt::format("{:.1e}",
+                     found.reference > 0 ? found.residual / found.reference : found.residual);
 }
 
 // a line for each with -v, else `status` rewritten
-void say_iteration(const Voice& voice, double t, int n, const Assessment& found, const std::string& status) {
+void say_iteration(const Voice& voice, double t, int n, const Assessment& found,
+                   const std::string& status) {
   if (voice.verbose)
-    say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual_of(found), found.missing.empty() ? "" : "  ",
-             found.missing);
+    say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual_of(found),
+             found.missing.empty() ? "" : "  ", found.missing);
   else
     say_status(status);
 }
@@ -51,10 +55,14 @@ void say_iteration(const Voice& voice, double t, int n, const Assessment& found,
 }  // namespace
 
 Progress::Progress(const Voice& voice, const Run& run)
-    : voice_(voice), live_(rewrites(voice)), contact_(!run.scene.contacts.empty()), start_(wall_seconds()) {
+    : voice_(voice),
+      live_(rewrites(voice)),
+      contact_(!run.scene.contacts.empty()),
+      start_(wall_seconds()) {
   const Scene& scene = run.reduction.scene();
   const int families = scene.families();
-  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run), families == 0 ? "none" : std::to_string(families),
+  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run),
+             families == 0 ? "none" : std::to_string(families),
              scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()),
              run.shared_by() ? fmt::format("; {} ranks", run.shared_by()->n()) : "");
 }
@@ -69,15 +77,18 @@ std::string Progress::left(double t) const {
   if (at_end_of_path(t) || t <= from_) return "";
   const double seconds = (wall_seconds() - start_) * (1 - t) / (t - from_);
   if (seconds < 100) return fmt::format("  {:.0f} s remaining", seconds);
-  return seconds < 6000 ? fmt::format("  {:.0f} min remaining", seconds / 60) : fmt::format("  {:.1f} h remaining", seconds / 3600);
+  return seconds < 6000 ? fmt::format("  {:.0f} min remaining", seconds / 60)
+                        : fmt::format("  {:.1f} h remaining", seconds / 3600);
 }
 
 Problem Progress::watched(Problem problem, double t) {
   if (voice_.quiet || (!voice_.verbose && !live_)) return problem;
-  problem.assess = [this, t, n = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
+  problem.assess = [this, t, n = 0, assess = std::move(problem.assess)](const VecX& x,
+                                                                        bool with_tangent) mutable {
     const Assessment found = assess(x, with_tangent);
     say_iteration(voice_, t, n, found,
-                  fmt::format("step {:3d}  t {:.4f}  iteration {}  residual {}{}", step_ + 1, t, n, residual_of(found), left(t)));
+                  fmt::format("step {:3d}  t {:.4f}  iteration {}  residual {}{}", step_ + 1, t, n,
+                              residual_of(found), left(t)));
     ++n;
     return found;
   };
@@ -88,12 +99,16 @@ RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of)
   const std::string who = fmt::format("errors: scene {} of {}", n, of);
   voice.say("{}, {}", who, sizes(run));
   RunListener listener;
-  listener.watched = [voice, who, seen = !voice.quiet && (voice.verbose || rewrites(voice))](Problem problem, double t) {
-    problem.assess = [voice, who, seen, t, k = 0, assess = std::move(problem.assess)](const VecX& x, bool with_tangent) mutable {
+  listener.watched = [voice, who, seen = !voice.quiet && (voice.verbose || rewrites(voice))](
+                         Problem problem, double t) {
+    problem.assess = [voice, who, seen, t, k = 0, assess = std::move(problem.assess)](
+                         const VecX& x, bool with_tangent) mutable {
       if (interrupted()) return Assessment{.admissible = false, .missing = "stopped"};
       const Assessment found = assess(x, with_tangent);
       if (seen)
-        say_iteration(voice, t, k, found, fmt::format("{}  t {:.4f}  iteration {}  residual {}", who, t, k, residual_of(found)));
+        say_iteration(
+            voice, t, k, found,
+            fmt::format("{}  t {:.4f}  iteration {}  residual {}", who, t, k, residual_of(found)));
       ++k;
       return found;
     };
@@ -107,11 +122,14 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (voice_.quiet) return;
   bool unstable = false;
   std::string line = fmt::format("step {:3d}  t {:.4f}", step_, record.t);
-  if (contact_) line += fmt::format("  u_ind {:.4f} mm  force {} N", record.u_ind.norm(), forces_of(record));
-  line += fmt::format("  {}  residual {:.1e}{}", iterations(report.iterations, report.again), record.residual, left(record.t));
+  if (contact_)
+    line += fmt::format("  u_ind {:.4f} mm  force {} N", record.u_ind.norm(), forces_of(record));
+  line += fmt::format("  {}  residual {:.1e}{}", iterations(report.iterations, report.again),
+                      record.residual, left(record.t));
   if (live_) say_status(line);
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
-  if (const auto stiffness = record.scalars.find("shear_stiffness_min"); stiffness != record.scalars.end()) {
+  if (const auto stiffness = record.scalars.find("shear_stiffness_min");
+      stiffness != record.scalars.end()) {
     const auto signs = record.scalars.find("negative_eigenvalues");
     const double negative = signs == record.scalars.end() ? 0 : signs->second;
     line += fmt::format("  min acoustic eigenvalue {:.3g} MPa", stiffness->second);
@@ -124,8 +142,10 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
     int stick = 0, slip = 0;
     for (const auto& [name, contact] : record.contacts)
       for (int status : contact.status) stick += status == 1, slip += status == 2;
-    line += fmt::format("  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick, slip,
-                        record.scalars.at("penetration"), record.scalars.at("cone"), record.scalars.at("complementarity"));
+    line += fmt::format(
+        "  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick,
+        slip, record.scalars.at("penetration"), record.scalars.at("cone"),
+        record.scalars.at("complementarity"));
   }
   if (!live_ || unstable) say_line(line);
 }
@@ -135,7 +155,8 @@ void Progress::jumping(double t, int equilibria) {
   if (equilibria == 0) said_ = wall_seconds();
   if (wall_seconds() - said_ < between) return;
   said_ = wall_seconds();
-  voice_.say("t = {:.6g}: bonds of the adhesion let go in a jump, {} equilibria followed so far", t, equilibria);
+  voice_.say("t = {:.6g}: bonds of the adhesion let go in a jump, {} equilibria followed so far", t,
+             equilibria);
 }
 
 void Progress::failed(double t, const SolveReport& report) const {
@@ -144,14 +165,15 @@ void Progress::failed(double t, const SolveReport& report) const {
 
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   const Statics::Cost cost = statics.cost();
-  voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps, iterations(path.iterations, path.again), path.cut_backs,
-             1e-6 * peak_bytes());
+  voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps,
+             iterations(path.iterations, path.again), path.cut_backs, 1e-6 * peak_bytes());
   voice_.say(
       "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
       "files {:.2f}",
       cost.analysis, cost.assembly, cost.factor,
-      1e-9 * statics.size().flops * static_cast<double>(cost.factorizations) / std::max(cost.factor, 1e-9), cost.solve,
-      cost.contact, files);
+      1e-9 * statics.size().flops * static_cast<double>(cost.factorizations) /
+          std::max(cost.factor, 1e-9),
+      cost.solve, cost.contact, files);
   if (statics.n_indefinite() > 0)
     voice_.say(
         "{} tangents were not positive definite: without its constraints the body is unstable in some direction "

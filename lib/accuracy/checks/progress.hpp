@@ -1,5 +1,6 @@
-// What langer-solve says while it works, on stderr: sizes first, one line per step, costs last. On a terminal the steps are one
-// line that is rewritten, iteration by iteration; with `verbose` every iteration has a line, there and elsewhere.
+// What langer-solve says while it works, on stderr: sizes first, one line per step, costs last. On
+// a terminal the steps are one line that is rewritten, iteration by iteration; with `verbose` every
+// iteration has a line, there and elsewhere.
 #pragma once
 
 #include "core/base/voice.hpp"
@@ -13,9 +14,12 @@ class Progress {
   void resumed(int steps, double t);
   Problem watched(Problem problem, double t);  // tells each assessment
   void accepted(const StepRecord& record, const SolveReport& report);
-  void jumping(double t, int equilibria);  // says so now and then: a jump may take longer than the steps before it
+  void jumping(
+      double t,
+      int equilibria);  // says so now and then: a jump may take longer than the steps before it
   void failed(double t, const SolveReport& report) const;
-  void finished(const PathReport& path, const Statics& statics, double files) const;  // files: CPU seconds of writing
+  void finished(const PathReport& path, const Statics& statics,
+                double files) const;  // files: CPU seconds of writing
 
  private:
   std::string left(double t) const;
@@ -28,8 +32,8 @@ class Progress {
   double said_ = 0;  // seconds, when a jump was told of
 };
 
-// Goes along with the n-th scene of those that an estimate solves: a line for each, its iterations as above. A signal ends it within an
-// iteration: nothing of it is kept.
+// Goes along with the n-th scene of those that an estimate solves: a line for each, its iterations
+// as above. A signal ends it within an iteration: nothing of it is kept.
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of);
 
 }  // namespace langer

@@ -43,7 +43,9 @@ bool Recording::with_other_settings() const {
 
 RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::string& loose) {
   if (!loose.empty()) voice.say("{}: only contact holds it", loose);
-  if (with_other_settings()) voice.say("these steps were made with other settings: /provenance/earlier of the result holds them");
+  if (with_other_settings())
+    voice.say(
+        "these steps were made with other settings: /provenance/earlier of the result holds them");
   const RunEnd end = along_the_path(progress);
   if (end.at == RunEnd::At::not_homogeneous) return end;
   for (const std::string& line : watch_.warnings()) voice.warn(line);
@@ -55,10 +57,18 @@ RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::stri
 
 RunEnd Recording::along_the_path(Progress& progress) {
   RunListener listener;
-  listener.watched = [&](Problem problem, double t) { return progress.watched(std::move(problem), t); };
-  listener.jumping = [&](double t, int equilibria) { progress.jumping(t, equilibria); };
-  listener.failed = [&](double t, const SolveReport& report) { progress.failed(t, report); };
-  listener.of_part = [&](StepRecord& record) { return watch_.of_part(record); };
+  listener.watched = [&](Problem problem, double t) {
+    return progress.watched(std::move(problem), t);
+  };
+  listener.jumping = [&](double t, int equilibria) {
+    progress.jumping(t, equilibria);
+  };
+  listener.failed = [&](double t, const SolveReport& report) {
+    progress.failed(t, report);
+  };
+  listener.of_part = [&](StepRecord& record) {
+    return watch_.of_part(record);
+  };
   listener.of_whole = [&](StepRecord& record, const SolveReport& report) {
     if (auto refused = watch_.of_whole(record, report)) {
       refused->hint += fmt::format("; kept: the {} steps before in {}.part", n_steps(), output_);
@@ -84,40 +94,50 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   };
   if (end.at == RunEnd::At::listener)
     fail(Exit::not_converged, watch_.unstable(), "a stable state (on_unstable: stop)",
-         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", n_steps(), output_));
+         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", n_steps(),
+                     output_));
   if (end.at == RunEnd::At::signal)
     fail(exit_code_of(interrupted()),
-         fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()), end.path.t, n_steps()), "",
-         fmt::format("kept: {}.part (the next run continues from there)", output_));
+         fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()),
+                     end.path.t, n_steps()),
+         "", fmt::format("kept: {}.part (the next run continues from there)", output_));
   const char* cure =
       run_.body.loads().follow()
           ? "the next run continues from there); the tangent of a pressure whose rim is free is not symmetric, and Newton's "
             "method has the symmetric part of it: solver: {kinsol: {strategy: picard}} goes further, and begins anew"
           : "the next run continues from there); try path.smallest or solver.newton.iterations";
   if (end.at == RunEnd::At::no_equilibrium)
-    fail(Exit::not_converged,
-         fmt::format(
-             "stopped at t = {:.6g} after {} steps: {}{}{}{}; smallest increment reached", end.path.t, n_steps(), end.path.why,
-             run_.statics.n_unstable() > 0 ? "; the body itself gives way (tangent not positive definite)" : "",
-             watch_.last_said().empty() ? "" : "; at the last state " + watch_.last_said(), loose.empty() ? "" : "; " + loose),
-         "",
-         fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
-                     loose.empty()
-                         ? cure
-                         : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
-                           "turning, one beside it, where contact does not: that begins anew"));
+    fail(
+        Exit::not_converged,
+        fmt::format("stopped at t = {:.6g} after {} steps: {}{}{}{}; smallest increment reached",
+                    end.path.t, n_steps(), end.path.why,
+                    run_.statics.n_unstable() > 0
+                        ? "; the body itself gives way (tangent not positive definite)"
+                        : "",
+                    watch_.last_said().empty() ? "" : "; at the last state " + watch_.last_said(),
+                    loose.empty() ? "" : "; " + loose),
+        "",
+        fmt::format(
+            "kept: {} steps in {}.part ({}", n_steps(), output_,
+            loose.empty()
+                ? cure
+                : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
+                  "turning, one beside it, where contact does not: that begins anew"));
 }
 
 void Recording::stopped_in_estimate() const {
   throw Failure(
       exit_code_of(interrupted()),
-      Error{{},
-            "",
-            fmt::format("stopped by {} while its errors were estimated; the path is at its end", signal_name(interrupted())),
-            "",
-            fmt::format("kept: all {} steps in {}.part (the next run goes on with the estimate, --set estimate=none ends "
-                        "without it)",
-                        n_steps(), output_)});
+      Error{
+          {},
+          "",
+          fmt::format("stopped by {} while its errors were estimated; the path is at its end",
+                      signal_name(interrupted())),
+          "",
+          fmt::format(
+              "kept: all {} steps in {}.part (the next run goes on with the estimate, --set estimate=none ends "
+              "without it)",
+              n_steps(), output_)});
 }
 
 }  // namespace langer

@@ -1,39 +1,43 @@
-// A run whose steps are kept in solution.h5 as they are made, and which goes on where one of the same task was stopped.
+// A run whose steps are kept in solution.h5 as they are made, and which goes on where one of the
+// same task was stopped.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/run/cell_stress.hpp"
-#include "scene/run/step_forces.hpp"
 #include "accuracy/checks/progress.hpp"
 #include "accuracy/checks/run_watch.hpp"
+#include "scene/run/cell_stress.hpp"
+#include "scene/run/step_forces.hpp"
 
 namespace langer {
 
 // Somebody who goes beside the run and adds to its records; each may be empty.
 struct Companion {
-  std::function<void(const StepRecord& whole)> kept = {};       // of an earlier run, one after the other
-  std::function<RunListener(RunListener listener)> along = {};  // who follows the run in place of `listener`
+  std::function<void(const StepRecord& whole)> kept = {};  // of an earlier run, one after the other
+  std::function<RunListener(RunListener listener)> along =
+      {};  // who follows the run in place of `listener`
 };
 
 class Recording {
  public:
-  // Refers to run and watch, which are put after the last step that is kept. Throws Failure(input) where the file cannot be written.
-  Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
-            Companion companion = {});
+  // Refers to run and watch, which are put after the last step that is kept. Throws Failure(input)
+  // where the file cannot be written.
+  Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity,
+            const std::string& output, Companion companion = {});
 
   int n_steps() const { return file_.n_steps(); }
   bool continues() const { return resumed_.has_value(); }
 
-  // To the end of the path; what the watch warns of is said. Every step is written before the next one begins.
-  // loose: motions that only contact holds, in words.
-  // Throws Failure(config, not_converged) for a state that is not to be kept, Failure(not_converged) or one with the signal's code where
-  // the end was not reached.
+  // To the end of the path; what the watch warns of is said. Every step is written before the next
+  // one begins. loose: motions that only contact holds, in words. Throws Failure(config,
+  // not_converged) for a state that is not to be kept, Failure(not_converged) or one with the
+  // signal's code where the end was not reached.
   RunEnd follow(const Voice& voice, Progress& progress, const std::string& loose);
   double seconds() const { return seconds_; }  // of CPU, for writing
-  // at each step, those that were kept too; empty where the config asks for no estimate by refinement
+  // at each step, those that were kept too; empty where the config asks for no estimate by
+  // refinement
   const std::vector<StepForces>& forces() const { return forces_; }
 
   [[noreturn]] void stopped_in_estimate() const;

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/post/nodal_fields.hpp"
-#include "core/tensor/kinematics.hpp"
 #include "accuracy/checks/place_text.hpp"
+#include "core/tensor/kinematics.hpp"
+#include "results/post/nodal_fields.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double worth_saying = 0.02;      // error of the forces by the formulation, which is known to a factor of three
+constexpr double worth_saying =
+    0.02;  // error of the forces by the formulation, which is known to a factor of three
 constexpr double known = 0.3;              // from here on only that it is large
 constexpr double largest_residual = 1e-3;  // beside the reactions
 
@@ -45,15 +46,17 @@ ResultWatch::ResultWatch(const Equilibrium& body)
 void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
   t_ = t, residual_ = report.residual;
   reactions_ = std::max(reactions_, report.reference), asked_ = std::max(asked_, report.asked);
-  if (report.tolerance > report.asked && report.tolerance > raised_) raised_ = report.tolerance, raised_at_ = t;
+  if (report.tolerance > report.asked && report.tolerance > raised_)
+    raised_ = report.tolerance, raised_at_ = t;
   if (may_lock_)
     if (const Locking now = locking(body_, u); now.energy > locking_.energy) locking_ = now;
   if (has_chains_) look_at_chains(u);
   if (body_.viscous()) look_at_branches();
 }
 
-// A cycle that ends in a hold costs the work against the branches and nothing else (element/viscous_points.hpp): what is negative
-// beyond the error of the increments is no dissipation.
+// A cycle that ends in a hold costs the work against the branches and nothing else
+// (element/viscous_points.hpp): what is negative beyond the error of the increments is no
+// dissipation.
 void ResultWatch::look_at_branches() {
   const ViscousPoints& points = *body_.memory();
   double volume = 0, given = 0, worst = 0;
@@ -77,35 +80,42 @@ void ResultWatch::look_at_chains(const VecX& u) {
     const ElementNodes q = body_.element_displacements(u, e);
     for (int g = 0; g < body_.geometry(e).n_gauss(); ++g) {
       const Mat3 H = displacement_gradient(q, body_.geometry(e).dN_dX[g]);
-      const double stretch = (Mat3::Identity() + H).norm() / std::sqrt(3.0) / std::cbrt(1 + volume_change(H));
-      if (stretch <= law->locking_stretch || stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300))
+      const double stretch =
+          (Mat3::Identity() + H).norm() / std::sqrt(3.0) / std::cbrt(1 + volume_change(H));
+      if (stretch <= law->locking_stretch ||
+          stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300))
         continue;
-      chains_ = stretch, locking_stretch_ = law->locking_stretch, chains_place_ = gauss_position(body_.mesh(), e, g);
+      chains_ = stretch, locking_stretch_ = law->locking_stretch,
+      chains_place_ = gauss_position(body_.mesh(), e, g);
     }
   }
 }
 
 std::optional<Error> ResultWatch::refusal() const {
   if (!(residual_ > largest_residual * reactions_) || !(residual_ > asked_)) return std::nullopt;
-  return Error{{},
-               "",
-               fmt::format("at t = {:.6g} the residual is {:.2g} N beside reactions of {:.3g} N: with {} the rounding of the "
-                           "displacements leaves forces of this size",
-                           t_, residual_, reactions_, stiffness()),
-               fmt::format("a residual of at most {:g} % of the reactions", 100 * largest_residual),
-               fmt::format("material.volume.{}.{} leaves a residual as small as asked",
-                           std::visit([](const auto& law) { return law.key; }, stiffest_), soft_enough())};
+  return Error{
+      {},
+      "",
+      fmt::format(
+          "at t = {:.6g} the residual is {:.2g} N beside reactions of {:.3g} N: with {} the rounding of the "
+          "displacements leaves forces of this size",
+          t_, residual_, reactions_, stiffness()),
+      fmt::format("a residual of at most {:g} % of the reactions", 100 * largest_residual),
+      fmt::format("material.volume.{}.{} leaves a residual as small as asked",
+                  std::visit([](const auto& law) { return law.key; }, stiffest_), soft_enough())};
 }
 
 std::string ResultWatch::stiffness() const {
-  if (const auto* law = std::get_if<QuadraticVolume>(&stiffest_)) return fmt::format("d = {:g}", law->d);
+  if (const auto* law = std::get_if<QuadraticVolume>(&stiffest_))
+    return fmt::format("d = {:g}", law->d);
   return fmt::format("bulk_modulus = {:g}", bulk_modulus(stiffest_));
 }
 
 // rounding is inverse to d = 2/bulk_modulus
 std::string ResultWatch::soft_enough() const {
   const auto* law = std::get_if<QuadraticVolume>(&stiffest_);
-  const double d = rounded_up((law ? law->d : 2 / bulk_modulus(stiffest_)) * raised_ / std::max(asked_, 1e-300));
+  const double d =
+      rounded_up((law ? law->d : 2 / bulk_modulus(stiffest_)) * raised_ / std::max(asked_, 1e-300));
   return law ? fmt::format("d: {:.0e}", d) : fmt::format("bulk_modulus: {:.0e}", 2 / d);
 }
 
@@ -115,28 +125,31 @@ std::vector<std::string> ResultWatch::warnings() const {
   if (share > worth_saying) {
     const bool soft = locking_.share < 0;
     const CellType type = body_.mesh().type;
-    lines.push_back(
-        fmt::format("formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
-                    names(body_.formulation())[static_cast<int>(body_.formulation())], names(type)[static_cast<int>(type)],
-                    soft ? "the volume changes within cells, which nothing opposes" : "the cells lock", place_text(locking_.place),
-                    soft ? "small" : "large", share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
-                    names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
+    lines.push_back(fmt::format(
+        "formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
+        names(body_.formulation())[static_cast<int>(body_.formulation())],
+        names(type)[static_cast<int>(type)],
+        soft ? "the volume changes within cells, which nothing opposes" : "the cells lock",
+        place_text(locking_.place), soft ? "small" : "large",
+        share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
+        names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
   }
   if (raised_ > asked_)
-    lines.push_back(
-        fmt::format("the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
-                    "with {} rounding allows no less; {} leaves what was asked",
-                    asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), stiffness(), soft_enough()));
+    lines.push_back(fmt::format(
+        "the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
+        "with {} rounding allows no less; {} leaves what was asked",
+        asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), stiffness(),
+        soft_enough()));
   if (given_ > 1e-4)
     lines.push_back(fmt::format(
         "the dissipation is negative in {:.2g} % of the volume at t = {:.4g}, most near {}: along such paths the linear "
         "evolution of the viscous branches gives work for nothing, and its stresses mean little",
         100 * given_, given_at_, place_text(given_place_)));
   if (chains_ > 0)
-    lines.push_back(
-        fmt::format("the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
-                    "series of five terms that the law is goes on there, the chains do not",
-                    chains_, place_text(chains_place_), locking_stretch_));
+    lines.push_back(fmt::format(
+        "the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
+        "series of five terms that the law is goes on there, the chains do not",
+        chains_, place_text(chains_place_), locking_stretch_));
   return lines;
 }
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/checks/locking.hpp"
 #include "core/base/error.hpp"
 #include "mechanics/nonlinear/newton.hpp"
-#include "accuracy/checks/locking.hpp"
 
 namespace langer {
 

@@ -7,7 +7,11 @@
 namespace langer {
 
 RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
-    : run_(run), when_(config.stability), on_unstable_(config.on_unstable), stability_(std::move(tests)), result_(run.body) {
+    : run_(run),
+      when_(config.stability),
+      on_unstable_(config.on_unstable),
+      stability_(std::move(tests)),
+      result_(run.body) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
   if (Equilibrium* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
     StaticsOptions options;
@@ -21,7 +25,10 @@ void RunWatch::kept(const StepRecord& step) {
   if (contact_) contact_->kept(step);
   if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end())
     last_said_ =
-        found->second < 0 ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second) : "";
+        found->second < 0
+            ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)",
+                          found->second)
+            : "";
 }
 
 std::optional<StabilityReport> RunWatch::looked(const StepRecord& record) {
@@ -66,7 +73,9 @@ std::vector<std::string> RunWatch::contact_warnings() const {
   return contact_->warnings();
 }
 
-std::vector<Summary> RunWatch::contact_summary() const { return contact_ ? contact_->summary() : std::vector<Summary>{}; }
+std::vector<Summary> RunWatch::contact_summary() const {
+  return contact_ ? contact_->summary() : std::vector<Summary>{};
+}
 
 std::vector<Summary> RunWatch::stability_summary() const {
   return when_ == StabilityCheck::off ? std::vector<Summary>{} : stability_.summary();

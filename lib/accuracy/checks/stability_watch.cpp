@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "accuracy/checks/place_text.hpp"
 #include "mechanics/element/point_check.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "results/post/nodal_fields.hpp"
 #include "results/store/material_file.hpp"
-#include "accuracy/checks/place_text.hpp"
 
 namespace langer {
 
@@ -23,7 +23,8 @@ constexpr std::size_t refined = 24;  // points looked at exactly
 double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) {
   double most = (F.squaredNorm() - 3) / std::max(range.I1_bar - 3, 1e-12);
   for (std::size_t k = 0; k < a.size() && k < range.I4_bar.size(); ++k)
-    if (const double I4 = (F * a[k]).squaredNorm(); I4 > 1) most = std::max(most, (I4 - 1) / std::max(range.I4_bar[k] - 1, 1e-12));
+    if (const double I4 = (F * a[k]).squaredNorm(); I4 > 1)
+      most = std::max(most, (I4 - 1) / std::max(range.I4_bar[k] - 1, 1e-12));
   return most;
 }
 
@@ -38,12 +39,15 @@ bool lower(const Low& x, const Low& y) { return x.stiffness < y.stiffness; }
 // among the lowest so far: a heap, the highest of them in front
 void keep_lowest(std::vector<Low>& lowest, const Low& one) {
   if (lowest.size() == refined && !lower(one, lowest.front())) return;
-  if (lowest.size() == refined) std::pop_heap(lowest.begin(), lowest.end(), lower), lowest.pop_back();
+  if (lowest.size() == refined)
+    std::pop_heap(lowest.begin(), lowest.end(), lower), lowest.pop_back();
   lowest.push_back(one), std::push_heap(lowest.begin(), lowest.end(), lower);
 }
 
 // its volume should not change visibly at stresses of the order of its shear modulus
-bool nearly_incompressible(const Material& material) { return bulk_modulus(material) > 1000 * std::abs(shear_modulus(material)); }
+bool nearly_incompressible(const Material& material) {
+  return bulk_modulus(material) > 1000 * std::abs(shear_modulus(material));
+}
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -59,14 +63,17 @@ StudyRecord study_from(const std::string& material_file) {
 std::string in_words(const StabilityReport& r) {
   std::string words;
   const int negative = r.signature ? r.signature->negative : 0;
-  if (negative > 0) words = fmt::format("the constrained tangent has {} negative eigenvalue{}", negative, negative > 1 ? "s" : "");
+  if (negative > 0)
+    words = fmt::format("the constrained tangent has {} negative eigenvalue{}", negative,
+                        negative > 1 ? "s" : "");
   if (negative < 0) words = "the constrained tangent is singular";
   if (std::isnan(r.stiffness))
-    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ", r.cell, place_text(r.place));
+    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ",
+                         r.cell, place_text(r.place));
   else if (r.material_unstable())
-    words +=
-        fmt::format("{}strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue {:.3g} MPa in cell {} at {})",
-                    words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, place_text(r.place));
+    words += fmt::format(
+        "{}strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue {:.3g} MPa in cell {} at {})",
+        words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, place_text(r.place));
   return words;
 }
 
@@ -88,14 +95,18 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
   PointCheck points;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const auto a = body.fibres(e);
-    check_points(body.material(e), body.geometry(e), a, body.element_displacements(state.u, e), points);
+    check_points(body.material(e), body.geometry(e), a, body.element_displacements(state.u, e),
+                 points);
     double cell_volume = 0;
     const int n_gauss = body.geometry(e).n_gauss();
-    for (int g = 0; g < n_gauss; ++g) cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
+    for (int g = 0; g < n_gauss; ++g)
+      cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
     if (nearly_incompressible(body.material(e)) && std::abs(cell_volume - 1) > report.volume_change)
-      report.volume_change = std::abs(cell_volume - 1), report.volume_place = gauss_position(body.mesh(), e, 0);
+      report.volume_change = std::abs(cell_volume - 1),
+      report.volume_place = gauss_position(body.mesh(), e, 0);
     for (int g = 0; g < n_gauss; ++g) {
-      const double w = body.geometry(e).w[g], s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
+      const double w = body.geometry(e).w[g],
+                   s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
       volume += w;
       if (s < 0) report.lost += w;
       keep_lowest(lowest, {s, e, g, points.F[g]});
@@ -103,32 +114,38 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
       const Mat3 F = points.F[g] / std::cbrt(points.J[g]);
       for (const Vec3& direction : a) {
         const double stretch = (F * direction).norm();
-        report.fibre_min = std::min(report.fibre_min, stretch), report.fibre_max = std::max(report.fibre_max, stretch);
+        report.fibre_min = std::min(report.fibre_min, stretch),
+        report.fibre_max = std::max(report.fibre_max, stretch);
       }
       if (!study_.range) continue;
       const double far = excess(*study_.range, F, a);
       if (far > slack) report.outside += w;
-      if (far > report.farthest) report.farthest = far, report.farthest_place = gauss_position(body.mesh(), e, g);
+      if (far > report.farthest)
+        report.farthest = far, report.farthest_place = gauss_position(body.mesh(), e, g);
     }
   }
   report.lost /= volume, report.outside /= volume;
   std::sort(lowest.begin(), lowest.end(), lower);
   report.stiffness = INFINITY;
   for (const Low& point : lowest) {
-    const double s = smallest_shear_stiffness(body.material(point.cell), point.F, body.fibres(point.cell)).value;
+    const double s =
+        smallest_shear_stiffness(body.material(point.cell), point.F, body.fibres(point.cell)).value;
     if (std::isfinite(s) && s >= report.stiffness) continue;
-    report.stiffness = s, report.cell = point.cell, report.place = gauss_position(body.mesh(), point.cell, point.point);
+    report.stiffness = s, report.cell = point.cell,
+    report.place = gauss_position(body.mesh(), point.cell, point.point);
     if (!std::isfinite(s)) break;
   }
   // the grid may have missed a loss that the exact look has found
-  if (report.stiffness < 0 && report.lost == 0) report.lost = body.geometry(report.cell).w[0] / volume;
+  if (report.stiffness < 0 && report.lost == 0)
+    report.lost = body.geometry(report.cell).w[0] / volume;
 
   const VecX reactions = statics.reactions();
-  for (const Prescribed& p : body.dofs().prescribed) report.driving_force += reactions[p.dof] * p.rate(state.t);
-  const bool straight =
-      std::all_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(), [](const auto& p) { return p.in_proportion(); });
-  if (straight &&
-      statics.contacts().empty()) {  // along a straight path; a body that slides under an indenter has other reasons to resist less
+  for (const Prescribed& p : body.dofs().prescribed)
+    report.driving_force += reactions[p.dof] * p.rate(state.t);
+  const bool straight = std::all_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(),
+                                    [](const auto& p) { return p.in_proportion(); });
+  if (straight && statics.contacts().empty()) {  // along a straight path; a body that slides under
+                                                 // an indenter has other reasons to resist less
     const double scale = std::max(std::abs(report.driving_force), std::abs(force_before_));
     report.falling = t_before_ >= 0 && report.driving_force < force_before_ - 1e-9 * scale;
   }
@@ -144,7 +161,8 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
   s["volume_change"] = r.volume_change;
   s["unstable_volume"] = r.lost;
-  if (r.fibre_max > 0) s["isochoric_fibre_stretch_min"] = r.fibre_min, s["isochoric_fibre_stretch_max"] = r.fibre_max;
+  if (r.fibre_max > 0)
+    s["isochoric_fibre_stretch_min"] = r.fibre_min, s["isochoric_fibre_stretch_max"] = r.fibre_max;
   if (study_.range) s["outside_fit"] = r.outside;
   s["driving_force"] = r.driving_force;
 }
@@ -158,18 +176,20 @@ void StabilityWatch::Spans::add(double t, bool here) {
 std::string StabilityWatch::Spans::text() const {
   std::string words;
   for (const auto& [from, to] : of)
-    words +=
-        (words.empty() ? "t = " : ", ") + (from == to ? fmt::format("{:.4g}", from) : fmt::format("{:.4g} to {:.4g}", from, to));
+    words += (words.empty() ? "t = " : ", ") +
+             (from == to ? fmt::format("{:.4g}", from) : fmt::format("{:.4g} to {:.4g}", from, to));
   return words;
 }
 
 void StabilityWatch::keep(const StabilityReport& r) {
   last_ = r;
   steps_unstable_ += r.equilibrium_unstable() || r.material_unstable();
-  if (r.equilibrium_unstable()) most_negative_ = std::max(most_negative_, std::abs(r.signature->negative));
+  if (r.equilibrium_unstable())
+    most_negative_ = std::max(most_negative_, std::abs(r.signature->negative));
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
-  if (r.volume_change > volume_change_) volume_change_ = r.volume_change, volume_place_ = r.volume_place;
+  if (r.volume_change > volume_change_)
+    volume_change_ = r.volume_change, volume_place_ = r.volume_place;
   outside_.add(r.t, r.outside > 0);
   falling_.add(r.t, r.falling);
 }
@@ -181,32 +201,34 @@ std::vector<std::string> StabilityWatch::warnings() const {
         "whether equilibria are stable was not looked at: the tangent is solved iteratively; solver.newton.linear: direct tells, "
         "stability: off asks for nothing");
   if (!outside_.of.empty())
-    lines.push_back(
-        fmt::format("{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
-                    "as far near {}; first at t = {:.4g}",
-                    percent(last_.outside), last_.farthest, place_text(last_.farthest_place), outside_.of[0][0]));
+    lines.push_back(fmt::format(
+        "{} of the volume is deformed beyond the tests that the material was fitted to, most {:.3g} times "
+        "as far near {}; first at t = {:.4g}",
+        percent(last_.outside), last_.farthest, place_text(last_.farthest_place),
+        outside_.of[0][0]));
   if (!equilibrium_.of.empty())
-    lines.push_back(
-        fmt::format("unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
-                    "leave these states",
-                    equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : ""));
+    lines.push_back(fmt::format(
+        "unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
+        "leave these states",
+        equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : ""));
   if (!material_.of.empty() && std::isnan(last_.stiffness))
-    lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(), place_text(last_.place)));
+    lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(),
+                                place_text(last_.place)));
   else if (!material_.of.empty())
-    lines.push_back(
-        fmt::format("unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
-                    "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
-                    material_.text(), percent(last_.lost), last_.stiffness, place_text(last_.place)));
+    lines.push_back(fmt::format(
+        "unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
+        "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
+        material_.text(), percent(last_.lost), last_.stiffness, place_text(last_.place)));
   if (volume_change_ > 0.02)
-    lines.push_back(
-        fmt::format("a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
-                    "come near the bulk modulus; look at c2 and at the strains there",
-                    place_text(volume_place_), percent(volume_change_)));
+    lines.push_back(fmt::format(
+        "a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
+        "come near the bulk modulus; look at c2 and at the strains there",
+        place_text(volume_place_), percent(volume_change_)));
   if (!falling_.of.empty())
-    lines.push_back(
-        fmt::format("the driving force falls at {}: held by displacements these states may be stable, under the same "
-                    "forces as dead loads they are not",
-                    falling_.text()));
+    lines.push_back(fmt::format(
+        "the driving force falls at {}: held by displacements these states may be stable, under the same "
+        "forces as dead loads they are not",
+        falling_.text()));
   return lines;
 }
 
@@ -214,7 +236,8 @@ std::vector<Summary> StabilityWatch::summary() const {
   std::vector<Summary> all{{"shear_stiffness_min", last_.stiffness, "MPa"},
                            {"unstable_volume", last_.lost, "-"},
                            {"steps_unstable", static_cast<double>(steps_unstable_), "-"}};
-  if (signs_.value_or(true)) all.insert(all.begin(), {"negative_eigenvalues", static_cast<double>(most_negative_), "-"});
+  if (signs_.value_or(true))
+    all.insert(all.begin(), {"negative_eigenvalues", static_cast<double>(most_negative_), "-"});
   return all;
 }
 

@@ -1,4 +1,5 @@
-// Whether what the solver accepted can be trusted: stability of the equilibrium and of the material, and the range of the tests.
+// Whether what the solver accepted can be trusted: stability of the equilibrium and of the
+// material, and the range of the tests.
 //   tangent       signs of the constrained tangent's eigenvalues (Signature in solve/statics.hpp)
 //   material      smallest shear stiffness over all Gauss points (material/ellipticity.hpp): first on a grid of wave normals
 //                 (element/point_check.hpp), then exactly where it is lowest
@@ -28,9 +29,11 @@ struct StabilityReport {
   Vec3 place = Vec3::Zero();
   double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
   Vec3 volume_place = Vec3::Zero();
-  double lost = 0;                                                            // share of the volume with a negative one
-  double fibre_min = std::numeric_limits<double>::infinity(), fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
-  double outside = 0, farthest = 0;  // of the fitted range: share of the volume, largest excess (1: at its end)
+  double lost = 0;  // share of the volume with a negative one
+  double fibre_min = std::numeric_limits<double>::infinity(),
+         fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
+  double outside = 0,
+         farthest = 0;  // of the fitted range: share of the volume, largest excess (1: at its end)
   Vec3 farthest_place = Vec3::Zero();
   double driving_force = 0;  // [N mm] per unit of t
   bool falling = false;      // ... less than one step before; looked at without contact only
@@ -49,7 +52,8 @@ class StabilityWatch {
   void add_to(StepRecord& record, const StabilityReport& report) const;
   void keep(const StabilityReport& report);  // for the warnings at the end
 
-  // of the whole path: from when to when something was unstable, and how much of the body where at the end
+  // of the whole path: from when to when something was unstable, and how much of the body where at
+  // the end
   std::vector<std::string> warnings() const;
   std::vector<Summary> summary() const;
 
@@ -67,7 +71,8 @@ class StabilityWatch {
   double volume_change_ = 0;
   Vec3 volume_place_ = Vec3::Zero();
   int most_negative_ = 0, steps_unstable_ = 0;
-  std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that all steps have the same columns
+  std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that
+                               // all steps have the same columns
   Spans equilibrium_, material_, outside_, falling_;
 };
 

@@ -18,15 +18,18 @@ std::vector<int> touched_cells(const Run& run, const StepRecord& last) {
   }
   std::vector<int> cells;
   for (int e = 0; e < run.mesh.n_cells(); ++e)
-    if (std::ranges::any_of(run.mesh.cell(e), [&](int n) { return touched[static_cast<std::size_t>(n)] != 0; })) cells.push_back(e);
+    if (std::ranges::any_of(run.mesh.cell(e),
+                            [&](int n) { return touched[static_cast<std::size_t>(n)] != 0; }))
+      cells.push_back(e);
   return cells;
 }
 
-std::vector<double> parts_of(const std::vector<double>& of_cell, double smooth, const std::vector<int>& touched,
-                             double of_contact) {
+std::vector<double> parts_of(const std::vector<double>& of_cell, double smooth,
+                             const std::vector<int>& touched, double of_contact) {
   std::vector<double> parts;
   for (double of_one : of_cell) parts.push_back(smooth * std::abs(of_one));
-  for (int e : touched) parts[static_cast<std::size_t>(e)] += of_contact / static_cast<double>(touched.size());
+  for (int e : touched)
+    parts[static_cast<std::size_t>(e)] += of_contact / static_cast<double>(touched.size());
   return parts;
 }
 
@@ -35,8 +38,10 @@ double with_a_corner_inside(const Mesh& mesh) {
   const int front = mesh.section ? n_front(mesh) : 0;
   for (const Facet& facet : boundary(mesh)) {
     const std::vector<int> nodes = facet_nodes(mesh, facet);
-    const auto in_front = std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < front; });
-    if (mesh.section && (in_front == 0 || in_front == std::ssize(nodes))) continue;  // a section goes on there
+    const auto in_front =
+        std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < front; });
+    if (mesh.section && (in_front == 0 || in_front == std::ssize(nodes)))
+      continue;  // a section goes on there
     for (int n : nodes) outside[static_cast<std::size_t>(n)] = 1;
   }
   int inside = 0;

@@ -9,9 +9,9 @@
 #include "accuracy/estimate/cell_parts.hpp"
 #include "accuracy/estimate/energy_error.hpp"
 #include "mechanics/mesh/hanging.hpp"
+#include "mechanics/solve/state_tangent.hpp"
 #include "scene/run/step_forces.hpp"
 #include "scene/run/step_record.hpp"
-#include "mechanics/solve/state_tangent.hpp"
 
 namespace langer {
 
@@ -21,25 +21,34 @@ namespace {
 constexpr double of_others = 0.1, of_quadratic = 0.2, of_clamped = 0.6;
 constexpr double too_rough = 0.25;  // the sum itself, of the quantity
 constexpr double most_alone = 0.2;  // of the volume
-constexpr double balanced = 1e-4;   // dual solutions: on fine meshes of nearly incompressible bodies rounding leaves more than 1e-7
+constexpr double balanced = 1e-4;  // dual solutions: on fine meshes of nearly incompressible bodies
+                                   // rounding leaves more than 1e-7
 
 Failure not_known(const std::string& why) {
-  return Failure(Exit::not_converged,
-                 Error{{}, "estimate", why, "", "estimate: recovery tells what the stress lacks to be smooth"});
+  return Failure(
+      Exit::not_converged,
+      Error{
+          {}, "estimate", why, "", "estimate: recovery tells what the stress lacks to be smooth"});
 }
 
 // Throws where no scene of the kind was measured.
 void need_known_kind(const SolveConfig& config, const Run& run) {
   if (run.reduction.kind() == Reduction::Kind::homogeneous)
     throw not_known("a body that deforms alike everywhere has no error of cells");
-  if (run.body.viscous()) throw not_known("the dual solution is that of an elastic body, and this one is viscous");
-  if (has_friction(config)) throw not_known("with friction the force is no derivative of an energy");
-  if (!run.body.loads().empty() && run.body.loads().follow()) throw not_known("the tangent has half of a following pressure alone");
-  if (run.scene.formulation == Formulation::displacement) throw not_known("formulation: displacement has no pressures of its own");
+  if (run.body.viscous())
+    throw not_known("the dual solution is that of an elastic body, and this one is viscous");
+  if (has_friction(config))
+    throw not_known("with friction the force is no derivative of an energy");
+  if (!run.body.loads().empty() && run.body.loads().follow())
+    throw not_known("the tangent has half of a following pressure alone");
+  if (run.scene.formulation == Formulation::displacement)
+    throw not_known("formulation: displacement has no pressures of its own");
   if (!run.mesh.cell().hexahedron()) throw not_known("no scene of tetrahedra was measured");
   for (const RigidContact& contact : run.scene.contacts)
-    if (std::holds_alternative<Facets>(contact.shape)) throw not_known("no indenter from a file was measured");
-  if (run.reduction.scene().contacts.size() != run.scene.contacts.size()) throw not_known("symmetry exchanges the indenters");
+    if (std::holds_alternative<Facets>(contact.shape))
+      throw not_known("no indenter from a file was measured");
+  if (run.reduction.scene().contacts.size() != run.scene.contacts.size())
+    throw not_known("symmetry exchanges the indenters");
 }
 
 // nodes of the part
@@ -59,11 +68,13 @@ struct Asked {
 
 class Questions {
  public:
-  Questions(const Run& run, const StepRecord& last) : run_(run), last_(last), place_(nodes_by_place(run.reduction.mesh())) {}
+  Questions(const Run& run, const StepRecord& last)
+      : run_(run), last_(last), place_(nodes_by_place(run.reduction.mesh())) {}
 
   std::optional<Asked> of(std::size_t i, const Valued& q) const {
     const auto after = [&](const std::string& begins) {
-      return q.name.starts_with(begins) ? std::optional(q.name.substr(begins.size())) : std::nullopt;
+      return q.name.starts_with(begins) ? std::optional(q.name.substr(begins.size()))
+                                        : std::nullopt;
     };
     Asked asked{i, {}, std::vector<Vec3>(run_.scene.contacts.size(), Vec3::Zero())};
     if (q.name == "force") return of_force(asked, "");
@@ -76,12 +87,14 @@ class Questions {
  private:
   std::optional<Asked> of_force(Asked asked, const std::string& contact) const {
     Vec3 force = last_.force_ind;
-    for (int j = 0; j < 3 && !contact.empty(); ++j) force[j] = last_.scalars.at("force_" + contact + "_" + "xyz"[j]);
+    for (int j = 0; j < 3 && !contact.empty(); ++j)
+      force[j] = last_.scalars.at("force_" + contact + "_" + "xyz"[j]);
     if (!(force.norm() > 0)) return std::nullopt;
     const std::vector<RigidContact>& part = run_.reduction.scene().contacts;
     asked.by.indenters.assign(part.size(), Vec3::Zero());
     for (std::size_t k = 0; k < run_.scene.contacts.size(); ++k)
-      if (contact.empty() || run_.scene.contacts[k].name == contact) asked.indenters[k] = -force.normalized();
+      if (contact.empty() || run_.scene.contacts[k].name == contact)
+        asked.indenters[k] = -force.normalized();
     for (std::size_t k = 0; k < part.size(); ++k)
       if (contact.empty() || part[k].name == contact) asked.by.indenters[k] = -force.normalized();
     return asked;
@@ -89,7 +102,8 @@ class Questions {
 
   std::optional<Asked> of_set(Asked asked, const std::string& set) const {
     Vec3 reaction = Vec3::Zero();
-    for (int n : run_.mesh.node_sets.at(set)) reaction += last_.reaction[static_cast<std::size_t>(n)];
+    for (int n : run_.mesh.node_sets.at(set))
+      reaction += last_.reaction[static_cast<std::size_t>(n)];
     if (!(reaction.norm() > 0)) return std::nullopt;
     const Dofs& dofs = run_.body.dofs();
     asked.by.prescribed = VecX::Zero(dofs.n), asked.of_set = true;
@@ -97,9 +111,11 @@ class Questions {
       const auto found = place_.find(key(n));
       if (found == place_.end()) continue;
       for (int j = 0; j < 3; ++j)
-        if (dofs.equation[3 * found->second + j] < 0) asked.by.prescribed[3 * found->second + j] = reaction.normalized()[j];
+        if (dofs.equation[3 * found->second + j] < 0)
+          asked.by.prescribed[3 * found->second + j] = reaction.normalized()[j];
     }
-    if (asked.by.prescribed.isZero(0)) return std::nullopt;  // the part that symmetry leaves has it as an image alone
+    if (asked.by.prescribed.isZero(0))
+      return std::nullopt;  // the part that symmetry leaves has it as an image alone
     return asked;
   }
 
@@ -123,7 +139,9 @@ class Questions {
     return asked;
   }
 
-  std::array<double, 3> key(int n) const { return {run_.mesh.X[n][0], run_.mesh.X[n][1], run_.mesh.X[n][2]}; }
+  std::array<double, 3> key(int n) const {
+    return {run_.mesh.X[n][0], run_.mesh.X[n][1], run_.mesh.X[n][2]};
+  }
 
   const Run& run_;
   const StepRecord& last_;
@@ -131,21 +149,25 @@ class Questions {
 };
 
 // of the whole body
-DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked, const StateDerivative& part) {
+DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked,
+                   const StateDerivative& part) {
   StepRecord record;
   record.t = last.t;
-  for (int i = 0; i < run.reduction.mesh().n_nodes(); ++i) record.u.push_back(part.u.segment<3>(3 * i));
+  for (int i = 0; i < run.reduction.mesh().n_nodes(); ++i)
+    record.u.push_back(part.u.segment<3>(3 * i));
   hang(run.body, part.u, record.u);
   record.reaction.assign(record.u.size(), Vec3::Zero());
   const auto& contacts = run.reduction.scene().contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     ContactRecord& contact = record.contacts[contacts[k].name];
-    contact.r = part.r[k], contact.status.assign(part.r[k].size(), 0), contact.gap.assign(part.r[k].size(), 0);
+    contact.r = part.r[k], contact.status.assign(part.r[k].size(), 0),
+    contact.gap.assign(part.r[k].size(), 0);
     for (char axis : {'x', 'y', 'z'}) record.scalars["force_" + contacts[k].name + "_" + axis] = 0;
   }
   const std::optional<StepRecord> all = run.reduction.whole(record);
   DualSolution out{all->u, asked.indenters, {}};
-  for (const RigidContact& contact : run.scene.contacts) out.r.push_back(all->contacts.at(contact.name).r);
+  for (const RigidContact& contact : run.scene.contacts)
+    out.r.push_back(all->contacts.at(contact.name).r);
   return out;
 }
 
@@ -156,7 +178,8 @@ PathErrors in_one_layer(const SolveConfig& config, const Mesh& mesh) {
 
 }  // namespace
 
-PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last, const std::vector<Valued>& found) {
+PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last,
+                       const std::vector<Valued>& found) {
   need_known_kind(config, run);
   if (!run.statics.bonds().none()) throw not_known("the tangent has no bonds of adhesion");
   const Questions questions(run, last);
@@ -168,19 +191,23 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     auto question = questions.of(i, found[i]);
     if (!question) continue;
     none = false;
-    const auto answer = tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest(), balanced);
+    const auto answer =
+        tangent.derivative(question->by, tangent.of_rest(), tangent.of_rest(), balanced);
     if (!answer) continue;
     duals.push_back(whole(run, last, *question, *answer));
     asked.push_back(std::move(*question));
   }
-  if (none) throw not_known("no force, reaction or displacement is there that is not 0, as where no indenter touches");
+  if (none)
+    throw not_known(
+        "no force, reaction or displacement is there that is not 0, as where no indenter touches");
   if (duals.empty()) throw not_known("a singular tangent has no dual solution");
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) return in_one_layer(config, run.mesh);
   PathErrors out;
   const bool quadratic = run.mesh.cell().second_order();
   const std::vector<StepForces> end{step_forces(config, run.scene, run.mesh, last)};
-  const std::vector<Valued> judged = asks_for_accuracy(config) ? forces_judged(found) : std::vector<Valued>();
+  const std::vector<Valued> judged =
+      asks_for_accuracy(config) ? forces_judged(found) : std::vector<Valued>();
   double worst = 0;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const Valued& q = found[asked[k].quantity];
@@ -188,7 +215,8 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     double times = 1;  // symmetry moves other sets with it
     if (asked[k].of_set) {
       times = 0;
-      for (std::size_t n = 0; n < last.u.size(); ++n) times += last.reaction[n].dot(duals[k].u[n]) / q.value;
+      for (std::size_t n = 0; n < last.u.size(); ++n)
+        times += last.reaction[n].dot(duals[k].u[n]) / q.value;
     }
     const double size = d.size / std::abs(times);
     ErrorEstimate e{q, asked[k].sign * d.sum() / times, 0, 0, last.residual * std::abs(q.value)};
@@ -196,19 +224,24 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * size;
     const double smooth = e.total();
     if (!asked[k].of_set && q.of_force())  // smooth fields do not know that nodes touch one by one
-      e.scatter = std::max(e.scatter, 0.5 * std::abs(q.value) *
-                                          one_by_one(touching_at(end, end[0].touching.contains(q.name) ? q.name : "force", last.t),
-                                                     run.mesh.section.has_value()));
+      e.scatter = std::max(
+          e.scatter,
+          0.5 * std::abs(q.value) *
+              one_by_one(
+                  touching_at(end, end[0].touching.contains(q.name) ? q.name : "force", last.t),
+                  run.mesh.section.has_value()));
     if (size > too_rough * std::abs(q.value))
-      out.not_known.push_back(
-          fmt::format("the error of {} is not known: the cells are too long, their parts of it add up to {:.0f} %", q.name,
-                      e.in_percent(size)));
+      out.not_known.push_back(fmt::format(
+          "the error of {} is not known: the cells are too long, their parts of it add up to {:.0f} %",
+          q.name, e.in_percent(size)));
     else
       out.at_end.push_back(e);
-    const bool is_judged = std::ranges::any_of(judged, [&](const Valued& v) { return v.name == q.name; });
+    const bool is_judged =
+        std::ranges::any_of(judged, [&](const Valued& v) { return v.name == q.name; });
     if (const double percent = e.in_percent(e.total()); is_judged && percent > worst) {
       worst = percent;
-      out.of_cells = parts_of(d.of_cell, smooth / d.size, touched_cells(run, last), e.total() - smooth);
+      out.of_cells =
+          parts_of(d.of_cell, smooth / d.size, touched_cells(run, last), e.total() - smooth);
       for (double& part : out.of_cells) part /= std::max(std::abs(q.value), 1e-300);
     }
   }

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/tensor/kinematics.hpp"
+#include "core/tensor/voigt.hpp"
 #include "mechanics/element/dilatation.hpp"
 #include "mechanics/mesh/hanging.hpp"
 #include "mechanics/mesh/section.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "scene/run/step_record.hpp"
-#include "core/tensor/kinematics.hpp"
-#include "core/tensor/voigt.hpp"
 
 namespace langer {
 
@@ -22,7 +22,8 @@ constexpr double small_strain = 1e-4;  // of the change along a dual solution
 
 Mat3 cofactor(const Mat3& F) {
   Mat3 cof;
-  cof.col(0) = F.col(1).cross(F.col(2)), cof.col(1) = F.col(2).cross(F.col(0)), cof.col(2) = F.col(0).cross(F.col(1));
+  cof.col(0) = F.col(1).cross(F.col(2)), cof.col(1) = F.col(2).cross(F.col(0)),
+  cof.col(2) = F.col(0).cross(F.col(1));
   return cof;
 }
 
@@ -46,10 +47,12 @@ class ErrorOfCells {
         patches_(body),
         state_(state),
         duals_(duals) {
-    const auto n = static_cast<Eigen::Index>(mesh_.X.size()), fields = static_cast<Eigen::Index>(1 + duals.size());
+    const auto n = static_cast<Eigen::Index>(mesh_.X.size()),
+               fields = static_cast<Eigen::Index>(1 + duals.size());
     MatX u(n, 3 * fields);
     for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index k = 0; k < fields; ++k) u.block<1, 3>(i, 3 * k) = nodal(k)[static_cast<std::size_t>(i)].transpose();
+      for (Eigen::Index k = 0; k < fields; ++k)
+        u.block<1, 3>(i, 3 * k) = nodal(k)[static_cast<std::size_t>(i)].transpose();
     u_ = patches_.of_nodes(u);
     std::vector<MatX> p;
     for (int e = 0; e < mesh_.n_cells(); ++e) {
@@ -61,8 +64,10 @@ class ErrorOfCells {
     for (int e = 0; e < mesh_.n_cells(); ++e)
       for (std::size_t k = 0; k < duals.size(); ++k)
         for (int g = 0; g < mesh_.cell().n_gauss; ++g)
-          scale_[k] = std::max(
-              scale_[k], displacement_gradient(element_displacements(mesh_, duals[k].u, e), body_.geometry(e).dN_dX[g]).norm());
+          scale_[k] =
+              std::max(scale_[k], displacement_gradient(element_displacements(mesh_, duals[k].u, e),
+                                                        body_.geometry(e).dN_dX[g])
+                                      .norm());
   }
 
   double step(std::size_t dual) const { return small_strain / std::max(scale_[dual], 1e-300); }
@@ -73,7 +78,9 @@ class ErrorOfCells {
     const MatX gradients = u_.gradients(e, g), p = p_.values(e, g);
     const auto fields = [&](std::size_t k) {
       PointFields f;
-      f.H = displacement_gradient(element_displacements(mesh_, nodal(static_cast<Eigen::Index>(k)), e), body_.geometry(e).dN_dX[g]);
+      f.H = displacement_gradient(
+          element_displacements(mesh_, nodal(static_cast<Eigen::Index>(k)), e),
+          body_.geometry(e).dN_dX[g]);
       f.smooth_H = f.H;
       const Mat3 smooth = gradients.middleRows<3>(3 * static_cast<Eigen::Index>(k));
       if (mesh_.section)
@@ -117,15 +124,19 @@ class ErrorOfCells {
       for (int g = 0; g < geometry.n_gauss(); ++g) {
         const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
         const double J = k == 0 ? volume_change(H)
-                                : cofactor(Mat3::Identity() + H).cwiseProduct(displacement_gradient(z, geometry.dN_dX[g])).sum();
-        for (int m = 0; m < n; ++m) dt[m] += geometry.w[g] * (m == 0 ? 1 : geometry.mode[g][m]) * J / geometry.V;
+                                : cofactor(Mat3::Identity() + H)
+                                      .cwiseProduct(displacement_gradient(z, geometry.dN_dX[g]))
+                                      .sum();
+        for (int m = 0; m < n; ++m)
+          dt[m] += geometry.w[g] * (m == 0 ? 1 : geometry.mode[g][m]) * J / geometry.V;
       }
       if (k == 0) {
         t = dt;
         pressures(body_.material(e).volume, true, geometry, n, t.data(), p.data());
         dp = p;
       } else {
-        predicted_pressures(body_.material(e).volume, true, geometry, n, t.data(), dt.data(), dp.data());
+        predicted_pressures(body_.material(e).volume, true, geometry, n, t.data(), dt.data(),
+                            dp.data());
         for (int m = 0; m < n; ++m) dp[m] -= p[m];
       }
       for (int m = 0; m < n; ++m) out(m, 2 * k) = dp[m], out(m, 2 * k + 1) = dt[m];
@@ -142,7 +153,10 @@ class ErrorOfCells {
       for (Eigen::Index k = 0; k < fields; ++k)
         for (int m = 0; m < n_modes_; ++m)
           out(g, k) +=
-              (m == 0 ? 1 : body_.geometry(e).mode[static_cast<std::size_t>(g)][static_cast<std::size_t>(m)]) * modes_[e](m, 2 * k);
+              (m == 0 ? 1
+                      : body_.geometry(e)
+                            .mode[static_cast<std::size_t>(g)][static_cast<std::size_t>(m)]) *
+              modes_[e](m, 2 * k);
     return out;
   }
 
@@ -152,14 +166,17 @@ class ErrorOfCells {
 
   PointError error(int e, const PointFields& s, const PointFields& d, double eps) const {
     const Mat3 H = s.H + eps * d.H, smooth_H = s.smooth_H + eps * d.smooth_H;
-    const double p = s.p + eps * d.p, smooth_p = s.smooth_p + eps * d.smooth_p, theta = s.theta + eps * d.theta;
-    const double J = 1 + volume_change(H), smooth_theta = theta + (smooth_p - p) / bulk_modulus(body_.material(e));
+    const double p = s.p + eps * d.p, smooth_p = s.smooth_p + eps * d.smooth_p,
+                 theta = s.theta + eps * d.theta;
+    const double J = 1 + volume_change(H),
+                 smooth_theta = theta + (smooth_p - p) / bulk_modulus(body_.material(e));
     const Mat3 F = Mat3::Identity() + H;
     Mat3 smooth_F = Mat3::Identity() + smooth_H;
     smooth_F *= std::cbrt((1 + smooth_theta) / (1 + volume_change(smooth_H)));
     const Mat3 P = isochoric_stress(e, F) + p * cofactor(F),
                smooth_P = isochoric_stress(e, smooth_F) + smooth_p * cofactor(smooth_F);
-    return {0.5 * (smooth_F - F).cwiseProduct(smooth_P - P).sum(), 0.5 * (smooth_p - p) * (1 + theta - J)};
+    return {0.5 * (smooth_F - F).cwiseProduct(smooth_P - P).sum(),
+            0.5 * (smooth_p - p) * (1 + theta - J)};
   }
 
   const Body& body_;
@@ -176,15 +193,18 @@ class ErrorOfCells {
 // integral lambda* gap dA0 over the facets of one contact
 class ContactFacets {
  public:
-  ContactFacets(const RigidContact& contact, const Mesh& mesh, const StepRecord& state, const ContactRecord& reactions)
+  ContactFacets(const RigidContact& contact, const Mesh& mesh, const StepRecord& state,
+                const ContactRecord& reactions)
       : contact_(contact), mesh_(mesh), state_(state), c_(indenter_at(contact, state)) {
     front_ = mesh.section ? n_front(mesh) : mesh.n_nodes();
     share_ = mesh.section ? cell_share(*mesh.section) : 1;
-    facets_ =
-        facets_within(mesh, boundary(mesh), with_hanging(mesh, mesh.section ? through_layers(mesh, contact.nodes) : contact.nodes));
+    facets_ = facets_within(
+        mesh, boundary(mesh),
+        with_hanging(mesh, mesh.section ? through_layers(mesh, contact.nodes) : contact.nodes));
     area_ = VecX::Zero(mesh.n_nodes());
     each([&](const Facet&, const std::vector<int>& nodes, const VecX& N, double dA) {
-      for (std::size_t a = 0; a < nodes.size(); ++a) area_[nodes[a] % front_] += N[static_cast<Eigen::Index>(a)] * dA;
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        area_[nodes[a] % front_] += N[static_cast<Eigen::Index>(a)] * dA;
     });
     fold_hanging(mesh, area_);
     normal_.assign(static_cast<std::size_t>(mesh.n_nodes()), Vec3::Zero());
@@ -253,7 +273,8 @@ class ContactFacets {
 
 }  // namespace
 
-EnergyErrors energy_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state, const std::vector<DualSolution>& duals) {
+EnergyErrors energy_errors(const Scene& scene, const Mesh& mesh, const StepRecord& state,
+                           const std::vector<DualSolution>& duals) {
   const Body body(mesh, scene.materials, scene.directions, scene.formulation);
   const ErrorOfCells cells(body, state, duals);
   EnergyErrors out;
@@ -270,10 +291,12 @@ EnergyErrors energy_errors(const Scene& scene, const Mesh& mesh, const StepRecor
       }
     }
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const ContactFacets facets(scene.contacts[c], mesh, state, state.contacts.at(scene.contacts[c].name));
+    const ContactFacets facets(scene.contacts[c], mesh, state,
+                               state.contacts.at(scene.contacts[c].name));
     for (std::size_t k = 0; k < duals.size(); ++k)
       facets.change(duals[k], c, cells.step(k), [&](const Facet& facet, double change) {
-        out.along[k].contact += change, out.along[k].of_cell[static_cast<std::size_t>(facet.cell)] += change;
+        out.along[k].contact += change,
+            out.along[k].of_cell[static_cast<std::size_t>(facet.cell)] += change;
       });
   }
   for (auto& d : out.along)

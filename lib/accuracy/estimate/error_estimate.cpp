@@ -13,15 +13,15 @@
 #include "accuracy/estimate/dual_estimate.hpp"
 #include "accuracy/estimate/refinements.hpp"
 #include "accuracy/estimate/truncation.hpp"
-#include "mechanics/assembly/equilibrium.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/tensor/stress.hpp"
+#include "mechanics/assembly/equilibrium.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "results/post/nodal_fields.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/dry_run.hpp"
 #include "scene/run/holes.hpp"
-#include "core/tensor/stress.hpp"
 
 namespace langer {
 
@@ -51,8 +51,11 @@ struct Family {
   double growth() const {
     constexpr double shortest = 0.05;                          // [s]
     const std::size_t first = of.front().seconds > 0 ? 0 : 1;  // of the run itself no time is known
-    if (of.size() < first + 2 || of.back().seconds < shortest || of[first].seconds < shortest) return 0;
-    return std::clamp(std::log(of[first].seconds / of.back().seconds) / std::log(length.back() / length[first]), 1.0, 9.0);
+    if (of.size() < first + 2 || of.back().seconds < shortest || of[first].seconds < shortest)
+      return 0;
+    return std::clamp(
+        std::log(of[first].seconds / of.back().seconds) / std::log(length.back() / length[first]),
+        1.0, 9.0);
   }
 };
 
@@ -61,7 +64,8 @@ struct Limit {
   double scatter;  // root mean square of what the fit leaves
 };
 // f of q = f + A length^order, weights falling with the square of the length
-std::optional<Limit> limit_of(const std::vector<double>& length, const std::vector<double>& values, double order) {
+std::optional<Limit> limit_of(const std::vector<double>& length, const std::vector<double>& values,
+                              double order) {
   if (values.empty()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(length.size());
   VecX w(n), x(n), q(n);
@@ -77,14 +81,15 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
-// The greatest stress below an indenter lies between points of the cells, wherever these are: by how much it may be missed, relative to
-// it, is a share of the cells' length in contact radii.
+// The greatest stress below an indenter lies between points of the cells, wherever these are: by
+// how much it may be missed, relative to it, is a share of the cells' length in contact radii.
 double between_points(double touching, bool section) {
   if (touching < 1) return 0;
   return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
 }
 
-// Under a punch it lies at the rounded edge, in as many cells fewer as that is shorter than the punch.
+// Under a punch it lies at the rounded edge, in as many cells fewer as that is shorter than the
+// punch.
 double sharpness(const SolveConfig& config) {
   double most = 1;
   for (const auto& [name, contact] : config.contacts)
@@ -93,8 +98,8 @@ double sharpness(const SolveConfig& config) {
   return most;
 }
 
-// Where the cells are as long as the rounding of a punch's edge, what touches ends anywhere on it: share of the force
-// (docs/work_precision.md).
+// Where the cells are as long as the rounding of a punch's edge, what touches ends anywhere on it:
+// share of the force (docs/work_precision.md).
 double round_an_edge(const SolveConfig& config, double touching, bool section) {
   const double sharp = sharpness(config);
   return sharp <= 1 || section || touching < 1 ? 0 : std::min(0.5, 0.8 * sharp / touching);
@@ -106,15 +111,18 @@ double greatest_friction(const SolveConfig& config) {
   return most;
 }
 
-// Whether a face of the body is held or moved in its plane, too: at its edges stresses are singular.
+// Whether a face of the body is held or moved in its plane, too: at its edges stresses are
+// singular.
 bool is_clamped(const SolveConfig& config) {
   std::map<std::string, std::set<Axis>> given;
-  for (const SupportConfig& support : config.supports) given[support.on].insert(support.hold.begin(), support.hold.end());
+  for (const SupportConfig& support : config.supports)
+    given[support.on].insert(support.hold.begin(), support.hold.end());
   for (const LoadConfig& load : config.loads) {
     for (int axis = 0; axis < 3; ++axis)
       if (load.tells(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
-  return std::any_of(given.begin(), given.end(), [](const auto& on) { return on.second.size() > 1; });
+  return std::any_of(given.begin(), given.end(),
+                     [](const auto& on) { return on.second.size() > 1; });
 }
 
 const Valued& quantity(const Valued& found) { return found; }
@@ -142,20 +150,23 @@ double shear_at_edge(const SolveConfig& config, double touching) {
   return touching < 1 ? 0 : share * std::min(0.5, 1.6 / touching);
 }
 
-// What nodes that come into contact one by one make of a force, relative to it (make work-precision; sections: docs/work_precision.md).
+// What nodes that come into contact one by one make of a force, relative to it (make
+// work-precision; sections: docs/work_precision.md).
 double one_by_one(double touching, bool section) {
   if (touching < 1) return 0;
   return std::min(0.5, section ? 0.25 / (touching * touching) : 3.1 * std::pow(touching, -1.5));
 }
 
-// A rigid face presses an edge into the body, its own or the body's: there stresses are singular, and errors fall with h alone. So they
-// do where a force is passed on by a clamped face; below an indenter such a face is far away.
+// A rigid face presses an edge into the body, its own or the body's: there stresses are singular,
+// and errors fall with h alone. So they do where a force is passed on by a clamped face; below an
+// indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
   return std::any_of(config.contacts.begin(), config.contacts.end(),
                      [](const auto& contact) {
                        const Indenter& rigid = contact.second.rigid;
-                       return std::holds_alternative<Plane>(rigid) || std::holds_alternative<Cylinder>(rigid) ||
+                       return std::holds_alternative<Plane>(rigid) ||
+                              std::holds_alternative<Cylinder>(rigid) ||
                               std::holds_alternative<Aperture>(rigid);
                      })
              ? 1
@@ -163,51 +174,64 @@ double order_of_force(const SolveConfig& config) {
 }
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
-std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) { return forces_among(estimates); }
+std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) {
+  return forces_among(estimates);
+}
 
-SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
-                       const std::function<RunListener(const Run&)>& listener) {
+SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
+                       const Find& where, const std::function<RunListener(const Run&)>& listener) {
   SolvedPath solved;
   const double begun = cpu_seconds();
   Run run(body_mesh(config, "", where), config, material, where);
-  const RunEnd end = run.follow(collecting(listener ? listener(run) : RunListener{}, config, run, solved.path));
+  const RunEnd end =
+      run.follow(collecting(listener ? listener(run) : RunListener{}, config, run, solved.path));
   if (end.at == RunEnd::At::signal)
-    throw Failure(exit_code_of(interrupted()), Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
+    throw Failure(exit_code_of(interrupted()),
+                  Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
   if (!end.path.complete)
-    throw Failure(Exit::not_converged, Error{{},
-                                             "",
-                                             fmt::format("the solve with the refined mesh found no equilibrium at t = {:.6g}: {}",
-                                                         end.path.t, end.path.why),
-                                             "",
-                                             ""});
+    throw Failure(
+        Exit::not_converged,
+        Error{{},
+              "",
+              fmt::format("the solve with the refined mesh found no equilibrium at t = {:.6g}: {}",
+                          end.path.t, end.path.why),
+              "",
+              ""});
   solved.found = valued(config, run.scene, run.mesh, end.last);
   solved.seconds = cpu_seconds() - begun;
   return solved;
 }
 
-std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
+std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<Material>& material,
+                                const Find& where,
                                 const std::function<RunListener(const Run&)>& listener) {
   return solved_path(config, material, where, listener).found;
 }
 
 std::vector<Valued> valued_forces(const StepForces& forces) {
   std::vector<Valued> found;
-  for (const auto& [name, size] : forces.of) found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
+  for (const auto& [name, size] : forces.of)
+    found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
   return found;
 }
 
-std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state) {
+std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
+                           const StepRecord& state) {
   std::vector<Valued> found = valued_forces(step_forces(config, scene, mesh, state));
   // the stress of a viscous body follows from all of its steps, and one is here
-  if (const Body body(mesh, scene.materials, scene.directions, scene.formulation); !body.viscous()) {
+  if (const Body body(mesh, scene.materials, scene.directions, scene.formulation);
+      !body.viscous()) {
     const GaussValues gauss = gauss_values(body, state.u);
     double most = 0;
     for (int n = 0; n < mesh.n_nodes(); ++n)
-      most = std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
+      most =
+          std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
     found.push_back({"von_mises_max", "MPa", most});
   }
   for (const auto& [name, nodes] : mesh.node_sets)
-    if (nodes.size() == 1) found.push_back({"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
+    if (nodes.size() == 1)
+      found.push_back(
+          {"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
   return found;
 }
 
@@ -215,20 +239,27 @@ namespace {
 
 // What an estimate by refinement has solved.
 struct Solutions {
-  Family family, alike;           // hex8; the cells of the run, where these are others
-  std::vector<SolvedPath> other;  // in other increments on the longest cells of the family, where the path matters
+  Family family, alike;  // hex8; the cells of the run, where these are others
+  std::vector<SolvedPath>
+      other;  // in other increments on the longest cells of the family, where the path matters
   std::map<Truncation, std::vector<SolvedPath>> wide;
 
-  // meshes of the kind that tells: stresses and what lies far from the contact are those of the cells
-  const Family& telling(const Valued& q) const { return (q.of_force() && !family.of.empty()) || alike.of.empty() ? family : alike; }
+  // meshes of the kind that tells: stresses and what lies far from the contact are those of the
+  // cells
+  const Family& telling(const Valued& q) const {
+    return (q.of_force() && !family.of.empty()) || alike.of.empty() ? family : alike;
+  }
   // what the body leaves out, on the longest cells
   std::vector<ErrorEstimate::Part> left_out(const Valued& q) const {
     std::vector<ErrorEstimate::Part> parts;
     for (const auto& [truncation, two] : wide) {
-      const auto at_end = [&](const SolvedPath& path) { return force_at(path.path, q.name, 1); };
+      const auto at_end = [&](const SolvedPath& path) {
+        return force_at(path.path, q.name, 1);
+      };
       const double f = at_end(telling(q).of.back());
       if (f != 0)
-        parts.push_back({names(truncation)[static_cast<int>(truncation)], q.value / f * beyond(f, at_end(two[0]), at_end(two[1]))});
+        parts.push_back({names(truncation)[static_cast<int>(truncation)],
+                         q.value / f * beyond(f, at_end(two[0]), at_end(two[1]))});
     }
     return parts;
   }
@@ -252,27 +283,31 @@ Solutions solve_all(const Refinements& refined, const SolvedPath& itself,
 
 namespace {
 
-// Nodes come into contact one by one, and errors go to and fro meanwhile: before the end no bar is shorter, relative to its force, than
-// those of the steps beside it.
-std::vector<double> no_shorter_than_beside(const std::vector<double>& bars, const std::vector<StepForces>& path,
+// Nodes come into contact one by one, and errors go to and fro meanwhile: before the end no bar is
+// shorter, relative to its force, than those of the steps beside it.
+std::vector<double> no_shorter_than_beside(const std::vector<double>& bars,
+                                           const std::vector<StepForces>& path,
                                            const std::string& force) {
   std::vector<double> out = bars;
   for (std::size_t i = 0; i + 1 < bars.size(); ++i)
     for (std::size_t j : {i == 0 ? i : i - 1, i + 1})
-      if (const double q = path[j].of.at(force); q > 0) out[i] = std::max(out[i], bars[j] / q * path[i].of.at(force));
+      if (const double q = path[j].of.at(force); q > 0)
+        out[i] = std::max(out[i], bars[j] / q * path[i].of.at(force));
   return out;
 }
 
 }  // namespace
 
-PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
-                          const SolvedPath& itself, double residual, const EstimateListener& listener) {
+PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
+                          const Find& where, const SolvedPath& itself, double residual,
+                          const EstimateListener& listener) {
   const Refinements refined = refinements(config, where);
   int begun = 0;
   const Solutions all = solve_all(refined, itself, [&](const SolveConfig& scene) {
     ++begun;
-    return solved_path(scene, material, where,
-                       [&](const Run& run) { return listener ? listener(run, begun, refined.n_scenes()) : RunListener{}; });
+    return solved_path(scene, material, where, [&](const Run& run) {
+      return listener ? listener(run, begun, refined.n_scenes()) : RunListener{};
+    });
   });
   PathErrors out;
   const bool section = config.mesh && is_section(config.mesh->geometry);
@@ -283,24 +318,30 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     const double order = q.name == "von_mises_max" ? 1 : order_of_force(config);
     const auto limit = limit_of(all.telling(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
-    const double increments = in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
-    ErrorEstimate e{q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
-    const double touching = touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
+    const double increments =
+        in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
+    ErrorEstimate e{
+        q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
+    const double touching =
+        touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
     if (q.name == "von_mises_max")
-      e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) * std::abs(q.value));
+      e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) *
+                                          std::abs(q.value));
     if (q.unit == unit::mm) e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.of_force()) {
-      e.scatter =
-          std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
-                    0.5 * round_an_edge(config, touching, section) * std::abs(q.value), 0.5 * beside_hole * std::abs(q.value)});
+      e.scatter = std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
+                            0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
+                            0.5 * beside_hole * std::abs(q.value)});
       if (refined.edge_unresolved)  // without a sign: three such meshes tell none of it
-        e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) - std::abs(e.cells));
+        e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) -
+                                             std::abs(e.cells));
     }
     return std::optional(e);
   };
   Family increments;
   const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.alike : all.family).of;
-  if (!all.other.empty()) increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
+  if (!all.other.empty())
+    increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
   for (const Valued& q : itself.found) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));
@@ -313,32 +354,41 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     if (!q.of_force()) continue;
     for (const StepForces& step : itself.path) {
       const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
-      const auto e = judged(there, step.t, all.telling(q).forces(q.name, step.t), increments.forces(q.name, step.t));
+      const auto e = judged(there, step.t, all.telling(q).forces(q.name, step.t),
+                            increments.forces(q.name, step.t));
       out.along[q.name].push_back(e->total());
     }
-    if (!itself.path.empty()) out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
+    if (!itself.path.empty())
+      out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
   }
   out.growth = (all.alike.of.empty() ? all.family : all.alike).growth();
   return out;
 }
 
-std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material, const Find& where,
-                                           const std::vector<Valued>& found, double residual, const EstimateListener& listener) {
+std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config,
+                                           const std::optional<Material>& material,
+                                           const Find& where, const std::vector<Valued>& found,
+                                           double residual, const EstimateListener& listener) {
   return estimate_along(config, material, where, {found, {}, 0}, residual, listener).at_end;
 }
 
-PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material, const Find& where, Run& run,
-                     const StepRecord& last, const std::vector<StepForces>& path, const EstimateListener& listener) {
+PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
+                     const Find& where, Run& run, const StepRecord& last,
+                     const std::vector<StepForces>& path, const EstimateListener& listener) {
   const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
   if (config.estimate == EstimateBy::dual) return dual_errors(config, run, last, found);
-  return estimate_along(config, material, where, {found, path, 0}, relative_residual(last), listener);
+  return estimate_along(config, material, where, {found, path, 0}, relative_residual(last),
+                        listener);
 }
 
 std::string in_words(const ErrorEstimate& e) {
   if (e.none_yet())
-    return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit, e.of.name.starts_with("force") ? "nothing is touched" : "no error");
-  if (e.of.value == 0) return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
-  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value, e.of.unit, e.in_percent(e.total()));
+    return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit,
+                       e.of.name.starts_with("force") ? "nothing is touched" : "no error");
+  if (e.of.value == 0)
+    return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
+  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value,
+                                         e.of.unit, e.in_percent(e.total()));
   const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
   if (!e.has_limit) {
     const double increments = e.in_percent(e.increments), scatter = e.in_percent(e.scatter);
@@ -348,28 +398,36 @@ std::string in_words(const ErrorEstimate& e) {
   }
   std::string left_out;
   for (const ErrorEstimate::Part& part : e.left_out)
-    left_out += fmt::format("{} {} {:+.2g}", left_out.empty() ? "; left out:" : ",", part.name, e.in_percent(part.value));
-  return fmt::format("{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %{}{}); limit {:.4g}", begins, cells,
-                     e.in_percent(e.increments), e.in_percent(e.scatter), solver, left_out, left_out.empty() ? "" : " %",
-                     e.limit());
+    left_out += fmt::format("{} {} {:+.2g}", left_out.empty() ? "; left out:" : ",", part.name,
+                            e.in_percent(part.value));
+  return fmt::format(
+      "{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %{}{}); limit {:.4g}",
+      begins, cells, e.in_percent(e.increments), e.in_percent(e.scatter), solver, left_out,
+      left_out.empty() ? "" : " %", e.limit());
 }
 
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
   std::vector<Summary> summary;
   for (const ErrorEstimate& e : estimates) {
-    const auto add = [&](const char* what, double value) { summary.push_back({e.of.name + what, value, e.of.unit}); };
+    const auto add = [&](const char* what, double value) {
+      summary.push_back({e.of.name + what, value, e.of.unit});
+    };
     add("_error", e.total()), add("_error_cells", e.cells);
     if (e.has_limit) add("_limit", e.limit());
     add("_error_increments", e.increments), add("_error_scatter", e.scatter);
     add("_error_solver", e.solver);
-    for (const ErrorEstimate::Part& part : e.left_out) add(("_error_" + part.name).c_str(), part.value);
+    for (const ErrorEstimate::Part& part : e.left_out)
+      add(("_error_" + part.name).c_str(), part.value);
   }
   return summary;
 }
 
-double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material, const Find& where) {
+double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,
+                        const Find& where) {
   const Refinements refined = refinements(config, where);
-  const auto seconds = [&](const SolveConfig& scene) { return forecast_of(scene, material, where).seconds(); };
+  const auto seconds = [&](const SolveConfig& scene) {
+    return forecast_of(scene, material, where).seconds();
+  };
   double sum = refined.per_change == 0 ? 0 : seconds(refined.other_increments);
   for (const auto* scenes : {&refined.hex8, &refined.hex27})
     for (const SolveConfig& scene : *scenes) sum += seconds(scene);

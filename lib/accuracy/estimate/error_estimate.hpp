@@ -1,7 +1,8 @@
-// What a result is worth: the scene is solved again on other meshes, all of whose cells differ by one factor (Block::instead), and q is
-// set against f of q = f + A h^p fitted to them; p = 2; for the greatest stress, the force of a plane or a flat punch, and what a
-// clamped face passes on, p = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the side have
-// errors of opposite signs.
+// What a result is worth: the scene is solved again on other meshes, all of whose cells differ by
+// one factor (Block::instead), and q is set against f of q = f + A h^p fitted to them; p = 2; for
+// the greatest stress, the force of a plane or a flat punch, and what a clamped face passes on, p
+// = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the
+// side have errors of opposite signs.
 //   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
 //               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much
 //               longer, whatever that costs
@@ -22,8 +23,9 @@
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25;
 //   limit       found - cells - increments
 //   left out    of what a body leaves out that stands for a larger one, where the config asks (accuracy/truncation.hpp)
-// For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is not the length in contact radii
-// (block, section), hex8 are taken for fine enough, and hex27 are set against hex8 of half their length.
+// For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is
+// not the length in contact radii (block, section), hex8 are taken for fine enough, and hex27 are
+// set against hex8 of half their length.
 #pragma once
 
 #include <algorithm>
@@ -34,13 +36,15 @@
 #include <string>
 #include <vector>
 
+#include "results/store/provenance.hpp"
 #include "scene/run/run.hpp"
 #include "scene/run/step_forces.hpp"
-#include "results/store/provenance.hpp"
 
 namespace langer {
 
-inline bool asks_for_accuracy(const SolveConfig& config) { return config.accuracy || config.fidelity; }
+inline bool asks_for_accuracy(const SolveConfig& config) {
+  return config.accuracy || config.fidelity;
+}
 
 struct Valued {
   std::string name, unit;
@@ -48,9 +52,11 @@ struct Valued {
   bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
 };
 std::vector<Valued> valued_forces(const StepForces& forces);
-// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of each), reaction_<set> of each set that is
-// moved, torque_<name> of what turns, greatest von Mises stress of the nodes (of a viscous body not), displacement of each named point
-std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& state);
+// of a state of the whole body: force on the indenter (of several the sum, and force_<name> of
+// each), reaction_<set> of each set that is moved, torque_<name> of what turns, greatest von Mises
+// stress of the nodes (of a viscous body not), displacement of each named point
+std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
+                           const StepRecord& state);
 
 // A config that holds its mesh, solved without a file.
 struct SolvedPath {
@@ -58,7 +64,8 @@ struct SolvedPath {
   std::vector<StepForces> path;  // at each step
   double seconds = 0;            // of CPU
 };
-// Throws Failure(not_converged) where there is no state at t = 1, or one with the signal's code where one has come.
+// Throws Failure(not_converged) where there is no state at t = 1, or one with the signal's code
+// where one has come.
 SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
                        const std::function<Place(const std::string&)>& where,
                        const std::function<RunListener(const Run&)>& listener = {});
@@ -76,60 +83,82 @@ struct ErrorEstimate {
     std::string name;
     double value;
   };
-  std::vector<Part> left_out = {};  // by a body that stands for a larger one (accuracy/truncation.hpp); signed, not in total
-  // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not follow one law leave more open
-  // than their scatter.
-  double total() const { return (order < 2 ? 1.25 : 1) * std::abs(cells) + std::abs(increments) + 2 * scatter + solver; }
-  bool none_yet() const { return of.value == 0 && total() == 0; }  // as the force of an indenter that touches nothing: no percent
+  std::vector<Part> left_out =
+      {};  // by a body that stands for a larger one (accuracy/truncation.hpp); signed, not in total
+  // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not
+  // follow one law leave more open than their scatter.
+  double total() const {
+    return (order < 2 ? 1.25 : 1) * std::abs(cells) + std::abs(increments) + 2 * scatter + solver;
+  }
+  bool none_yet() const {
+    return of.value == 0 && total() == 0;
+  }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
-  double in_percent(double part) const { return 100 * part / std::max(std::abs(of.value), 1e-300); }  // of the value
+  double in_percent(double part) const {
+    return 100 * part / std::max(std::abs(of.value), 1e-300);
+  }  // of the value
 };
 
 double order_of_force(const SolveConfig& config);  // p of its error
 
-// share of a force that nodes may make which come into contact one by one, from the number of those that touch (run/step_forces.hpp)
+// share of a force that nodes may make which come into contact one by one, from the number of those
+// that touch (run/step_forces.hpp)
 double one_by_one(double touching, bool section);
-// and what the shear at the edge of a contact with friction adds: 0.7 times the square of the nodes' distance in contact radii
+// and what the shear at the edge of a contact with friction adds: 0.7 times the square of the
+// nodes' distance in contact radii
 double shear_at_edge(const SolveConfig& config, double touching);
 
-// The forces that an accuracy is asked of: those on indenters, of several their own, since a sum may be none; without indenters the
-// reactions; and torques; where forces alone load the body, the displacements of its named points.
+// The forces that an accuracy is asked of: those on indenters, of several their own, since a sum
+// may be none; without indenters the reactions; and torques; where forces alone load the body, the
+// displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
 
-// The residual of a state, relative to the forces that it balances; 0 where there are none but rounding.
-inline double relative_residual(const StepRecord& state) { return state.residual <= 1 ? state.residual : 0; }
+// The residual of a state, relative to the forces that it balances; 0 where there are none but
+// rounding.
+inline double relative_residual(const StepRecord& state) {
+  return state.residual <= 1 ? state.residual : 0;
+}
 
 // who goes along with the n-th of the scenes that an estimate solves
 using EstimateListener = std::function<RunListener(const Run& run, int n, int of)>;
 
-// Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no equilibrium,
-// Failure(config) for another kind of mesh.
-std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config, const std::optional<Material>& material,
-                                           const std::function<Place(const std::string&)>& where, const std::vector<Valued>& found,
-                                           double residual, const EstimateListener& listener = {});
+// Of the state that `config` led to. Throws Failure(not_converged) where a coarser scene has no
+// equilibrium, Failure(config) for another kind of mesh.
+std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config,
+                                           const std::optional<Material>& material,
+                                           const std::function<Place(const std::string&)>& where,
+                                           const std::vector<Valued>& found, double residual,
+                                           const EstimateListener& listener = {});
 
 struct PathErrors {
   std::vector<ErrorEstimate> at_end;
-  std::map<std::string, std::vector<double>> along;  // by force: total() at each step of the run [N]; empty by dual solutions
-  double growth = 0;                                 // power of 1 / length of the cells with which the CPU time grew; 0: not known
-  std::vector<std::string> not_known;                // why a quantity is not in at_end, a sentence each
+  std::map<std::string, std::vector<double>>
+      along;          // by force: total() at each step of the run [N]; empty by dual solutions
+  double growth = 0;  // power of 1 / length of the cells with which the CPU time grew; 0: not known
+  std::vector<std::string> not_known;  // why a quantity is not in at_end, a sentence each
   std::vector<double> of_cells =
-      {};  // dual and by recovery, for an accuracy: of the force whose error is largest, each cell's part of the bar, in parts of it
+      {};  // dual and by recovery, for an accuracy: of the force whose error is largest, each
+           // cell's part of the bar, in parts of it
 };
-// The same, at each step of itself.path too: the forces of the other meshes there, linear between their own steps.
+// The same, at each step of itself.path too: the forces of the other meshes there, linear between
+// their own steps.
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
-                          const std::function<Place(const std::string&)>& where, const SolvedPath& itself, double residual,
+                          const std::function<Place(const std::string&)>& where,
+                          const SolvedPath& itself, double residual,
                           const EstimateListener& listener = {});
 
-// as config.estimate says (recovery: accuracy/recovered_path.hpp), of the last state of its run and of the forces on its path
+// as config.estimate says (recovery: accuracy/recovered_path.hpp), of the last state of its run and
+// of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
-                     const std::function<Place(const std::string&)>& where, Run& run, const StepRecord& last,
-                     const std::vector<StepForces>& path, const EstimateListener& listener);
+                     const std::function<Place(const std::string&)>& where, Run& run,
+                     const StepRecord& last, const std::vector<StepForces>& path,
+                     const EstimateListener& listener);
 
 // "force 10.7 N +- 0.9 % (cells +0.8, increments -0.1, scatter 0.2, solver 1e-7 %); limit 10.6"
 std::string in_words(const ErrorEstimate& estimate);
-std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates);  // what gather can collect
+std::vector<Summary> summary_of(
+    const std::vector<ErrorEstimate>& estimates);  // what gather can collect
 
 // CPU seconds that an estimate by refinement takes, about (solve/forecast.hpp)
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,

@@ -11,13 +11,16 @@ namespace langer {
 
 namespace {
 
-constexpr int unasked_cells = 60'000;    // without being asked: their stress at all points takes memory
-constexpr double least_inside = 0.8;     // of the cells, or it tells nothing
-constexpr double beyond_telling = 0.15;  // share of the energy beyond which cells are too long to tell it
-constexpr double between_looks = 0.45;   // of the path, between two looks at the stress
-constexpr double no_force_left = 1e-6;   // of the largest force on the path
-constexpr double by_increments = 0.04;   // of the force, where one increment makes the path
-constexpr double below_edges = 3;        // what it misses where stresses are singular (ctest -R "within a factor of three")
+constexpr int unasked_cells =
+    60'000;  // without being asked: their stress at all points takes memory
+constexpr double least_inside = 0.8;  // of the cells, or it tells nothing
+constexpr double beyond_telling =
+    0.15;  // share of the energy beyond which cells are too long to tell it
+constexpr double between_looks = 0.45;  // of the path, between two looks at the stress
+constexpr double no_force_left = 1e-6;  // of the largest force on the path
+constexpr double by_increments = 0.04;  // of the force, where one increment makes the path
+constexpr double below_edges =
+    3;  // what it misses where stresses are singular (ctest -R "within a factor of three")
 
 bool is_homogeneous(const Run& run) { return run.reduction.kind() == Reduction::Kind::homogeneous; }
 
@@ -32,31 +35,43 @@ double share_at(const std::vector<std::pair<double, double>>& shares, double t) 
 }
 
 // what is told, over the share of the energy
-double told_times(const SolveConfig& config) { return order_of_force(config) < 2 ? below_edges : 1; }
+double told_times(const SolveConfig& config) {
+  return order_of_force(config) < 2 ? below_edges : 1;
+}
 
 // nothing is seen across one cell
-bool is_too_thin(const Run& run) { return !is_homogeneous(run) && with_a_corner_inside(run.mesh) <= least_inside; }
+bool is_too_thin(const Run& run) {
+  return !is_homogeneous(run) && with_a_corner_inside(run.mesh) <= least_inside;
+}
 
-Body body_of(const Run& run) { return {run.mesh, run.scene.materials, run.scene.directions, run.scene.formulation}; }
+Body body_of(const Run& run) {
+  return {run.mesh, run.scene.materials, run.scene.directions, run.scene.formulation};
+}
 
 }  // namespace
 
 std::string why_not_recovered(const Run& run) {
-  if (run.scene.formulation == Formulation::displacement) return "formulation: displacement locks, and its stress is smooth";
+  if (run.scene.formulation == Formulation::displacement)
+    return "formulation: displacement locks, and its stress is smooth";
   if (run.body.viscous()) return "stresses of viscous bodies are not compared";
   if (run.body.loads().follow()) return "pressures follow the surface";
-  if (run.scene.materials.size() > 1) return "pressures across a soft layer of few cells are not seen";
+  if (run.scene.materials.size() > 1)
+    return "pressures across a soft layer of few cells are not seen";
   for (const RigidContact& contact : run.scene.contacts)
-    if (contact.control || contact.adhesion) return fmt::format("{} does not move as told, or adheres", contact.name);
+    if (contact.control || contact.adhesion)
+      return fmt::format("{} does not move as told, or adheres", contact.name);
   return "";
 }
 
 bool recovered_by_default(const SolveConfig& config, const Run& run) {
-  if (asks_for_accuracy(config) || run.mesh.n_cells() > unasked_cells || !why_not_recovered(run).empty()) return false;
+  if (asks_for_accuracy(config) || run.mesh.n_cells() > unasked_cells ||
+      !why_not_recovered(run).empty())
+    return false;
   return !is_too_thin(run);
 }
 
-std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error, const StepForces& forces,
+std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error,
+                                            const StepForces& forces,
                                             const std::vector<Valued>& found, double residual) {
   const bool section = config.mesh && is_section(config.mesh->geometry);
   std::vector<ErrorEstimate> estimates;
@@ -64,10 +79,14 @@ std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const Rec
     const double size = std::abs(q.value);
     ErrorEstimate e{q, 0, 0, 0, residual * size, 2, false};
     if (q.of_force()) {
-      const double touching = touching_at({forces}, forces.touching.contains(q.name) ? q.name : "force", forces.t);
-      e.cells = std::max(told_times(config) * error.energy_share(), shear_at_edge(config, touching)) * size;
+      const double touching =
+          touching_at({forces}, forces.touching.contains(q.name) ? q.name : "force", forces.t);
+      e.cells =
+          std::max(told_times(config) * error.energy_share(), shear_at_edge(config, touching)) *
+          size;
       e.scatter = 0.5 * one_by_one(touching, section) * size;
-      if (has_friction(config)) e.increments = by_increments * std::pow(config.path.largest_increment(), 2) * size;
+      if (has_friction(config))
+        e.increments = by_increments * std::pow(config.path.largest_increment(), 2) * size;
     } else if (q.name == "von_mises_max") {
       e.cells = error.von_mises_spread;
     } else {
@@ -78,7 +97,8 @@ std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const Rec
   return estimates;
 }
 
-RecoveredPath::RecoveredPath(const Run& run, const SolveConfig& config, bool wanted) : run_(run), config_(config) {
+RecoveredPath::RecoveredPath(const Run& run, const SolveConfig& config, bool wanted)
+    : run_(run), config_(config) {
   if (wanted) body_ = std::make_unique<Body>(body_of(run));
 }
 
@@ -89,7 +109,8 @@ Companion RecoveredPath::beside(Companion companion) {
             look_at(whole);
           },
           [this, along = companion.along](RunListener listener) {
-            listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole, const SolveReport& report) {
+            listener.of_whole = [this, also = std::move(listener.of_whole)](
+                                    StepRecord& whole, const SolveReport& report) {
               if (also) also(whole, report);
               look_at(whole);
             };
@@ -115,7 +136,8 @@ void RecoveredPath::look_at(const StepRecord& whole) {
     shares_.emplace_back(whole.t, recovered_energy_share(*body_, whole.u));
 }
 
-PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Valued>& found, bool resolved) const {
+PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Valued>& found,
+                                 bool resolved) const {
   const bool asked = asks_for_accuracy(config_);
   PathErrors out;
   if (const std::string why = why_not_recovered(run_); !why.empty()) {
@@ -127,10 +149,12 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   const RecoveredError at_end = nothing_left ? RecoveredError{} : recovered_error(*body_, last.u);
   const StepForces forces = step_forces(config_, run_.scene, run_.mesh, last);
   const std::vector<ErrorEstimate> errors =
-      recovered_errors(config_, at_end, forces, unloaded_now ? valued_forces(forces) : found, relative_residual(last));
+      recovered_errors(config_, at_end, forces, unloaded_now ? valued_forces(forces) : found,
+                       relative_residual(last));
   if (asked && !nothing_left) out.of_cells = parts(at_end, errors, last);
   if (!resolved) {
-    out.not_known.push_back("errors are not told: contact is not resolved by the cells, as said above");
+    out.not_known.push_back(
+        "errors are not told: contact is not resolved by the cells, as said above");
     return out;
   }
   if (at_end.energy_share() > beyond_telling) {
@@ -146,19 +170,23 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const StepForces& step = path_[i];
     const RecoveredError error{std::sqrt(share_at(shares, step.t))};
-    for (const ErrorEstimate& e : recovered_errors(config_, error, step, valued_forces(step), residuals_[i]))
+    for (const ErrorEstimate& e :
+         recovered_errors(config_, error, step, valued_forces(step), residuals_[i]))
       out.along[e.of.name].push_back(e.total());
   }
   return out;
 }
 
-// of the force whose bar is widest, relative to it: those of the stress, and of those that are touched what nodes make
-std::vector<double> RecoveredPath::parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors,
+// of the force whose bar is widest, relative to it: those of the stress, and of those that are
+// touched what nodes make
+std::vector<double> RecoveredPath::parts(const RecoveredError& error,
+                                         const std::vector<ErrorEstimate>& errors,
                                          const StepRecord& last) const {
   const double times = told_times(config_), smooth = times * error.energy_share();
   double whole = smooth;
   for (const ErrorEstimate& e : forces_judged(errors))
-    if (const double size = std::abs(e.of.value); size > 0) whole = std::max(whole, (e.total() - e.increments) / size);
+    if (const double size = std::abs(e.of.value); size > 0)
+      whole = std::max(whole, (e.total() - e.increments) / size);
   return parts_of(error.of_cell, times, touched_cells(run_, last), whole - smooth);
 }
 

@@ -1,6 +1,8 @@
-// Error bars beside a run, of any mesh and without a second solution: by what the stress of its steps lacks to be smooth (post/recovery.hpp).
+// Error bars beside a run, of any mesh and without a second solution: by what the stress of its
+// steps lacks to be smooth (post/recovery.hpp).
 //   estimate: recovery   and where the config has no key `estimate`, for bodies to which it applies
-// A force under imposed movements is too large by about the share of the energy that the difference holds. What no stress tells is added:
+// A force under imposed movements is too large by about the share of the energy that the difference
+// holds. What no stress tells is added:
 //   cells       at least what nodes add that stick where they touch, as in an estimate by refinement
 //   scatter     nodes that come into contact one by one
 //   increments  with friction 0.04 of the force times the square of the longest increment's share of the path: not an estimate, but what
@@ -9,21 +11,23 @@
 
 #include <memory>
 
+#include "accuracy/checks/recording.hpp"
 #include "accuracy/estimate/error_estimate.hpp"
 #include "results/post/recovery.hpp"
-#include "accuracy/checks/recording.hpp"
 
 namespace langer {
 
-// Why these bars are not to be trusted for such a scene; empty where they are. Of layers of several materials they told a sixth of the error
-// (make accuracy-random BARS=default).
+// Why these bars are not to be trusted for such a scene; empty where they are. Of layers of several
+// materials they told a sixth of the error (make accuracy-random BARS=default).
 std::string why_not_recovered(const Run& run);
 
-// Whether a config without `estimate` gets them: also of moderate size, and nowhere of one cell's thickness.
+// Whether a config without `estimate` gets them: also of moderate size, and nowhere of one cell's
+// thickness.
 bool recovered_by_default(const SolveConfig& config, const Run& run);
 
 // Forces and greatest von Mises stress of a state. energy_share: of recovered_energy_share()
-std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error, const StepForces& forces,
+std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const RecoveredError& error,
+                                            const StepForces& forces,
                                             const std::vector<Valued>& found, double residual);
 
 class RecoveredPath {
@@ -32,14 +36,16 @@ class RecoveredPath {
   RecoveredPath(const Run& run, const SolveConfig& config, bool wanted);
   bool wanted() const { return body_ != nullptr; }
   Companion beside(Companion companion);
-  // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be trusted. resolved: contact is, by the
-  // cells (watch/contact_watch.hpp)
-  PathErrors errors(const StepRecord& last, const std::vector<Valued>& found, bool resolved = true) const;
+  // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be
+  // trusted. resolved: contact is, by the cells (watch/contact_watch.hpp)
+  PathErrors errors(const StepRecord& last, const std::vector<Valued>& found,
+                    bool resolved = true) const;
 
  private:
   void look_at(const StepRecord& whole);
   bool unloaded() const;
-  std::vector<double> parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors, const StepRecord& last) const;
+  std::vector<double> parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors,
+                            const StepRecord& last) const;
 
   const Run& run_;
   SolveConfig config_;

@@ -19,13 +19,16 @@ struct Lengths {
   double finest;       // of the meshes for coarser ones
 };
 constexpr Lengths of_block{0.18, 0.125};
-constexpr double resolves_edge = 0.14;    // with friction; on longer cells what is fitted was a third of the error
+constexpr double resolves_edge =
+    0.14;  // with friction; on longer cells what is fitted was a third of the error
 constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
-constexpr std::array cheap{1.4, 1.75};       // for estimate: auto, together about a fifth of the solve
-constexpr double close_enough = 1e-5;        // residual, relative to the reactions: errors are asked to two digits
-constexpr double few = 0.125;                // increments that are longer do not follow their law
-constexpr double apart = 1.08, longest = 3;  // lengths of two meshes' cells, at least; the coarsest, at most
+constexpr std::array cheap{1.4, 1.75};  // for estimate: auto, together about a fifth of the solve
+constexpr double close_enough =
+    1e-5;  // residual, relative to the reactions: errors are asked to two digits
+constexpr double few = 0.125;  // increments that are longer do not follow their law
+constexpr double apart = 1.08,
+                 longest = 3;  // lengths of two meshes' cells, at least; the coarsest, at most
 using Find = std::function<Place(const std::string&)>;
 
 // the mean of those axes that have more than one
@@ -38,8 +41,10 @@ double cells_along(const Geometry& geometry) {
 }
 
 Failure too_few_cells(const std::string& which, const Find& where) {
-  return Failure(Exit::not_converged, Error{where("estimate"), "estimate",
-                                            "too few cells" + which + " to make coarser meshes from them", "shorter cells", ""});
+  return Failure(
+      Exit::not_converged,
+      Error{where("estimate"), "estimate",
+            "too few cells" + which + " to make coarser meshes from them", "shorter cells", ""});
 }
 
 // numbers that a factor below two divides without a change of the cells' shape
@@ -47,7 +52,8 @@ void need_some_cells(const Geometry& geometry, const Find& where) {
   if (has_edge_in_contact_radii(geometry)) return;
   const std::vector<int> n = numbers_of_cells(geometry);
   for (std::size_t i = 0; i < n.size(); ++i)
-    if (n[i] == 2 || n[i] == 3) throw too_few_cells(fmt::format(" along {} ({}; 1, or 4 and more)", "xyz"[i], n[i]), where);
+    if (n[i] == 2 || n[i] == 3)
+      throw too_few_cells(fmt::format(" along {} ({}; 1, or 4 and more)", "xyz"[i], n[i]), where);
 }
 
 // a mesh with an odd number of cells has less of it than one that names it
@@ -56,13 +62,15 @@ void any_symmetry(SolveConfig& config) {
 }
 
 // coarser ones with `other`'s cells, all longer by one factor
-void add_longer_hex8(Refinements& refined, SolveConfig other, const std::array<double, 2>& factors, const Find& where) {
+void add_longer_hex8(Refinements& refined, SolveConfig other, const std::array<double, 2>& factors,
+                     const Find& where) {
   Geometry& geometry = other.mesh->geometry;
   refined.length = {1};
   const double cells = cells_along(geometry);
   for (double factor : factors) {
     do lengthen_cells(geometry, factor);  // a few layers may be divided by two factors alike
-    while (cells / cells_along(geometry) < apart * refined.length.back() && (factor *= 1.1) < longest);
+    while (cells / cells_along(geometry) < apart * refined.length.back() &&
+           (factor *= 1.1) < longest);
     if (factor >= longest) throw too_few_cells("", where);
     refined.length.push_back(cells / cells_along(geometry));
     refined.hex8.push_back(other);
@@ -87,23 +95,29 @@ void add_longer_hex27(Refinements& refined, const SolveConfig& config) {
 
 Refinements refinements(const SolveConfig& given, const Find& where) {
   SolveConfig config = given;
-  if (auto* newton = std::get_if<NewtonOptions>(&config.solver)) newton->relative = std::max(newton->relative, close_enough);
+  if (auto* newton = std::get_if<NewtonOptions>(&config.solver))
+    newton->relative = std::max(newton->relative, close_enough);
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry))
-    throw Failure(Exit::config, Error{where("estimate"), "estimate", "a mesh whose cells follow from no numbers of this config",
-                                      "geometry: {block: ...}, section, indented_block or indented_disc", ""});
+    throw Failure(Exit::config,
+                  Error{where("estimate"), "estimate",
+                        "a mesh whose cells follow from no numbers of this config",
+                        "geometry: {block: ...}, section, indented_block or indented_disc", ""});
   need_some_cells(config.mesh->geometry, where);
   Refinements refined;
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;
   const bool quadratic = reference(config.mesh->cells).second_order();
-  const bool locks = config.formulation == Formulation::displacement;  // and with it its limit on such cells
+  const bool locks =
+      config.formulation == Formulation::displacement;  // and with it its limit on such cells
   refined.own = !quadratic && !locks;
   const auto& factors = config.estimate == EstimateBy::automatic ? cheap : longer;
   if (const double* edge = edge_in_contact_radii(geometry)) {
     const Lengths lengths = is_section(geometry) ? of_disc : of_block;
     refined.own = refined.own && *edge * factors.back() <= lengths.fine_enough * longer.back();
-    refined.edge_unresolved = refined.own && !is_section(geometry) && has_friction(config) && *edge > resolves_edge;
-    if (!refined.own) *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * *edge : *edge, lengths.finest);
+    refined.edge_unresolved =
+        refined.own && !is_section(geometry) && has_friction(config) && *edge > resolves_edge;
+    if (!refined.own)
+      *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * *edge : *edge, lengths.finest);
   } else {
     if (quadratic) scale_cells(geometry, 0.5);  // as many nodes
     any_symmetry(other);
@@ -118,16 +132,19 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   }
   if (quadratic) add_longer_hex27(refined, config);
   const SolveConfig& coarsest = refined.hex8.empty() ? refined.hex27.back() : refined.hex8.back();
-  for (Truncation truncation : config.truncation) refined.wider[truncation] = wider(coarsest, truncation);
+  for (Truncation truncation : config.truncation)
+    refined.wider[truncation] = wider(coarsest, truncation);
   if (!has_friction(config) && !config.path.seconds) return refined;
   const double increment = config.path.largest_increment();
   const bool shorter = increment >= 0.1;
-  const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment, ratio = increment / another;
+  const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment,
+               ratio = increment / another;
   refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
   // on cells so long that nodes stick by chance their increments do, too
   refined.other_increments = refined.edge_unresolved ? refined.hex8.front() : coarsest;
   refined.other_increments.path.use_increment(another);
-  refined.other_increments.path.time_error /= ratio * ratio * ratio;  // it grows with the third power of an increment
+  refined.other_increments.path.time_error /=
+      ratio * ratio * ratio;  // it grows with the third power of an increment
   return refined;
 }
 

@@ -1,4 +1,5 @@
-// The scenes that an estimate by refinement solves beside the one that it judges: which meshes, which increments.
+// The scenes that an estimate by refinement solves beside the one that it judges: which meshes,
+// which increments.
 #pragma once
 
 #include <array>
@@ -16,14 +17,20 @@ struct Refinements {
   std::vector<double> length;            // of the hex8 meshes' cells, `own` included
   std::vector<double> hex27_length;      // of the hex27 meshes' cells, the solved one included
   bool own = false;                      // the solved mesh is the finest of its family
-  bool edge_unresolved = false;          // the cells are too long for the shear at the edge of a contact with friction
+  bool edge_unresolved =
+      false;  // the cells are too long for the shear at the edge of a contact with friction
   SolveConfig other_increments;
-  double per_change = 0;  // error of the increments per what these change; 0: none, the path does not matter
-  std::map<Truncation, std::array<SolveConfig, 2>> wider;  // than the one with the longest cells (accuracy/truncation.hpp)
-  int n_scenes() const { return static_cast<int>(hex8.size() + hex27.size() + 2 * wider.size()) + (per_change != 0); }
+  double per_change =
+      0;  // error of the increments per what these change; 0: none, the path does not matter
+  std::map<Truncation, std::array<SolveConfig, 2>>
+      wider;  // than the one with the longest cells (accuracy/truncation.hpp)
+  int n_scenes() const {
+    return static_cast<int>(hex8.size() + hex27.size() + 2 * wider.size()) + (per_change != 0);
+  }
 };
 
 // Throws Failure(config, not_converged) for a mesh that coarser ones cannot be made from.
-Refinements refinements(const SolveConfig& config, const std::function<Place(const std::string&)>& where);
+Refinements refinements(const SolveConfig& config,
+                        const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "accuracy/checks/progress.hpp"
 #include "core/base/interrupt.hpp"
 #include "scene/run/dry_run.hpp"
-#include "accuracy/checks/progress.hpp"
 
 namespace langer {
 
@@ -14,34 +14,42 @@ namespace {
 
 constexpr double worth_it = 1.0 / 3;  // of the solve
 
-bool has_numbers(const SolveConfig& config) { return config.mesh && has_numbers_of_cells(config.mesh->geometry); }
+bool has_numbers(const SolveConfig& config) {
+  return config.mesh && has_numbers_of_cells(config.mesh->geometry);
+}
 
 // CPU seconds that it will take, about; 0 where nothing is solved again
-double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where, Run& run) {
+double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material,
+                         const Run::Where& where, Run& run) {
   if (!by_refinement(config) || !has_numbers(config)) return 0;
   const double estimate = estimate_seconds(config, material, where);
   if (config.estimate == EstimateBy::refinement) return estimate;
-  return estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds() ? estimate : 0;
+  return estimate <=
+                 worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds()
+             ? estimate
+             : 0;
 }
 
 // half of the cells' part by shorter cells, of the increments' by shorter ones
 void say_costs(const Voice& voice, const PathErrors& found) {
   if (found.growth == 0 || found.at_end.empty()) return;
   const ErrorEstimate& first = found.at_end.front();
-  std::string words = fmt::format("half the cells' part of {} takes about {:.2g} times the time", first.of.name,
-                                  std::pow(2, found.growth / first.order));
-  if (first.increments != 0) words += fmt::format(", half the increments' part {:.2g} times", std::sqrt(2));
+  std::string words = fmt::format("half the cells' part of {} takes about {:.2g} times the time",
+                                  first.of.name, std::pow(2, found.growth / first.order));
+  if (first.increments != 0)
+    words += fmt::format(", half the increments' part {:.2g} times", std::sqrt(2));
   voice.say("{}", words);
 }
 
 }  // namespace
 
-EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                       const Run::Where& where, Run& run) {
+EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
+                       const std::optional<Material>& material, const Run::Where& where, Run& run) {
   const bool asked = config.estimate.has_value();
   if (asked && config.estimate != EstimateBy::automatic) return *config.estimate;
   if (asked && estimate_forecast(config, material, where, run) > 0) return EstimateBy::automatic;
-  const EstimateBy cheap = recovered_by_default(config, run) ? EstimateBy::recovery : EstimateBy::none;
+  const EstimateBy cheap =
+      recovered_by_default(config, run) ? EstimateBy::recovery : EstimateBy::none;
   if (!asked) return cheap;
   const char* why = has_numbers(config) ? "other meshes would take more than a third of the solve"
                                         : "the cells follow from no numbers of this config";
@@ -55,8 +63,9 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std:
   return cheap;
 }
 
-PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
+PathErrors say_errors(const Voice& voice, const SolveConfig& config,
+                      const std::optional<Material>& material, const Run::Where& where, Run& run,
+                      const StepRecord& last, const Recording& recording,
                       const RecoveredPath& recovered, bool resolved) {
   PathErrors found;
   try {
@@ -64,8 +73,9 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::
     if (config.estimate == EstimateBy::recovery)
       found = recovered.errors(last, valued(config, run.scene, run.mesh, last), resolved);
     else
-      found = estimated(config, material, where, run, last, recording.forces(),
-                        [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
+      found = estimated(
+          config, material, where, run, last, recording.forces(),
+          [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
   } catch (const Failure& failure) {
     if (interrupted()) recording.stopped_in_estimate();
     if (failure.code() != Exit::not_converged) throw;
@@ -77,11 +87,13 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::
   return found;
 }
 
-std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                                  const Run::Where& where, Run& run, const RunWatch& watch) {
+std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config,
+                                  const std::optional<Material>& material, const Run::Where& where,
+                                  Run& run, const RunWatch& watch) {
   if (watch.of_mesh())
-    voice.say("the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
-              run.reduction.mesh_of_point()->dofs().n_free());
+    voice.say(
+        "the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
+        run.reduction.mesh_of_point()->dofs().n_free());
   const double estimate = estimate_forecast(config, material, where, run);
   return dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, voice.quiet);
 }

@@ -4,28 +4,31 @@
 #include <optional>
 #include <vector>
 
+#include "accuracy/checks/recording.hpp"
 #include "accuracy/estimate/error_estimate.hpp"
 #include "accuracy/estimate/recovered_path.hpp"
 #include "core/base/voice.hpp"
-#include "accuracy/checks/recording.hpp"
 
 namespace langer {
 
-// Which estimate a run gets: that of its config; with auto that by other meshes where it takes less than a third of the solve by the
-// forecast; else, and where the config has no such key, that by recovery where it tells anything (accuracy/recovered_path.hpp), else none.
-// auto says why.
-EstimateBy estimate_of(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                       const Run::Where& where, Run& run);
+// Which estimate a run gets: that of its config; with auto that by other meshes where it takes less
+// than a third of the solve by the forecast; else, and where the config has no such key, that by
+// recovery where it tells anything (accuracy/recovered_path.hpp), else none. auto says why.
+EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
+                       const std::optional<Material>& material, const Run::Where& where, Run& run);
 
-// Estimates and says them, and what half of them would cost; empty where config.estimate says none, or where there is none (a warning: the
-// result itself stands). resolved: contact is, by the cells. Throws Failure with the signal's code where one has come.
-PathErrors say_errors(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                      const Run::Where& where, Run& run, const StepRecord& last, const Recording& recording,
+// Estimates and says them, and what half of them would cost; empty where config.estimate says none,
+// or where there is none (a warning: the result itself stands). resolved: contact is, by the cells.
+// Throws Failure with the signal's code where one has come.
+PathErrors say_errors(const Voice& voice, const SolveConfig& config,
+                      const std::optional<Material>& material, const Run::Where& where, Run& run,
+                      const StepRecord& last, const Recording& recording,
                       const RecoveredPath& recovered, bool resolved);
 
 // What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
-std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                                  const Run::Where& where, Run& run, const RunWatch& watch);
+std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config,
+                                  const std::optional<Material>& material, const Run::Where& where,
+                                  Run& run, const RunWatch& watch);
 
 // of PathErrors::along, by their names in /history of a solution
 SolutionWriter::Histories histories_of(const PathErrors& estimate);

@@ -5,35 +5,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/checks/progress.hpp"
 #include "accuracy/refinement/adaptive_cells.hpp"
 #include "accuracy/refinement/level_cost.hpp"
 #include "scene/run/footprint.hpp"
-#include "accuracy/checks/progress.hpp"
 
 namespace langer {
 
 namespace {
 
 bool has_fibres(const SolveConfig& config, const std::optional<Material>& material) {
-  const auto fibrous = [](const std::optional<Material>& m) { return m && !m->fibres.empty(); };
-  return fibrous(material) || std::any_of(config.materials.begin(), config.materials.end(),
-                                          [&](const auto& body) { return fibrous(body.second.material); });
+  const auto fibrous = [](const std::optional<Material>& m) {
+    return m && !m->fibres.empty();
+  };
+  return fibrous(material) ||
+         std::any_of(config.materials.begin(), config.materials.end(),
+                     [&](const auto& body) { return fibrous(body.second.material); });
 }
 
-// where scenes of other kinds begin: with friction the estimates of longer cells were half the error (docs/work_precision.md)
-constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0}, coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+// where scenes of other kinds begin: with friction the estimates of longer cells were half the
+// error (docs/work_precision.md)
+constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0},
+    coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
 constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};
 constexpr double enough_for_coarsest = 2;  // [%]
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
 constexpr double finest_of_block = 0.04, finest_of_disc = 0.01;  // finer ones were never tried
-constexpr double most_hex8 = 6e4;                                // of meshes whose cells are no lengths in contact radii
-constexpr double worth_a_forecast = 1e4;                         // cells: fewer take some seconds
+constexpr double most_hex8 = 6e4;         // of meshes whose cells are no lengths in contact radii
+constexpr double worth_a_forecast = 1e4;  // cells: fewer take some seconds
 
 // cells to where the indenters are, unless the config says where
 void place_cells(IndentedBlock& block, const Footprint& print) {
   const double a = block.contact_radius();
-  const auto middle = [&](int k) { return block.origin[2 * k] + 0.5 * block.size[2 * k]; };
-  const bool beside = std::abs(print.middle(0) - middle(0)) > 0.02 * a || std::abs(print.middle(1) - middle(1)) > 0.02 * a;
+  const auto middle = [&](int k) {
+    return block.origin[2 * k] + 0.5 * block.size[2 * k];
+  };
+  const bool beside = std::abs(print.middle(0) - middle(0)) > 0.02 * a ||
+                      std::abs(print.middle(1) - middle(1)) > 0.02 * a;
   const double widest = std::max(print.half(0), print.half(1));
   // a plane over all of the top has no place of its own
   if (2 * print.half(0) > 0.99 * block.size[0] && 2 * print.half(1) > 0.99 * block.size[2]) return;
@@ -47,7 +55,9 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
 // one sphere above the middle of one layer, at least as thick as the contact is wide
 bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
   const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
-  if (!block || config.contacts.size() != 1 || !config.loads.empty() || config.mesh->bodies.size() > 1 || !print) return false;
+  if (!block || config.contacts.size() != 1 || !config.loads.empty() ||
+      config.mesh->bodies.size() > 1 || !print)
+    return false;
   const ContactConfig& contact = config.contacts.begin()->second;
   if (!std::holds_alternative<Sphere>(contact.rigid) || contact.rotation) return false;
   const double a = std::max(print->half(0), print->half(1));
@@ -58,18 +68,24 @@ bool wants_other_than_hex27(const SolveConfig& config) {
   return config.formulation && *config.formulation != Formulation::linear_dilatation;
 }
 
-// Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27 are as near as hex8 for a tenth of
-// the time and less (docs/work_precision.md).
+// Of bodies that are held and moved at their faces, or pressed by planes without friction, hex27
+// are as near as hex8 for a tenth of the time and less (docs/work_precision.md).
 CellType first_cells(const SolveConfig& config, bool cut) {
-  const auto is_plane = [](const auto& c) { return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion; };
-  const bool better = std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) && !wants_other_than_hex27(config) &&
+  const auto is_plane = [](const auto& c) {
+    return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion;
+  };
+  const bool better = std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) &&
+                      !wants_other_than_hex27(config) &&
                       !has_edge_in_contact_radii(config.mesh->geometry);
-  return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27 : config.mesh->cells;
+  return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27
+                                                                : config.mesh->cells;
 }
 
-// With the config's own cells, or as many nodes; shorter where there are too few of them to make coarser ones.
+// With the config's own cells, or as many nodes; shorter where there are too few of them to make
+// coarser ones.
 AccuracyLevel the_configs_own(const SolveConfig& config, CellType cells) {
-  AccuracyLevel level{cells, cells == config.mesh->cells ? 1.0 : 2.0, config.path.largest_increment(), 0, false};
+  AccuracyLevel level{cells, cells == config.mesh->cells ? 1.0 : 2.0,
+                      config.path.largest_increment(), 0, false};
   for (int n : numbers_of_cells(config.mesh->geometry))
     if (n > 1) level.edge = std::min(level.edge, n / 4.0);
   return level;
@@ -81,10 +97,11 @@ AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chose
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config, cells);
   const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyLevel level = is_section(geometry)                                          ? of_disc
-                        : chosen.cut                                                  ? to_be_cut
-                        : has_friction(config) && chosen.wanted < enough_for_coarsest ? coarsest_with_friction
-                                                                                      : coarsest;
+  AccuracyLevel level = is_section(geometry) ? of_disc
+                        : chosen.cut         ? to_be_cut
+                        : has_friction(config) && chosen.wanted < enough_for_coarsest
+                            ? coarsest_with_friction
+                            : coarsest;
   *edge = level.edge;
   while (*edge > chosen.finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
   level.edge = *edge;
@@ -97,10 +114,12 @@ double finest_edge(const MeshConfig& mesh, CellType first) {
   const double cells = (reference(first).second_order() ? 8 : 1) * n_cells(mesh.geometry);
   const std::vector<int> along = numbers_of_cells(mesh.geometry);
   const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
-  return std::min(1.0, std::pow(cells / most_hex8, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
+  return std::min(1.0, std::pow(cells / most_hex8,
+                                1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
 }
 
-// What the config says stays where it is finer; what does not is told. `written`: before anything was chosen.
+// What the config says stays where it is finer; what does not is told. `written`: before anything
+// was chosen.
 std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) {
   std::string replaced;
   const auto replace = [&](const std::string& what) {
@@ -114,7 +133,8 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
     else if (*edge != level.edge)
       replace(fmt::format("edge of {:g}", *edge));
   }
-  if (const CellType cells = written.mesh->cells; (cells != CellType::hex8 || !level.in_contact_radii) && cells != level.cells)
+  if (const CellType cells = written.mesh->cells;
+      (cells != CellType::hex8 || !level.in_contact_radii) && cells != level.cells)
     replace(names(cells)[static_cast<int>(cells)]);
   const double step = written.path.largest_increment();
   if (!written.path.steps && step == usual.path.largest) return replaced;
@@ -128,71 +148,93 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
 }  // namespace
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
-  // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and q25-5steps in the isotropic scene, and what their
-  // neighbours add: with few nodes in contact one of them or another touches by chance
+  // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and
+  // q25-5steps in the isotropic scene, and what their neighbours add: with few nodes in contact one
+  // of them or another touches by chance
   static const std::vector<AccuracyLevel> smooth{{CellType::hex8, 0.175, 0.25, 2},
                                                  {CellType::hex8, 0.15, 0.25, 1},
                                                  {CellType::hex27, 0.3536, 0.25, 0.5},
                                                  {CellType::hex27, 0.25, 0.2, 0.2}};
-  // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the scenes with friction, and a quarter
-  // more for scenes unlike them (pipelines/accuracy.yaml). Shorter increments cost more and are no nearer: what cells add, longer
-  // increments take away. At 1 % five of them, since with four the estimate is just above it and cells would be made shorter
-  static const std::vector<AccuracyLevel> others{{CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
-                                                 {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.11, 0.2, 1},
-                                                 {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
+  // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the
+  // scenes with friction, and a quarter more for scenes unlike them (pipelines/accuracy.yaml).
+  // Shorter increments cost more and are no nearer: what cells add, longer increments take away. At
+  // 1 % five of them, since with four the estimate is just above it and cells would be made shorter
+  static const std::vector<AccuracyLevel> others{
+      {CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
+      {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.11, 0.2, 1},
+      {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
   return plain ? smooth : others;
 }
 
-std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts) {
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
+                                           const std::optional<Material>& material, bool cuts) {
   if (!asks_for_accuracy(config)) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
-  chosen.wanted = config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
-  const bool may_be_cut = !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
+  chosen.wanted =
+      config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  const bool may_be_cut =
+      !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
   chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
-    chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1, config.path.largest_increment(), 0, false};
+    chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1,
+                    config.path.largest_increment(), 0, false};
     chosen.shown = false;
     chosen.words = fmt::format("{:g} % wanted of the mesh as it is", chosen.wanted);
     return chosen;
   }
   const SolveConfig written = config;
   Geometry& geometry = config.mesh->geometry;
-  const std::optional<Footprint> print =
-      std::holds_alternative<IndentedBlock>(geometry) ? footprint(config, box(geometry)) : std::nullopt;
+  const std::optional<Footprint> print = std::holds_alternative<IndentedBlock>(geometry)
+                                             ? footprint(config, box(geometry))
+                                             : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   const CellType first = first_cells(config, chosen.cut);
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
   const bool elastic = !config.path.seconds;  // as the study's bodies
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
-  const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) && !has_fibres(config, material);
+  const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) &&
+                     !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
-  auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
+  auto level = std::find_if(levels.begin(), levels.end(),
+                            [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
-  chosen.level = !chosen.shown ? where_to_begin(config, chosen, first) : chosen.met ? *level : levels.back();
-  if (!plain && !has_friction(config)) chosen.level.step = coarsest.step;  // the force does not depend on the path
+  chosen.level = !chosen.shown ? where_to_begin(config, chosen, first)
+                 : chosen.met  ? *level
+                               : levels.back();
+  if (!plain && !has_friction(config))
+    chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
-  if (!elastic && has_friction(config) && level != levels.end() && of_the_studys_kind(config, print))
+  if (!elastic && has_friction(config) && level != levels.end() &&
+      of_the_studys_kind(config, print))
     chosen.level.edge = std::min(chosen.level.edge, level->edge);
   const std::string replaced = kept_and_replaced(written, chosen.level);
   put(chosen, config);
-  // what increments change of the force in the paper's scene, held, is a twentieth of this (docs/time.md); the estimate judges
+  // what increments change of the force in the paper's scene, held, is a twentieth of this
+  // (docs/time.md); the estimate judges
   if (config.path.seconds && config.path.time_error == LoadPathOptions{}.time_error)
     config.path.time_error = std::min(2e-2 * chosen.wanted, 0.1);
-  if (!config.estimate || config.estimate == EstimateBy::automatic) config.estimate = EstimateBy::refinement;
-  chosen.words = fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
+  if (!config.estimate || config.estimate == EstimateBy::automatic)
+    config.estimate = EstimateBy::refinement;
+  chosen.words =
+      fmt::format("{:g} % wanted: {}{}", chosen.wanted, in_words(chosen.level), replaced);
   if (chosen.shown)
-    chosen.words += fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
-                                plain ? "without fibres and friction" : "with friction", chosen.level.error,
-                                chosen.met ? "" : ", the finest level measured");
+    chosen.words +=
+        fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
+                    plain ? "without fibres and friction" : "with friction", chosen.level.error,
+                    chosen.met ? "" : ", the finest level measured");
   return chosen;
 }
 
 std::string in_words(const AccuracyLevel& level) {
   const char* cells = names(CellType{})[static_cast<int>(level.cells)];
-  if (level.in_contact_radii) return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, level.edge, level.step);
-  if (level.edge == 1) return fmt::format("{} of the config's length, increments of {:.3g}", cells, level.step);
-  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells, level.edge, level.step);
+  if (level.in_contact_radii)
+    return fmt::format("{} of {:.3g} contact radii, increments of {:.3g}", cells, level.edge,
+                       level.step);
+  if (level.edge == 1)
+    return fmt::format("{} of the config's length, increments of {:.3g}", cells, level.step);
+  return fmt::format("{} of {:.3g} times the config's length, increments of {:.3g}", cells,
+                     level.edge, level.step);
 }
 
 ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates) {
@@ -200,21 +242,27 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
   const bool estimated = !forces.empty();
   if (estimated) found.percent = 0;
-  for (const ErrorEstimate& e : forces) found.percent = std::max(found.percent, e.in_percent(e.total()));
+  for (const ErrorEstimate& e : forces)
+    found.percent = std::max(found.percent, e.in_percent(e.total()));
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
   if (estimated)
-    found.words = fmt::format("asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
-                              forces.front().of.of_force() ? "force" : "displacement", found.percent);
+    found.words = fmt::format(
+        "asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
+        forces.front().of.of_force() ? "force" : "displacement", found.percent);
   else if (chosen.shown)
-    found.words = fmt::format("asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
-                              chosen.wanted, found.percent);
+    found.words = fmt::format(
+        "asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",
+        chosen.wanted, found.percent);
   else
-    found.words = fmt::format("asked for {:g} %, and the error of the force is not known: nothing was estimated", chosen.wanted);
+    found.words = fmt::format(
+        "asked for {:g} %, and the error of the force is not known: nothing was estimated",
+        chosen.wanted);
   return found;
 }
 
-Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry)
+Accuracy::Accuracy(const Voice& voice, const SolveConfig& config,
+                   const std::optional<Material>& material, Where where, bool dry)
     : voice_(voice),
       config_(config),
       material_(material),
@@ -223,11 +271,14 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
   if (!chosen_) return;
   voice_.say("accuracy: {}", chosen_->words);
   if (chosen_->cut)
-    voice_.say("accuracy: cells are cut where the error comes from, until it is within that{}", dry ? " (not with --dry-run)" : "");
-  begins_ = !chosen_->shown && chosen_->level.in_contact_radii && config_.estimate == EstimateBy::refinement;
-  if (begins_)
-    voice_.say("accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
+    voice_.say("accuracy: cells are cut where the error comes from, until it is within that{}",
                dry ? " (not with --dry-run)" : "");
+  begins_ = !chosen_->shown && chosen_->level.in_contact_radii &&
+            config_.estimate == EstimateBy::refinement;
+  if (begins_)
+    voice_.say(
+        "accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
+        dry ? " (not with --dry-run)" : "");
   if (begins_ && dry) {
     const AccuracyLevel next = finest_at_once(*chosen_);
     voice_.say("accuracy: a next level, where these cells are not enough, takes up to {}",
@@ -239,11 +290,13 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config, const std::opt
 OrdersSeen Accuracy::orders_since_before(const std::vector<ErrorEstimate>& estimates) {
   OrdersSeen orders;
   std::map<std::string, double> now;
-  for (const ErrorEstimate& e : estimates) now[e.of.name] = e.in_percent(e.total() - std::abs(e.increments));
+  for (const ErrorEstimate& e : estimates)
+    now[e.of.name] = e.in_percent(e.total() - std::abs(e.increments));
   const double shorter = edge_before_ / chosen_->level.edge;
   for (const auto& [name, percent] : cells_before_)
     if (shorter > 1.1 && now.contains(name))
-      orders[name] = std::clamp(std::log(percent / std::max(now[name], 1e-300)) / std::log(shorter), 1.0, 2.5);
+      orders[name] =
+          std::clamp(std::log(percent / std::max(now[name], 1e-300)) / std::log(shorter), 1.0, 2.5);
   edge_before_ = chosen_->level.edge, cells_before_ = std::move(now);
   return orders;
 }
@@ -256,7 +309,8 @@ SolveConfig Accuracy::with(const AccuracyLevel& level) const {
   return config;
 }
 
-std::string Accuracy::not_begun(const std::string& level, double cells, const std::function<LevelCost()>& cost) const {
+std::string Accuracy::not_begun(const std::string& level, double cells,
+                                const std::function<LevelCost()>& cost) const {
   const double left = seconds_left();
   if (std::isinf(left) && cells < worth_a_forecast) return "";
   const LevelCost forecast = cost();
@@ -267,7 +321,8 @@ std::string Accuracy::not_begun(const std::string& level, double cells, const st
 
 std::string Accuracy::not_begun(const AccuracyLevel& level) const {
   const SolveConfig config = with(level);
-  return not_begun(in_words(level), n_cells(config.mesh->geometry), [&] { return level_cost(config, material_, where_); });
+  return not_begun(in_words(level), n_cells(config.mesh->geometry),
+                   [&] { return level_cost(config, material_, where_); });
 }
 
 std::string Accuracy::not_begun(const Mesh& mesh) const {
@@ -322,23 +377,29 @@ std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimat
   if (!chosen_) return {};
   const ReachedAccuracy found = reached(*chosen_, estimates);
   const auto judged = forces_judged(estimates);
-  const bool none = std::all_of(judged.begin(), judged.end(), [](const ErrorEstimate& e) { return e.none_yet(); });
+  const bool none = std::all_of(judged.begin(), judged.end(),
+                                [](const ErrorEstimate& e) { return e.none_yet(); });
   if (none && (!judged.empty() || !chosen_->shown)) return {};  // not known
   return {{"accuracy", found.percent, "percent"}};
 }
 
-void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output, const std::string& cheaper) const {
+void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output,
+                    const std::string& cheaper) const {
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
-  if (estimates.empty() && config_.estimate == EstimateBy::none) return voice_.warn("accuracy: " + found.words);
+  if (estimates.empty() && config_.estimate == EstimateBy::none)
+    return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
-  throw Failure(Exit::not_accurate,
-                Error{where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),
-                      fmt::format("at most {:g} %", chosen_->wanted),
-                      fmt::format("kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
-                                  "mesh.geometry with estimate, in place of {}",
-                                  output, in_words(chosen_->level), cheaper, key)});
+  throw Failure(
+      Exit::not_accurate,
+      Error{
+          where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),
+          fmt::format("at most {:g} %", chosen_->wanted),
+          fmt::format(
+              "kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
+              "mesh.geometry with estimate, in place of {}",
+              output, in_words(chosen_->level), cheaper, key)});
 }
 
 }  // namespace langer

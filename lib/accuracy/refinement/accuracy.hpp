@@ -1,8 +1,10 @@
-// What a wanted accuracy takes: a level of the refinement study that pipelines/refinement_study.yaml measures on three indentations of a block
-// (isotropic without friction; Table 1 at 60 degrees and c1 = +0.317 at 30 degrees with friction). Isotropic bodies without friction get
-// hex27 for less than 1 %, whose error falls fastest there; all else hex8: with friction the shear at the edge of the contact decides, and
-// hex8 have more nodes there for the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4
-// (make accuracy). A level's error is that of the force in the scenes of its kind.
+// What a wanted accuracy takes: a level of the refinement study that
+// pipelines/refinement_study.yaml measures on three indentations of a block (isotropic without
+// friction; Table 1 at 60 degrees and c1 = +0.317 at 30 degrees with friction). Isotropic bodies
+// without friction get hex27 for less than 1 %, whose error falls fastest there; all else hex8:
+// with friction the shear at the edge of the contact decides, and hex8 have more nodes there for
+// the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4 (make
+// accuracy). A level's error is that of the force in the scenes of its kind.
 #pragma once
 
 #include <map>
@@ -18,35 +20,43 @@ namespace langer {
 
 struct AccuracyLevel {
   CellType cells;
-  double edge;  // of the cells, in contact radii (IndentedBlock, IndentedDisc); in their own lengths where a config has no such key
-  double step;  // largest increment, as a share of the path to the first waypoint's end
+  double edge;   // of the cells, in contact radii (IndentedBlock, IndentedDisc); in their own
+                 // lengths where a config has no such key
+  double step;   // largest increment, as a share of the path to the first waypoint's end
   double error;  // [%]
   bool in_contact_radii = true;
 };
 std::string in_words(const AccuracyLevel& level);
-const std::vector<AccuracyLevel>& accuracy_levels(bool plain);  // by falling error; plain: isotropic, without friction
+const std::vector<AccuracyLevel>& accuracy_levels(
+    bool plain);  // by falling error; plain: isotropic, without friction
 
 struct ChosenLevel {
   AccuracyLevel level;
   double wanted = 0;  // [%]
-  // the study's kind of scene: one sphere above the middle of one layer that is thicker than the contact is wide
+  // the study's kind of scene: one sphere above the middle of one layer that is thicker than the
+  // contact is wide
   bool shown = true;
-  // the study promises it; false: the finest there is does not promise that much, or the scene is of another kind
+  // the study promises it; false: the finest there is does not promise that much, or the scene is
+  // of another kind
   bool met = false;
   std::string words;
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
   bool cut = false;       // cells, where the error comes from (accuracy/adaptive_cells.hpp)
 };
-// Puts the level's cells, increments and symmetry into the config, and the cells to where the indenters are; nothing where no accuracy
-// is wanted. Scenes that are not of the study's kind get the coarsest hex8, or the config's own cells and increments where these are
-// no lengths in contact radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if the config
-// has them; what does not is named in `words`.
-// material: of the bodies that the config names none for. cuts: who solves it cuts cells where the error comes from, if the scene is one
+// Puts the level's cells, increments and symmetry into the config, and the cells to where the
+// indenters are; nothing where no accuracy is wanted. Scenes that are not of the study's kind get
+// the coarsest hex8, or the config's own cells and increments where these are no lengths in contact
+// radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if
+// the config has them; what does not is named in `words`. material: of the bodies that the config
+// names none for. cuts: who solves it cuts cells where the error comes from, if the scene is one
 // for that (accuracy/adaptive_cells.hpp): then with coarse cells.
-std::optional<ChosenLevel> choose_accuracy(SolveConfig& config, const std::optional<Material>& material, bool cuts = false);
+std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
+                                           const std::optional<Material>& material,
+                                           bool cuts = false);
 
-// What was reached of it: the largest estimated error of a force; what the level promises where nothing was estimated.
+// What was reached of it: the largest estimated error of a force; what the level promises where
+// nothing was estimated.
 struct ReachedAccuracy {
   double percent = 0;
   bool met = false;
@@ -57,41 +67,54 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
 // The order with which each error of cells has fallen from one level to the next, by name.
 using OrdersSeen = std::map<std::string, double>;
 
-// The level at which these errors, of one that was solved, fall below four fifths of what is wanted: cells' with the length of the
-// cells to their order, or that which was seen, increments' with the square of their length; but at most some times as many cells as there
-// are: the next error tells more than this one. Nothing where it is the finest that there is, or not even that would do.
-std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+// The level at which these errors, of one that was solved, fall below four fifths of what is
+// wanted: cells' with the length of the cells to their order, or that which was seen, increments'
+// with the square of their length; but at most some times as many cells as there are: the next
+// error tells more than this one. Nothing where it is the finest that there is, or not even that
+// would do.
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
+                                         const std::vector<ErrorEstimate>& estimates,
                                          const OrdersSeen& seen = {});
 
 AccuracyLevel finest_at_once(const ChosenLevel& chosen);  // the most that finer_level takes
 double n_cells(const Geometry& geometry);                 // of numbers_of_cells, without symmetry
 
-// without an error that would say which: cells of 0.7 times the length; nothing where these would be shorter than the finest
+// without an error that would say which: cells of 0.7 times the length; nothing where these would
+// be shorter than the finest
 std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen);
 void put(const ChosenLevel& chosen, SolveConfig& config);  // its cells and increments
 
-// The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and again with shorter cells or
-// increments until that is within what was asked for or there are no shorter ones.
+// The loop around a solve that an accuracy was asked for: solved, judged by its own estimate, and
+// again with shorter cells or increments until that is within what was asked for or there are no
+// shorter ones.
 class Accuracy {
  public:
   using Where = std::function<Place(const std::string&)>;
-  // config as it was written. Scenes unlike those of the study begin with coarse cells, whose estimate tells which ones they need.
-  Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, Where where, bool dry);
+  // config as it was written. Scenes unlike those of the study begin with coarse cells, whose
+  // estimate tells which ones they need.
+  Accuracy(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
+           Where where, bool dry);
 
   const SolveConfig& config() const { return config_; }  // to be solved
   bool cuts() const { return chosen_ && chosen_->cut; }  // cells, where the error comes from
   // Whether to solve again, with config() as it is now. Says so.
   bool refine(const std::vector<ErrorEstimate>& estimates);
-  // The share of what was reached that is wanted, where that is less; 0 where it is not known. Nothing where it is met, or none is asked for.
+  // The share of what was reached that is wanted, where that is less; 0 where it is not known.
+  // Nothing where it is met, or none is asked for.
   std::optional<double> wanted_of(const std::vector<ErrorEstimate>& estimates) const;
-  // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where it may be. Says what it takes.
+  // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where
+  // it may be. Says what it takes.
   std::string not_begun(const Mesh& mesh) const;
   void ends_here(const std::string& why) { not_begun_ = why; }  // no next level, and why
-  // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says so.
+  // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says
+  // so.
   bool begin_anew(const Failure& failure);
-  std::vector<Summary> summary(const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
-  // Throws Failure(not_accurate) where the estimates exceed what was asked for. cheaper: what would take less; may be empty
-  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output, const std::string& cheaper = "") const;
+  std::vector<Summary> summary(
+      const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
+  // Throws Failure(not_accurate) where the estimates exceed what was asked for. cheaper: what would
+  // take less; may be empty
+  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output,
+            const std::string& cheaper = "") const;
 
  private:
   void take(const AccuracyLevel& level);
@@ -99,7 +122,8 @@ class Accuracy {
   SolveConfig with(const AccuracyLevel& level) const;
   OrdersSeen orders_since_before(const std::vector<ErrorEstimate>& estimates);
   std::string not_begun(const AccuracyLevel& level) const;  // as that of a mesh
-  std::string not_begun(const std::string& level, double cells, const std::function<LevelCost()>& cost) const;
+  std::string not_begun(const std::string& level, double cells,
+                        const std::function<LevelCost()>& cost) const;
 
   Voice voice_;
   SolveConfig config_;

@@ -6,18 +6,20 @@
 
 #include "mechanics/element/geometry.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
-#include "scene/run/footprint.hpp"
 #include "scene/model/hanging_constraints.hpp"
+#include "scene/run/footprint.hpp"
 
 namespace langer {
 
 namespace {
 
 constexpr double fewest = 0.3, most = 0.9;  // shares of the sum
-constexpr double fewest_cells = 1.0 / 7;    // of all: a level that does not double them tells little more than the one before
-constexpr double alike = 1e-4;              // relative
+constexpr double fewest_cells =
+    1.0 / 7;  // of all: a level that does not double them tells little more than the one before
+constexpr double alike = 1e-4;  // relative
 
-constexpr double across = 0.5;  // length of a cell under an indenter, in half widths of what touches
+constexpr double across =
+    0.5;  // length of a cell under an indenter, in half widths of what touches
 constexpr int most_at_first = 20'000;
 
 double longest_edge_in_plan(const Mesh& mesh, int e) {
@@ -31,14 +33,17 @@ double longest_edge_in_plan(const Mesh& mesh, int e) {
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order) {
   std::vector<std::size_t> by_size(parts.size());
   std::iota(by_size.begin(), by_size.end(), 0);
-  std::ranges::stable_sort(by_size, [&](std::size_t a, std::size_t b) { return parts[a] > parts[b]; });
+  std::ranges::stable_sort(by_size,
+                           [&](std::size_t a, std::size_t b) { return parts[a] > parts[b]; });
   const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
   const double enough = sum * std::clamp((1 - wanted) / (1 - std::pow(2, -order)), fewest, most);
   std::vector<char> marked(parts.size(), 0);
   double so_far = 0, last = 0;
   std::size_t n = 0;
   for (std::size_t e : by_size) {
-    const bool are_enough = so_far >= enough && static_cast<double>(n) >= fewest_cells * static_cast<double>(parts.size());
+    const bool are_enough =
+        so_far >= enough &&
+        static_cast<double>(n) >= fewest_cells * static_cast<double>(parts.size());
     if (parts[e] == 0 || (are_enough && parts[e] < (1 - alike) * last)) break;
     marked[e] = 1, ++n;
     so_far += parts[e], last = parts[e];
@@ -48,8 +53,10 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
 
 std::string why_not_cut(const SolveConfig& config) {
   const bool dual = config.estimate == EstimateBy::dual;
-  if (!dual && config.estimate != EstimateBy::recovery) return "cells are cut by the parts of a dual solution or of recovery";
-  if (!dual && config.mesh && has_edge_in_contact_radii(config.mesh->geometry)) return "recovery judges graded lines as they are";
+  if (!dual && config.estimate != EstimateBy::recovery)
+    return "cells are cut by the parts of a dual solution or of recovery";
+  if (!dual && config.mesh && has_edge_in_contact_radii(config.mesh->geometry))
+    return "recovery judges graded lines as they are";
   if (dual && has_friction(config)) return "a dual solution knows no friction";
   if (config.path.seconds) return "errors by cells are those of an elastic body";
   const std::vector<Complaint> never = not_on_cut_cells(config);
@@ -73,9 +80,11 @@ int shorten_under(const SolveConfig& config, CutMesh& cells) {
     std::vector<char> marked(static_cast<std::size_t>(mesh.n_cells()), 0);
     for (const Footprint& print : prints) {
       const double half = std::max(print.half(0), print.half(1));
-      const CutRegion region{{print.low[0], top - half, print.low[1]}, {print.high[0], top, print.high[1]}};
+      const CutRegion region{{print.low[0], top - half, print.low[1]},
+                             {print.high[0], top, print.high[1]}};
       for (int e = 0; e < mesh.n_cells(); ++e)
-        if (longest_edge_in_plan(mesh, e) > across * half && has_part_of(region, mesh, e)) marked[static_cast<std::size_t>(e)] = 1;
+        if (longest_edge_in_plan(mesh, e) > across * half && has_part_of(region, mesh, e))
+          marked[static_cast<std::size_t>(e)] = 1;
     }
     const auto n = std::ranges::count(marked, 1);
     if (n == 0 || mesh.n_cells() + 7 * n > most_at_first) return times;

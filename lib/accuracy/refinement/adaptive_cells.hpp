@@ -1,7 +1,7 @@
-// Cells cut where the error of a force comes from, until an accuracy is reached: from the estimate of one mesh, dual or by recovery, to the
-// next one.
-// [D96] marks the cells with the largest parts, as many as cutting them takes the sum to what is wanted; what 2:1 asks for is cut beside
-// them (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
+// Cells cut where the error of a force comes from, until an accuracy is reached: from the estimate
+// of one mesh, dual or by recovery, to the next one. [D96] marks the cells with the largest parts,
+// as many as cutting them takes the sum to what is wanted; what 2:1 asks for is cut beside them
+// (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
 #pragma once
 
 #include <string>
@@ -12,17 +12,19 @@
 
 namespace langer {
 
-// The cells with the largest parts, so that `wanted` times their sum is left where each cut takes a part to 2^-order of it; at least three
-// tenths of the sum and a seventh of the cells, at most nine tenths. Parts that are alike, as symmetry makes them, are marked together.
+// The cells with the largest parts, so that `wanted` times their sum is left where each cut takes a
+// part to 2^-order of it; at least three tenths of the sum and a seventh of the cells, at most nine
+// tenths. Parts that are alike, as symmetry makes them, are marked together.
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order);
 
-// Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose errors are known by cells, and
-// nothing that hanging nodes do not know (scene/hanging.hpp).
+// Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose
+// errors are known by cells, and nothing that hanging nodes do not know (scene/hanging.hpp).
 std::string why_not_cut(const SolveConfig& config);
 std::string why_not_cut(const Mesh& mesh);
 
-// Under each indenter that reaches the top, until cells there are at most half as long as what touches is to its side: with longer ones
-// the first solution tells nothing. How many times they are cut; 0: they are short enough.
+// Under each indenter that reaches the top, until cells there are at most half as long as what
+// touches is to its side: with longer ones the first solution tells nothing. How many times they
+// are cut; 0: they are short enough.
 int shorten_under(const SolveConfig& config, CutMesh& cells);
 
 }  // namespace langer

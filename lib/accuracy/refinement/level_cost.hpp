@@ -1,11 +1,12 @@
-// What a level of an accuracy would take, told before it is begun: from the analysis of its own tangent (run/dry_run.hpp).
+// What a level of an accuracy would take, told before it is begun: from the analysis of its own
+// tangent (run/dry_run.hpp).
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "scene/run/run.hpp"
 #include "scene/model/solve_config.hpp"
+#include "scene/run/run.hpp"
 
 namespace langer {
 
@@ -13,12 +14,15 @@ struct LevelCost {
   double seconds = 0;  // of CPU, its estimate included
   double bytes = 0, free = 0;
 };
-LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where);
+LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& material,
+                     const Run::Where& where);
 // on this mesh, in place of the config's
-LevelCost level_cost(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Run::Where& where);
+LevelCost level_cost(const SolveConfig& config, const Mesh& mesh,
+                     const std::optional<Material>& material, const Run::Where& where);
 std::string in_words(const LevelCost& cost);  // "about 40 s of CPU and 430 MB"
 
-// that the shell's ulimit -t and the job of a cluster leave this program; infinity where nothing limits it
+// that the shell's ulimit -t and the job of a cluster leave this program; infinity where nothing
+// limits it
 double seconds_left();
 
 // Why it is not to be begun, of memory and of seconds_left(); empty where it is.

@@ -41,8 +41,8 @@ Mesh ModelChoice::mesh() {
   if (!accuracy_.cuts() || !why_not_cut(mesh).empty()) return mesh;
   cells_.emplace(mesh);
   if (const int times = shorten_under(config(), *cells_); times > 0)
-    voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times, times == 1 ? "" : "s",
-               cells_->mesh().n_cells(), mesh.n_cells());
+    voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times,
+               times == 1 ? "" : "s", cells_->mesh().n_cells(), mesh.n_cells());
   return cells_->mesh();
 }
 
@@ -63,7 +63,8 @@ bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
 bool ModelChoice::another(const Failure& failure) {
   if (accuracy_.begin_anew(failure)) return true;
   if (!before_ || failure.code() != Exit::not_converged) return false;
-  const std::string why = fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
+  const std::string why =
+      fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
   voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
   accuracy_ = before_->accuracy, cells_ = before_->cells;
   accuracy_.ends_here(why);
@@ -77,22 +78,26 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   if (!wanted) return false;
   if (!cells_) {
     const std::string of_scene = why_not_cut(config());
-    accuracy_.ends_here("its cells are not cut: " + (of_scene.empty() ? why_not_cut(mesh) : of_scene));
+    accuracy_.ends_here("its cells are not cut: " +
+                        (of_scene.empty() ? why_not_cut(mesh) : of_scene));
     return false;
   }
   const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
   CutMesh next = *cells_;
-  next.cut(largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
+  next.cut(
+      largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
   const int n = next.mesh().n_cells(), before = mesh.n_cells();
   const std::string why =
-      n > most_cut ? fmt::format("a next level would have {} cells, of at most {}", n, most_cut) : accuracy_.not_begun(next.mesh());
+      n > most_cut ? fmt::format("a next level would have {} cells, of at most {}", n, most_cut)
+                   : accuracy_.not_begun(next.mesh());
   if (!why.empty()) {
     accuracy_.ends_here(why);
     return false;
   }
   cells_ = std::move(next);
-  voice_.say("accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}", (n - before) / 7,
-             before, n);
+  voice_.say(
+      "accuracy: {} of {} cells are cut into eight, from which most of the error comes; again with {}",
+      (n - before) / 7, before, n);
   return true;
 }
 

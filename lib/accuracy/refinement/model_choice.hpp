@@ -1,5 +1,6 @@
-// Which model of a scene is solved: the block or a section in its place, with which cells and increments, a point of a body that deforms
-// alike everywhere or its mesh. What a solve shows decides on the next one, until one stands.
+// Which model of a scene is solved: the block or a section in its place, with which cells and
+// increments, a point of a body that deforms alike everywhere or its mesh. What a solve shows
+// decides on the next one, until one stands.
 #pragma once
 
 #include "accuracy/refinement/accuracy.hpp"
@@ -11,24 +12,30 @@ namespace langer {
 class ModelChoice {
  public:
   using Where = Accuracy::Where;
-  // config as it was written; file: of the mesh, empty where it is the config's. material: of the bodies that the config names none for
-  ModelChoice(const Voice& voice, const SolveConfig& config, const std::string& file, const std::optional<Material>& material,
-              Where where, bool dry);
+  // config as it was written; file: of the mesh, empty where it is the config's. material: of the
+  // bodies that the config names none for
+  ModelChoice(const Voice& voice, const SolveConfig& config, const std::string& file,
+              const std::optional<Material>& material, Where where, bool dry);
 
   const SolveConfig& config() const { return accuracy_.config(); }  // to be solved
-  Mesh mesh();                                                      // on it; says where its cells are cut before the first solution
+  Mesh mesh();  // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
-  // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too large, or it found no
-  // equilibrium: then it is that of the level before, which is the last. Says so.
+  // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too
+  // large, or it found no equilibrium: then it is that of the level before, which is the last. Says
+  // so.
   bool another(const PathErrors& errors, const Mesh& mesh);
   bool another(const Failure& failure);
-  // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept. Says so.
+  // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept.
+  // Says so.
   void leave_point();
 
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
   // Throws Failure(not_accurate) where the errors exceed what was asked for.
   void need(const std::vector<ErrorEstimate>& errors, const std::string& output) const {
-    accuracy_.need(errors, output, section_.offered() ? "reduce: auto solves a section, on which short cells are cheap; " : "");
+    accuracy_.need(errors, output,
+                   section_.offered()
+                       ? "reduce: auto solves a section, on which short cells are cheap; "
+                       : "");
   }
 
  private:

@@ -9,7 +9,8 @@ namespace langer {
 namespace {
 
 constexpr double shortest_step = 0.01;  // shorter ones were never tried
-// An estimate of more than this [%] may be too large by the factor: then cells that it calls too long may do.
+// An estimate of more than this [%] may be too large by the factor: then cells that it calls too
+// long may do.
 constexpr double rough = 5, too_large = 4;
 constexpr double most_cells_more = 8, most_increments_more = 3;  // from one level to the next
 
@@ -18,7 +19,9 @@ Geometry with_cells(const Geometry& written, double factor) {
   for (int i = 0;; ++i, factor *= 0.97) {
     Geometry geometry = written;
     scale_cells(geometry, factor);
-    if (i == 10 || std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry)) return geometry;
+    if (i == 10 ||
+        std::visit([](const auto& g) { return contradictions(g, {}).empty(); }, geometry))
+      return geometry;
   }
 }
 
@@ -61,7 +64,9 @@ void put(const ChosenLevel& chosen, SolveConfig& config) {
   put_length(chosen, level.edge, config.mesh->geometry);
   const double first = config.path.first_increment();
   if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
-  if (config.path.seconds) config.path.first = std::min(first, level.step);  // its error decides: longer ones are begun again
+  if (config.path.seconds)
+    config.path.first =
+        std::min(first, level.step);  // its error decides: longer ones are begun again
   config.mesh->cells = level.cells;
 }
 
@@ -71,7 +76,8 @@ AccuracyLevel finest_at_once(const ChosenLevel& chosen) {
   return level;
 }
 
-std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
+                                         const std::vector<ErrorEstimate>& estimates,
                                          const OrdersSeen& seen) {
   AccuracyLevel finer = chosen.level;
   const double enough = 0.8 * chosen.wanted;
@@ -79,8 +85,10 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::v
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
   for (const ErrorEstimate& e : forces) {
     const double increments = e.in_percent(std::abs(e.increments));
-    if (increments > 0.35 * chosen.wanted) step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
-    // an estimate of few increments scatters by more than itself, and a fifth more of them cost less than shorter cells
+    if (increments > 0.35 * chosen.wanted)
+      step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
+    // an estimate of few increments scatters by more than itself, and a fifth more of them cost
+    // less than shorter cells
     else if (increments > 0.05 * chosen.wanted)
       step = std::min(step, 0.8);
   }
@@ -88,14 +96,17 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen, const std::v
   const double least = chosen.finest / chosen.level.edge, at_once = shortest_at_once(chosen);
   for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
-    if (percent_with(e, least, step, e.order) > (is_rough ? too_large : 1) * chosen.wanted) return std::nullopt;
+    if (percent_with(e, least, step, e.order) > (is_rough ? too_large : 1) * chosen.wanted)
+      return std::nullopt;
     const auto found = seen.find(e.of.name);
     const double order = found == seen.end() ? e.order : found->second;
     while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
-  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)), finer.edge = std::max(finer.edge, chosen.finest);
-  if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step) return std::nullopt;
+  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)),
+  finer.edge = std::max(finer.edge, chosen.finest);
+  if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step)
+    return std::nullopt;
   return finer;
 }
 

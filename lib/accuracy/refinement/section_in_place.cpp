@@ -12,21 +12,25 @@ namespace langer {
 
 namespace {
 
-// what cells of a section are worth: docs/sections.md. Cells linear in both directions need more of them
+// what cells of a section are worth: docs/sections.md. Cells linear in both directions need more of
+// them
 constexpr double edge_hex27 = 0.125, edge_hex8 = 0.0442, finest = 0.04;
 
 Vec3 middle_of(const IndentedBlock& block) {
   return {block.origin[0] + 0.5 * block.size[0], 0, block.origin[2] + 0.5 * block.size[2]};
 }
 
-bool is_end(const std::string& set) { return set == "top" || set == "bottom" || set == "y_min" || set == "y_max"; }
+bool is_end(const std::string& set) {
+  return set == "top" || set == "bottom" || set == "y_min" || set == "y_max";
+}
 
 // a set that is the same around the axis
 bool is_round(const SetConfig& set, const Vec3& axis) {
   if (set.of && !is_end(*set.of)) return false;
   if (const auto* plane = std::get_if<OnPlane>(&set.within)) return plane->axis == "y";
   const auto* cylinder = std::get_if<InCylinder>(&set.within);
-  return cylinder && cylinder->axis == "y" && std::hypot(cylinder->through[0] - axis[0], cylinder->through[2] - axis[2]) == 0;
+  return cylinder && cylinder->axis == "y" &&
+         std::hypot(cylinder->through[0] - axis[0], cylinder->through[2] - axis[2]) == 0;
 }
 
 bool has_round_sets(const SolveConfig& config, const Vec3& axis) {
@@ -35,9 +39,12 @@ bool has_round_sets(const SolveConfig& config, const Vec3& axis) {
     return is_end(name) || (found != config.mesh->sets.end() && is_round(found->second, axis));
   };
   const auto& sets = config.mesh->sets;
-  return std::all_of(sets.begin(), sets.end(), [&](const auto& set) { return is_round(set.second, axis); }) &&
-         std::all_of(config.supports.begin(), config.supports.end(), [&](const auto& s) { return round(s.on); }) &&
-         std::all_of(config.loads.begin(), config.loads.end(), [&](const auto& l) { return round(l.on); }) &&
+  return std::all_of(sets.begin(), sets.end(),
+                     [&](const auto& set) { return is_round(set.second, axis); }) &&
+         std::all_of(config.supports.begin(), config.supports.end(),
+                     [&](const auto& s) { return round(s.on); }) &&
+         std::all_of(config.loads.begin(), config.loads.end(),
+                     [&](const auto& l) { return round(l.on); }) &&
          std::all_of(config.contacts.begin(), config.contacts.end(),
                      [&](const auto& c) { return c.second.on.empty() || round(c.second.on); });
 }
@@ -45,16 +52,20 @@ bool has_round_sets(const SolveConfig& config, const Vec3& axis) {
 // held or moved in the plane of x and z in all directions or in none
 bool holds_alike(const SolveConfig& config) {
   const auto alike = [](const SupportConfig& s) {
-    const auto holds = [&](Axis axis) { return std::find(s.hold.begin(), s.hold.end(), axis) != s.hold.end(); };
+    const auto holds = [&](Axis axis) {
+      return std::find(s.hold.begin(), s.hold.end(), axis) != s.hold.end();
+    };
     return holds(Axis::x) == holds(Axis::z);
   };
   return std::all_of(config.supports.begin(), config.supports.end(), alike) &&
-         std::all_of(config.loads.begin(), config.loads.end(),
-                     [](const LoadConfig& l) { return l.displacement && !l.rotation && !l.imposed(0) && !l.imposed(2); });
+         std::all_of(config.loads.begin(), config.loads.end(), [](const LoadConfig& l) {
+           return l.displacement && !l.rotation && !l.imposed(0) && !l.imposed(2);
+         });
 }
 
 bool has_direction(const std::optional<Material>& material) {
-  return material && std::any_of(material->fibres.begin(), material->fibres.end(), [](const Fibre& f) { return has_direction(f); });
+  return material && std::any_of(material->fibres.begin(), material->fibres.end(),
+                                 [](const Fibre& f) { return has_direction(f); });
 }
 
 bool is_isotropic(const SolveConfig& config, const std::optional<Material>& material) {
@@ -65,7 +76,8 @@ bool is_isotropic(const SolveConfig& config, const std::optional<Material>& mate
 
 // an indenter of revolution about the axis, that moves along it
 bool is_round(const ContactConfig& contact, const Vec3& axis) {
-  return !contact.control && !contact.rotation && is_revolved_about({axis, Vec3::UnitY()}, contact.rigid) &&
+  return !contact.control && !contact.rotation &&
+         is_revolved_about({axis, Vec3::UnitY()}, contact.rigid) &&
          std::all_of(contact.motion.begin(), contact.motion.end(),
                      [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
 }
@@ -96,23 +108,30 @@ RadiiOfBlock radii_of(const IndentedBlock& block) {
   return {0.5 * std::min(a, b), std::sqrt(a * b / std::numbers::pi), 0.5 * std::hypot(a, b)};
 }
 
-std::optional<SolveConfig> on_a_disc(const SolveConfig& config, const std::optional<Material>& material, double radius) {
+std::optional<SolveConfig> on_a_disc(const SolveConfig& config,
+                                     const std::optional<Material>& material, double radius) {
   const auto* block = config.mesh ? std::get_if<IndentedBlock>(&config.mesh->geometry) : nullptr;
-  if (!block || config.contacts.empty() || !block->in_the_middle() || (block->even && (*block->even)[0] != (*block->even)[1]))
+  if (!block || config.contacts.empty() || !block->in_the_middle() ||
+      (block->even && (*block->even)[0] != (*block->even)[1]))
     return std::nullopt;
   const Vec3 axis = middle_of(*block);
-  const bool named = config.symmetry != SymmetryChoice::none && config.symmetry != SymmetryChoice::automatic;
-  const bool round = std::all_of(config.contacts.begin(), config.contacts.end(),
-                                 [&](const auto& contact) { return is_round(contact.second, axis); });
+  const bool named =
+      config.symmetry != SymmetryChoice::none && config.symmetry != SymmetryChoice::automatic;
+  const bool round =
+      std::all_of(config.contacts.begin(), config.contacts.end(),
+                  [&](const auto& contact) { return is_round(contact.second, axis); });
   const auto& points = config.mesh->points;  // in the plane of the section
-  const bool seen =
-      std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second[2] == axis[2] && p.second[0] >= axis[0]; });
-  if (named || !round || !seen || !is_isotropic(config, material) || !holds_alike(config) || !has_round_sets(config, axis))
+  const bool seen = std::all_of(points.begin(), points.end(), [&](const auto& p) {
+    return p.second[2] == axis[2] && p.second[0] >= axis[0];
+  });
+  if (named || !round || !seen || !is_isotropic(config, material) || !holds_alike(config) ||
+      !has_round_sets(config, axis))
     return std::nullopt;
   SolveConfig section = config;
   section.accuracy.reset(), section.fidelity.reset();
   section.symmetry = SymmetryChoice::none, section.reduce = Reduce::none;
-  IndentedDisc disc{{radius, block->size[1]}, block->origin[1], block->radius, block->depth, block->edge};
+  IndentedDisc disc{
+      {radius, block->size[1]}, block->origin[1], block->radius, block->depth, block->edge};
   if (block->even) disc.even = (*block->even)[0];
   section.mesh->geometry = disc;
   section.mesh->frames = Frames::global;
@@ -120,15 +139,17 @@ std::optional<SolveConfig> on_a_disc(const SolveConfig& config, const std::optio
   return section;
 }
 
-SectionInPlace::SectionInPlace(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material,
-                               const Where& where, bool dry)
+SectionInPlace::SectionInPlace(const Voice& voice, const SolveConfig& config,
+                               const std::optional<Material>& material, const Where& where,
+                               bool dry)
     : voice_(voice), asked_(config) {
   const auto* block = config.mesh ? std::get_if<IndentedBlock>(&config.mesh->geometry) : nullptr;
   if (block) radii_ = radii_of(*block);
   if (config.reduce == Reduce::automatic)
     decide(material, where, dry);
   else if ((offered_ = on_a_disc(config, material, radii_.alike).has_value()))
-    voice_.say("the scene is the same around an axis but for its sides: reduce: auto solves a section where they do not matter");
+    voice_.say(
+        "the scene is the same around an axis but for its sides: reduce: auto solves a section where they do not matter");
 }
 
 void SectionInPlace::decide(const std::optional<Material>& material, const Where& where, bool dry) {
@@ -136,10 +157,12 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   accuracy_ = choose_accuracy(chosen, material);
   auto section = on_a_disc(chosen, material, radii_.alike);
   if (!section)
-    return voice_.say("reduce: no indented_block here whose scene is the same around an axis; the body is solved as it is");
+    return voice_.say(
+        "reduce: no indented_block here whose scene is the same around an axis; the body is solved as it is");
   if (dry) return voice_.say("reduce: a section may take the block's place (not with --dry-run)");
   if (accuracy_) {
-    const bool bilinear = asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
+    const bool bilinear =
+        asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
     accuracy_->level.cells = bilinear ? CellType::hex8 : CellType::hex27;
     accuracy_->level.edge = bilinear ? edge_hex8 : edge_hex27;
     accuracy_->finest = finest, accuracy_->written = section->mesh->geometry;
@@ -154,24 +177,30 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   const std::string sides = fmt::format(
       "discs of {:.4g} and {:.4g} mm inside and around the block tell that its sides change the force by up to {:.2g} %",
       radii_.inside, radii_.around, sides_percent_);
-  if (!(sides_percent_ < wanted())) return voice_.say("reduce: {}, and {:g} % is allowed: the block is solved", sides, wanted());
-  voice_.say("reduce: a section of a disc of {:.4g} mm, of the block's area, takes its place; {}", radii_.alike, sides);
+  if (!(sides_percent_ < wanted()))
+    return voice_.say("reduce: {}, and {:g} % is allowed: the block is solved", sides, wanted());
+  voice_.say("reduce: a section of a disc of {:.4g} mm, of the block's area, takes its place; {}",
+             radii_.alike, sides);
   section_ = std::move(section);
 }
 
 // on meshes alike near the indenter, without what is no matter there
-void SectionInPlace::measure_sides(const SolveConfig& section, const std::optional<Material>& material, const Where& where) {
+void SectionInPlace::measure_sides(const SolveConfig& section,
+                                   const std::optional<Material>& material, const Where& where) {
   const auto forces = [&](double radius) {
     SolveConfig disc = section;
     std::get<IndentedDisc>(disc.mesh->geometry).size[0] = radius;
     disc.mesh->points.clear();
     return forces_judged(end_of_path(disc, material, where));
   };
-  const auto alike = forces(radii_.alike), inside = forces(radii_.inside), around = forces(radii_.around);
+  const auto alike = forces(radii_.alike), inside = forces(radii_.inside),
+             around = forces(radii_.around);
   for (std::size_t i = 0; i < alike.size(); ++i) {
-    const double most = std::max(std::abs(inside[i].value - alike[i].value), std::abs(around[i].value - alike[i].value));
+    const double most = std::max(std::abs(inside[i].value - alike[i].value),
+                                 std::abs(around[i].value - alike[i].value));
     sides_.push_back({alike[i].name, alike[i].unit, most});
-    sides_percent_ = std::max(sides_percent_, 100 * most / std::max(std::abs(alike[i].value), 1e-300));
+    sides_percent_ =
+        std::max(sides_percent_, 100 * most / std::max(std::abs(alike[i].value), 1e-300));
   }
 }
 
@@ -184,12 +213,14 @@ double SectionInPlace::percent(const std::vector<ErrorEstimate>& errors) const {
 }
 
 bool SectionInPlace::accurate(const std::vector<ErrorEstimate>& errors) {
-  if (!section_ || !accuracy_ || (errors.empty() && section_->estimate != EstimateBy::refinement)) return true;
+  if (!section_ || !accuracy_ || (errors.empty() && section_->estimate != EstimateBy::refinement))
+    return true;
   if (!errors.empty() && percent(errors) <= wanted()) return true;
   if (errors.empty())
     voice_.say("reduce: no estimate of the section's errors");
   else
-    voice_.say("reduce: {:.2g} % with the sides, and {:g} % is asked for", percent(errors), wanted());
+    voice_.say("reduce: {:.2g} % with the sides, and {:g} % is asked for", percent(errors),
+               wanted());
   ChosenLevel left = *accuracy_;  // what the sides leave of what is asked for
   left.wanted -= sides_percent_;
   const auto finer = errors.empty() ? with_shorter_cells(left) : finer_level(left, errors);
@@ -207,7 +238,8 @@ bool SectionInPlace::accurate(const std::vector<ErrorEstimate>& errors) {
 std::vector<Summary> SectionInPlace::summary(const std::vector<ErrorEstimate>& errors) const {
   if (!section_) return {};
   std::vector<Summary> summary;
-  for (const Valued& side : sides_) summary.push_back({side.name + "_error_sides", side.value, side.unit});
+  for (const Valued& side : sides_)
+    summary.push_back({side.name + "_error_sides", side.value, side.unit});
   if (accuracy_ && !errors.empty()) summary.push_back({"accuracy", percent(errors), "percent"});
   return summary;
 }

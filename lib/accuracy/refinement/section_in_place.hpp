@@ -1,10 +1,12 @@
-// A block that is the same around a vertical axis but for its far sides, solved as an axisymmetric section in its place.
+// A block that is the same around a vertical axis but for its far sides, solved as an axisymmetric
+// section in its place.
 //   the same    an indented_block that only its bottom and top hold, move or touch; indenters of revolution about the vertical through
 //               its middle, moving along it; no fibres with a direction; sets and points that such a section has too
 //   section     a disc of the block's area and thickness
 //   sides       discs inside and around the block (radii: half its shorter side, half its diagonal) lie on either side of it: the larger
 //               of the two changes of a force, from the disc of equal area, is what the sides may make
-// Taken where `reduce: auto` asks for it and the sides change no force by more than the accuracy asked for, 1 % without one.
+// Taken where `reduce: auto` asks for it and the sides change no force by more than the accuracy
+// asked for, 1 % without one.
 #pragma once
 
 #include <optional>
@@ -17,11 +19,14 @@
 
 namespace langer {
 
-// Nothing where the scene is not the same around an axis. material: of the bodies that the config names none for
-std::optional<SolveConfig> on_a_disc(const SolveConfig& config, const std::optional<Material>& material, double radius);
+// Nothing where the scene is not the same around an axis. material: of the bodies that the config
+// names none for
+std::optional<SolveConfig> on_a_disc(const SolveConfig& config,
+                                     const std::optional<Material>& material, double radius);
 
 struct RadiiOfBlock {
-  double inside = 0, alike = 0, around = 0;  // half the shorter side, of equal area, half the diagonal [mm]
+  double inside = 0, alike = 0,
+         around = 0;  // half the shorter side, of equal area, half the diagonal [mm]
 };
 RadiiOfBlock radii_of(const IndentedBlock& block);
 
@@ -30,22 +35,25 @@ class SectionInPlace {
   using Where = std::function<Place(const std::string&)>;
   // Says what is done and why; measures the sides where they are asked for, unless `dry`.
   // Throws Failure with the signal's code where one has come.
-  SectionInPlace(const Voice& voice, const SolveConfig& config, const std::optional<Material>& material, const Where& where,
-                 bool dry);
+  SectionInPlace(const Voice& voice, const SolveConfig& config,
+                 const std::optional<Material>& material, const Where& where, bool dry);
 
   bool taken() const { return section_.has_value(); }
-  bool offered() const { return offered_; }                                    // the scene has one, and nobody has asked for it
+  bool offered() const { return offered_; }  // the scene has one, and nobody has asked for it
   const SolveConfig& config() const { return section_ ? *section_ : asked_; }  // to be solved
-  // With these errors of the section beside those of the sides: whether an accuracy that was asked for is kept. Where it is not,
-  // config() is another one now: what finer_level says for the rest that the sides leave, then the block.
+  // With these errors of the section beside those of the sides: whether an accuracy that was asked
+  // for is kept. Where it is not, config() is another one now: what finer_level says for the rest
+  // that the sides leave, then the block.
   bool accurate(const std::vector<ErrorEstimate>& errors);
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
 
  private:
   void decide(const std::optional<Material>& material, const Where& where, bool dry);
-  void measure_sides(const SolveConfig& section, const std::optional<Material>& material, const Where& where);
+  void measure_sides(const SolveConfig& section, const std::optional<Material>& material,
+                     const Where& where);
   double wanted() const { return accuracy_ ? accuracy_->wanted : 1; }  // [%]
-  double percent(const std::vector<ErrorEstimate>& errors) const;      // largest of a force, sides included
+  double percent(
+      const std::vector<ErrorEstimate>& errors) const;  // largest of a force, sides included
 
   Voice voice_;
   SolveConfig asked_;

@@ -18,7 +18,8 @@ constexpr const char* blanks = " \t";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
 std::vector<CsvCell> words_of(const std::string& line) {
@@ -55,20 +56,26 @@ struct Digits {
 
 Digits digits_of(const std::string& text) {
   Digits d;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_digit = [](char c) {
+    return c >= '0' && c <= '9';
+  };
   const std::size_t from = text.find_first_not_of("+-");
   if (from == std::string::npos || from > 1) return d;
   const std::size_t mantissa = std::min(text.find_first_of("eE", from), text.size());
   const std::string m = text.substr(from, mantissa - from);
-  if (m.empty() || m.find_first_not_of("0123456789.,") != std::string::npos || !std::any_of(m.begin(), m.end(), is_digit)) return d;
-  const auto commas = std::count(m.begin(), m.end(), ','), points = std::count(m.begin(), m.end(), '.');
+  if (m.empty() || m.find_first_not_of("0123456789.,") != std::string::npos ||
+      !std::any_of(m.begin(), m.end(), is_digit))
+    return d;
+  const auto commas = std::count(m.begin(), m.end(), ','),
+             points = std::count(m.begin(), m.end(), '.');
   std::string as_point = text;
   std::replace(as_point.begin(), as_point.end(), ',', '.');
   d.comma = commas > 0, d.point = points > 0;
   d.both = (commas > 0 && points > 0) || commas > 1;
   d.number = !d.both && csv_number(as_point).has_value();
   const std::size_t comma = m.find(',');
-  d.thousands = d.number && d.comma && mantissa == text.size() && comma >= 1 && comma <= 3 && m[0] != '0' && m.size() == comma + 4;
+  d.thousands = d.number && d.comma && mantissa == text.size() && comma >= 1 && comma <= 3 &&
+                m[0] != '0' && m.size() == comma + 4;
   return d;
 }
 
@@ -81,23 +88,30 @@ struct CsvLine {
 
 std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    throw Failure(Exit::input,
-                  {{name, 1, 1}, "", "found text in UTF-16", "UTF-8", "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
+    throw Failure(Exit::input, {{name, 1, 1},
+                                "",
+                                "found text in UTF-16",
+                                "UTF-8",
+                                "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
   std::vector<CsvLine> lines;
-  const char end = text.find('\n') == std::string::npos && text.find('\r') != std::string::npos ? '\r' : '\n';
+  const char end =
+      text.find('\n') == std::string::npos && text.find('\r') != std::string::npos ? '\r' : '\n';
   std::istringstream in(text);
   int number = 0;
   for (std::string line; std::getline(in, line, end);) {
     if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.ends_with('\r')) line.pop_back();
     const std::size_t first = line.find_first_not_of(blanks);
-    if (first == std::string::npos || line.find_first_not_of(",;\" \t") == std::string::npos) continue;
+    if (first == std::string::npos || line.find_first_not_of(",;\" \t") == std::string::npos)
+      continue;
     lines.push_back({number, line, line[first] == '#'});
   }
   return lines;
 }
 
-CsvRow row_of(const CsvLine& line, char separator) { return {line.number, csv_cells(line.text, separator)}; }
+CsvRow row_of(const CsvLine& line, char separator) {
+  return {line.number, csv_cells(line.text, separator)};
+}
 
 CsvRow commented_row(const CsvLine& line, char separator) {  // what stands behind the #
   const std::size_t first = line.text.find_first_not_of("# \t");
@@ -109,13 +123,15 @@ CsvRow commented_row(const CsvLine& line, char separator) {  // what stands behi
 
 bool all_numbers(const CsvRow& row) {
   return !row.cells.empty() &&
-         std::all_of(row.cells.begin(), row.cells.end(), [](const CsvCell& c) { return digits_of(c.text).number; });
+         std::all_of(row.cells.begin(), row.cells.end(),
+                     [](const CsvCell& c) { return digits_of(c.text).number; });
 }
 
 std::optional<char> told_separator(const std::vector<CsvLine>& lines) {
   if (lines.empty() || lines[0].text.size() != 5) return std::nullopt;
   std::string word = lines[0].text.substr(0, 4);
-  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return word == "sep=" ? std::optional(lines[0].text[4]) : std::nullopt;
 }
 
@@ -126,8 +142,8 @@ struct Beginning {
 };
 
 // the names as the caller knows them, in any dialect
-std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines, const std::string& separators,
-                                         const CsvReading& reading) {
+std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines,
+                                         const std::string& separators, const CsvReading& reading) {
   if (!reading.is_header) return std::nullopt;
   for (char separator : separators)
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -138,13 +154,15 @@ std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines, cons
   std::size_t first = 0;
   while (first < lines.size() && lines[first].comment) ++first;
   for (char separator : separators)
-    for (std::size_t i = first; i-- > 0 && first < lines.size() && all_numbers(row_of(lines[first], separator));)
+    for (std::size_t i = first;
+         i-- > 0 && first < lines.size() && all_numbers(row_of(lines[first], separator));)
       if (CsvRow row = commented_row(lines[i], separator); reading.is_header(row.cells))
         return Beginning{std::move(row), first, separator};
   return std::nullopt;
 }
 
-Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& separators, const std::string& name) {
+Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& separators,
+                          const std::string& name) {
   std::vector<std::size_t> plain;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].comment) plain.push_back(i);
@@ -152,7 +170,8 @@ Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& 
   const CsvLine &first = lines[plain.front()], &last = lines[plain.back()];
   char separator = ',';
   for (char c : separators)
-    if (row_of(first, c).cells.size() > 1 && row_of(last, c).cells.size() > 1 && (c != ' ' || all_numbers(row_of(last, c)))) {
+    if (row_of(first, c).cells.size() > 1 && row_of(last, c).cells.size() > 1 &&
+        (c != ' ' || all_numbers(row_of(last, c)))) {
       separator = c;
       break;
     }
@@ -160,14 +179,17 @@ Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& 
   if (!all_numbers(row)) return {std::move(row), plain.front() + 1, separator};
   if (plain.front() > 0) {
     CsvRow above = commented_row(lines[plain.front() - 1], separator);
-    if (above.cells.size() != row.cells.size() && separator != ' ') above = commented_row(lines[plain.front() - 1], ' ');
-    if (above.cells.size() == row.cells.size() && !all_numbers(above)) return {std::move(above), plain.front(), separator};
+    if (above.cells.size() != row.cells.size() && separator != ' ')
+      above = commented_row(lines[plain.front() - 1], ' ');
+    if (above.cells.size() == row.cells.size() && !all_numbers(above))
+      return {std::move(above), plain.front(), separator};
   }
-  throw Failure(Exit::input, {{name, first.number, 1},
-                              "",
-                              "found numbers where the columns should have their names",
-                              "a line of names above them, such as strain,nominal_stress_MPa",
-                              "numpy.savetxt writes one with header=\"strain,nominal_stress_MPa\""});
+  throw Failure(Exit::input,
+                {{name, first.number, 1},
+                 "",
+                 "found numbers where the columns should have their names",
+                 "a line of names above them, such as strain,nominal_stress_MPa",
+                 "numpy.savetxt writes one with header=\"strain,nominal_stress_MPa\""});
 }
 
 void drop_empty_end(std::vector<CsvCell>& cells, std::size_t down_to) {
@@ -193,24 +215,31 @@ DecimalSign decimal_sign(const CsvTable& table) {
       const Digits d = digits_of(cell.text);
       if (!d.number) continue;
       if (d.point && !with_point) with_point = &cell, line_of_point = row.line;
-      if (d.comma && d.thousands && !maybe_thousands) maybe_thousands = &cell, line_of_thousands = row.line;
+      if (d.comma && d.thousands && !maybe_thousands)
+        maybe_thousands = &cell, line_of_thousands = row.line;
       if (d.comma && !d.thousands && !with_comma) with_comma = &cell, line_of_comma = row.line;
     }
   if (!with_comma && !maybe_thousands) return DecimalSign::point;
   const CsvCell& comma = with_comma ? *with_comma : *maybe_thousands;
   if (!with_comma) line_of_comma = line_of_thousands;
   if (with_point)
-    throw Failure(Exit::input, {{table.name, line_of_comma, comma.column},
-                                "",
-                                fmt::format("found {} in a file with {} (line {})", comma.text, with_point->text, line_of_point),
-                                "one decimal sign and no thousands separator",
-                                "in a fit, decimal: comma or decimal: point in the item of `data` says which of the two counts"});
+    throw Failure(
+        Exit::input,
+        {{table.name, line_of_comma, comma.column},
+         "",
+         fmt::format("found {} in a file with {} (line {})", comma.text, with_point->text,
+                     line_of_point),
+         "one decimal sign and no thousands separator",
+         "in a fit, decimal: comma or decimal: point in the item of `data` says which of the two counts"});
   if (!with_comma)
-    throw Failure(Exit::input, {{table.name, line_of_comma, comma.column},
-                                "",
-                                fmt::format("found {}, and no other number tells whether its comma is a decimal one", comma.text),
-                                "numbers without a second reading",
-                                "in a fit, decimal: comma in the item of `data`; remove commas that separate thousands"});
+    throw Failure(
+        Exit::input,
+        {{table.name, line_of_comma, comma.column},
+         "",
+         fmt::format("found {}, and no other number tells whether its comma is a decimal one",
+                     comma.text),
+         "numbers without a second reading",
+         "in a fit, decimal: comma in the item of `data`; remove commas that separate thousands"});
   return DecimalSign::comma;
 }
 
@@ -299,12 +328,14 @@ bool is_unit(const std::string& text) {
                                            "mJ",
                                            "N/mm"};
   std::string inner = trimmed(text);
-  if (inner.size() > 2 && ((inner.front() == '(' && inner.back() == ')') || (inner.front() == '[' && inner.back() == ']')))
+  if (inner.size() > 2 && ((inner.front() == '(' && inner.back() == ')') ||
+                           (inner.front() == '[' && inner.back() == ']')))
     inner = trimmed(inner.substr(1, inner.size() - 2));
   return known.count(inner) > 0;
 }
 
-CsvTable parse_table(const std::string& text, const std::string& shown_name, const CsvReading& reading) {
+CsvTable parse_table(const std::string& text, const std::string& shown_name,
+                     const CsvReading& reading) {
   constexpr std::size_t most_errors = 10;
   CsvTable table;
   table.name = shown_name;
@@ -312,7 +343,8 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name, con
   std::string separators = "\t;, ";
   if (const auto told = told_separator(lines)) separators = *told, lines.erase(lines.begin());
   std::optional<Beginning> known = known_beginning(lines, separators, reading);
-  const Beginning begin = known ? std::move(*known) : first_beginning(lines, separators, shown_name);
+  const Beginning begin =
+      known ? std::move(*known) : first_beginning(lines, separators, shown_name);
   table.header = begin.header;
   drop_empty_end(table.header.cells, 1);
   std::vector<Error> errors;
@@ -321,12 +353,14 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name, con
     CsvRow row = row_of(lines[i], begin.separator);
     drop_empty_end(row.cells, table.header.cells.size());
     if (row.cells.size() != table.header.cells.size())
-      errors.push_back({{shown_name, row.line, 1},
-                        "",
-                        fmt::format("found {} cells", row.cells.size()),
-                        fmt::format("{}, as in the line that names the columns", table.header.cells.size()),
-                        hint_for_cells(table, row.cells.size(), begin.separator)});
-    else if (table.rows.empty() && table.units.empty() && row.cells.size() > 1 && is_line_of_units(row))
+      errors.push_back(
+          {{shown_name, row.line, 1},
+           "",
+           fmt::format("found {} cells", row.cells.size()),
+           fmt::format("{}, as in the line that names the columns", table.header.cells.size()),
+           hint_for_cells(table, row.cells.size(), begin.separator)});
+    else if (table.rows.empty() && table.units.empty() && row.cells.size() > 1 &&
+             is_line_of_units(row))
       for (const CsvCell& cell : row.cells) table.units.push_back(cell.text);
     else
       table.rows.push_back(std::move(row));
@@ -340,10 +374,14 @@ std::string text_of_table(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf()))
-    throw Failure(Exit::input, {{path, 0, 0}, "", "cannot be read, or is empty", "a CSV file with a measured test", ""});
+    throw Failure(
+        Exit::input,
+        {{path, 0, 0}, "", "cannot be read, or is empty", "a CSV file with a measured test", ""});
   return text.str();
 }
 
-CsvTable read_table(const std::string& path, const CsvReading& reading) { return parse_table(text_of_table(path), path, reading); }
+CsvTable read_table(const std::string& path, const CsvReading& reading) {
+  return parse_table(text_of_table(path), path, reading);
+}
 
 }  // namespace langer

@@ -38,16 +38,21 @@ struct CsvTable {
 };
 
 struct CsvReading {
-  std::optional<DecimalSign> decimal;                               // none: as the file shows
-  std::function<bool(const std::vector<CsvCell>&)> is_header = {};  // knows the line of names; none: the first
+  std::optional<DecimalSign> decimal;  // none: as the file shows
+  std::function<bool(const std::vector<CsvCell>&)> is_header =
+      {};  // knows the line of names; none: the first
 };
 
-std::vector<CsvCell> csv_cells(const std::string& line, char separator = ',');  // ' ': any number of blanks
-std::optional<double> csv_number(const std::string& text);                      // the whole text as a number
-bool is_unit(const std::string& text);  // "MPa", "[mm]", "(N/mm^2)", "%", "-": may stand below a name
+std::vector<CsvCell> csv_cells(const std::string& line,
+                               char separator = ',');       // ' ': any number of blanks
+std::optional<double> csv_number(const std::string& text);  // the whole text as a number
+bool is_unit(
+    const std::string& text);  // "MPa", "[mm]", "(N/mm^2)", "%", "-": may stand below a name
 
-// throws Failure(input): rows with more or fewer cells than the header, no names, text in UTF-16, decimals of two kinds
-CsvTable parse_table(const std::string& text, const std::string& shown_name, const CsvReading& reading = {});
+// throws Failure(input): rows with more or fewer cells than the header, no names, text in UTF-16,
+// decimals of two kinds
+CsvTable parse_table(const std::string& text, const std::string& shown_name,
+                     const CsvReading& reading = {});
 std::string text_of_table(const std::string& path);  // throws Failure(input)
 CsvTable read_table(const std::string& path, const CsvReading& reading = {});
 

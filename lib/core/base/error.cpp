@@ -6,7 +6,8 @@ namespace langer {
 
 std::string text(const Error& e) {
   std::string s = e.where.file;
-  if (e.where.line > 0) s += ":" + std::to_string(e.where.line) + ":" + std::to_string(e.where.column);
+  if (e.where.line > 0)
+    s += ":" + std::to_string(e.where.line) + ":" + std::to_string(e.where.column);
   if (!e.key.empty()) s += (s.empty() ? "" : ": ") + e.key;
   if (!e.found.empty()) s += (s.empty() ? "" : ": ") + e.found;
   if (!e.expected.empty()) s += "; expected " + e.expected;
@@ -16,8 +17,10 @@ std::string text(const Error& e) {
 
 Failure::Failure(Exit code, std::vector<Error> errors) : code_(code), errors_(std::move(errors)) {
   constexpr std::size_t most = 50;  // a file of another kind may have a hundred thousand
-  for (std::size_t i = 0; i < std::min(most, errors_.size()); ++i) message_ += (message_.empty() ? "" : "\n") + text(errors_[i]);
-  if (errors_.size() > most) message_ += "\n... and " + std::to_string(errors_.size() - most) + " more";
+  for (std::size_t i = 0; i < std::min(most, errors_.size()); ++i)
+    message_ += (message_.empty() ? "" : "\n") + text(errors_[i]);
+  if (errors_.size() > most)
+    message_ += "\n... and " + std::to_string(errors_.size() - most) + " more";
 }
 
 Failure::Failure(Exit code, Error error) : Failure(code, std::vector<Error>{std::move(error)}) {}
@@ -43,9 +46,11 @@ std::string nearest(const std::string& name, const std::vector<std::string>& kno
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& k : known)  // something of the name must remain
     if (name.size() < k.size() + least && k.size() < name.size() + least)
-      if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size())) least = d, best = k;
+      if (std::size_t d = distance(name, k); d < least && d < std::max(name.size(), k.size()))
+        least = d, best = k;
   if (!best.empty() || name.size() < 3) return best;
-  for (const std::string& k : known) {  // begun and not ended: gauge for gauge_length, though there is gauge_length_z too
+  for (const std::string& k :
+       known) {  // begun and not ended: gauge for gauge_length, though there is gauge_length_z too
     if (!k.starts_with(name) || (!best.empty() && k.starts_with(best))) continue;
     if (!best.empty() && !best.starts_with(k)) return "";
     best = k;

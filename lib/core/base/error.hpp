@@ -24,8 +24,16 @@ struct Error {
 };
 
 // Exit codes of every program; documented in README and never renumbered.
-// input: a file that is read or written, its folder and disk, or the memory; stopped by a signal: 128 + signal.
-enum class Exit : int { ok = 0, bug = 1, config = 2, input = 3, not_converged = 4, not_accurate = 5 };
+// input: a file that is read or written, its folder and disk, or the memory; stopped by a signal:
+// 128 + signal.
+enum class Exit : int {
+  ok = 0,
+  bug = 1,
+  config = 2,
+  input = 3,
+  not_converged = 4,
+  not_accurate = 5
+};
 
 // "file:line:col: key: found X; expected Y\n  hint: Z"
 std::string text(const Error& error);

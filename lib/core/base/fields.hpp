@@ -9,14 +9,15 @@
 //     }
 //   };
 //
-// The same listing reads, checks, echoes the effective config, prints --describe and feeds the hash.
-// A key without `required` may be left out; the member's initial value is then its default.
+// The same listing reads, checks, echoes the effective config, prints --describe and feeds the
+// hash. A key without `required` may be left out; the member's initial value is then its default.
 // A struct may add `std::vector<Complaint> complaints() const` for rules between keys.
-// Member types: bool, int, double, std::string, InputPath, enum (with names()), nested struct with a listing,
-// std::optional, std::vector, std::array<T, N>, std::map<std::string, T> (named things),
+// Member types: bool, int, double, std::string, InputPath, enum (with names()), nested struct with
+// a listing, std::optional, std::vector, std::array<T, N>, std::map<std::string, T> (named things),
 // std::variant<A, B> (a map with exactly one key, the alternative's `key`),
-// std::vector<std::variant<A, B>> (a sum: a map with one or more such keys, or a list of one-key maps).
-// An enum lists its words:  constexpr auto names(Formulation) { return std::array{"displacement", "mean_dilatation"}; }
+// std::vector<std::variant<A, B>> (a sum: a map with one or more such keys, or a list of one-key
+// maps). An enum lists its words:  constexpr auto names(Formulation) { return
+// std::array{"displacement", "mean_dilatation"}; }
 #pragma once
 
 #include <array>
@@ -36,7 +37,8 @@ inline constexpr const char* deg = "deg";
 inline constexpr const char* s = "s";
 }  // namespace unit
 
-// instead of a key, for a std::variant: the one key of its alternative stands among the keys of the struct
+// instead of a key, for a std::variant: the one key of its alternative stands among the keys of the
+// struct
 inline constexpr const char* among_keys = "";
 
 struct Required {};
@@ -48,7 +50,9 @@ struct Range {
   bool low_included = true, high_included = true;
 };
 inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), false, true};
-constexpr Range at_least(double low) { return {low, std::numeric_limits<double>::infinity(), true, true}; }
+constexpr Range at_least(double low) {
+  return {low, std::numeric_limits<double>::infinity(), true, true};
+}
 constexpr Range between(double low, double high) { return {low, high, true, true}; }
 
 // allowed words of a std::string member

@@ -1,4 +1,5 @@
-// Former names of keys and words of configs: old files go on working, and a notice says the new name.
+// Former names of keys and words of configs: old files go on working, and a notice says the new
+// name.
 //   v(&Fit::cross_check, "cross_check", unit::none, "...", Formerly{"check"});          a key
 //   constexpr auto former_names(Kind) { return std::array{FormerWord{"rung", "refinement"}}; }   a word of an enum, beside names()
 #pragma once

@@ -17,12 +17,15 @@ double factor_rate(const LoadFactor& factor, double t) {
 
 bool History::goes_on(double before, double now, double next) const {
   if (!factor) return true;
-  const double rate = (at(next) - at(now)) / (next - now), last = (at(now) - at(before)) / (now - before);
+  const double rate = (at(next) - at(now)) / (next - now),
+               last = (at(now) - at(before)) / (now - before);
   return std::abs(rate - last) <= 1e-6 * std::max(std::abs(rate), std::abs(last));
 }
 
 bool HistoryConfig::moves() const {
-  return points.empty() ? value != 0 : std::any_of(points.begin(), points.end(), [](const auto& point) { return point.to != 0; });
+  return points.empty() ? value != 0
+                        : std::any_of(points.begin(), points.end(),
+                                      [](const auto& point) { return point.to != 0; });
 }
 
 History history_of(const HistoryConfig& config, std::optional<double> seconds) {
@@ -31,9 +34,11 @@ History history_of(const HistoryConfig& config, std::optional<double> seconds) {
   History history;
   for (const HistoryPointConfig& point : config.points)
     if (std::abs(point.to) > std::abs(history.value)) history.value = point.to;
-  if (config.points.size() == 1 && place(config.points[0], seconds) == 1) return history;  // in proportion to t
+  if (config.points.size() == 1 && place(config.points[0], seconds) == 1)
+    return history;  // in proportion to t
   std::vector<HistoryPoint<double>> factor;
-  for (const HistoryPointConfig& point : config.points) factor.push_back({place(point, seconds), point.to / history.value});
+  for (const HistoryPointConfig& point : config.points)
+    factor.push_back({place(point, seconds), point.to / history.value});
   history.factor = std::make_shared<const std::vector<HistoryPoint<double>>>(std::move(factor));
   return history;
 }

@@ -1,5 +1,6 @@
-// What goes along the load path, t from 0 to 1: values at points of it, linear between them and from 0 at t = 0 to the first,
-// constant behind the last. A number in place of a list grows in proportion to t.
+// What goes along the load path, t from 0 to 1: values at points of it, linear between them and
+// from 0 at t = 0 to the first, constant behind the last. A number in place of a list grows in
+// proportion to t.
 #pragma once
 
 #include <limits>
@@ -24,7 +25,8 @@ template <class Value>
 Value value_at(const std::vector<HistoryPoint<Value>>& points, double t) {
   HistoryPoint<Value> before{0, 0.0 * points.front().to};
   for (const HistoryPoint<Value>& point : points) {
-    if (t <= point.t) return before.to + (t - before.t) / (point.t - before.t) * (point.to - before.to);
+    if (t <= point.t)
+      return before.to + (t - before.t) / (point.t - before.t) * (point.to - before.to);
     before = point;
   }
   return before.to;
@@ -33,10 +35,14 @@ Value value_at(const std::vector<HistoryPoint<Value>>& points, double t) {
 // Of values between -1 and 1; none: t itself.
 using LoadFactor = std::shared_ptr<const std::vector<HistoryPoint<double>>>;
 
-inline double factor_at(const LoadFactor& factor, double t) { return factor ? value_at(*factor, t) : t; }
+inline double factor_at(const LoadFactor& factor, double t) {
+  return factor ? value_at(*factor, t) : t;
+}
 // its slope there, at a kink that of the piece before
 double factor_rate(const LoadFactor& factor, double t);
-inline bool same_factor(const LoadFactor& a, const LoadFactor& b) { return a == b || (a && b && *a == *b); }
+inline bool same_factor(const LoadFactor& a, const LoadFactor& b) {
+  return a == b || (a && b && *a == *b);
+}
 
 // A load as its largest value, with its sign, times a factor: what is mirrored has the same factor.
 struct History {
@@ -44,8 +50,11 @@ struct History {
   LoadFactor factor;
   double at(double t) const { return value * factor_at(factor, t); }
   double rate(double t) const { return value * factor_rate(factor, t); }
-  bool goes_on(double before, double now, double next) const;  // from now to next, at the mean rate that it had before
-  friend bool operator==(const History& a, const History& b) { return a.value == b.value && same_factor(a.factor, b.factor); }
+  bool goes_on(double before, double now,
+               double next) const;  // from now to next, at the mean rate that it had before
+  friend bool operator==(const History& a, const History& b) {
+    return a.value == b.value && same_factor(a.factor, b.factor);
+  }
 };
 
 // As a config has it: a number, or a list of points. The unit is that of the key.
@@ -61,7 +70,8 @@ struct HistoryConfig {
   bool moves() const;  // other than 0 somewhere
   double at_end() const { return points.empty() ? value : points.back().to; }
 };
-// Where on the path, t or s over its seconds, a point of any history is: the one listing and the one rule of all of them.
+// Where on the path, t or s over its seconds, a point of any history is: the one listing and the
+// one rule of all of them.
 template <class Point>
 double place(const Point& point, std::optional<double> seconds) {
   return point.s ? *point.s / seconds.value() : point.t.value();
@@ -69,7 +79,8 @@ double place(const Point& point, std::optional<double> seconds) {
 template <class Point>
 void list_place(auto& v) {
   v(&Point::t, "t", unit::none, "place on the path, 0 to 1", Range{0, 1, false, true});
-  v(&Point::s, "s", unit::s, "in place of t, where path.seconds tells how long the path takes: since its beginning",
+  v(&Point::s, "s", unit::s,
+    "in place of t, where path.seconds tells how long the path takes: since its beginning",
     Range{0, std::numeric_limits<double>::infinity(), false, true});
 }
 // seconds: of the path, where it has a duration
@@ -77,21 +88,26 @@ History history_of(const HistoryConfig& config, std::optional<double> seconds);
 
 // example: "{t: 1, to: [x, y, z]}"
 template <class Point>
-std::vector<Complaint> place_complaints(const std::vector<Point>& points, const char* key, const char* example) {
+std::vector<Complaint> place_complaints(const std::vector<Point>& points, const char* key,
+                                        const char* example) {
   std::vector<Complaint> found;
-  if (points.empty()) found.push_back({key, "found an empty list", std::string("at least ") + example, ""});
+  if (points.empty())
+    found.push_back({key, "found an empty list", std::string("at least ") + example, ""});
   bool in_t = false, in_s = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (p.t.has_value() == p.s.has_value())
-      found.push_back({std::string(key) + "[" + std::to_string(i) + "]", p.t ? "found t and s" : "found neither t nor s",
-                       "one of the two", "t: 0 to 1 along the path; s: seconds, with path: {seconds: ...}"});
+      found.push_back({std::string(key) + "[" + std::to_string(i) + "]",
+                       p.t ? "found t and s" : "found neither t nor s", "one of the two",
+                       "t: 0 to 1 along the path; s: seconds, with path: {seconds: ...}"});
     in_t = in_t || p.t, in_s = in_s || p.s;
     if (i > 0 && (p.t <= points[i - 1].t && p.s <= points[i - 1].s))
-      found.push_back(
-          {key, "times that do not increase", std::string("each ") + (in_s ? "s" : "t") + " greater than the one before", ""});
+      found.push_back({key, "times that do not increase",
+                       std::string("each ") + (in_s ? "s" : "t") + " greater than the one before",
+                       ""});
   }
-  if (in_t && in_s && found.empty()) found.push_back({key, "t and s in one list", "one of the two", ""});
+  if (in_t && in_s && found.empty())
+    found.push_back({key, "t and s in one list", "one of the two", ""});
   return found;
 }
 

@@ -1,6 +1,7 @@
-// Work side by side, results in order: `compute(worker, i)` runs on several threads, `add(worker, i)` for i = 0, 1, 2, ...
-// one after the other, so that sums do not depend on the number of threads. Waiting threads sleep: OpenMP's would spin for
-// milliseconds at every barrier, which on a shared machine cost more than the assembly itself.
+// Work side by side, results in order: `compute(worker, i)` runs on several threads, `add(worker,
+// i)` for i = 0, 1, 2, ... one after the other, so that sums do not depend on the number of
+// threads. Waiting threads sleep: OpenMP's would spin for milliseconds at every barrier, which on a
+// shared machine cost more than the assembly itself.
 #pragma once
 
 #include <condition_variable>

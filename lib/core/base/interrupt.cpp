@@ -10,7 +10,8 @@ namespace langer {
 
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0, places_to_stop = 0, patience = 0;  // patience: with which signal it ends
+volatile std::sig_atomic_t signal_seen = 0, places_to_stop = 0,
+                           patience = 0;  // patience: with which signal it ends
 constexpr int any = -1;
 timespec seen_at;
 
@@ -37,8 +38,8 @@ void on_signal(int signal) {
   clock_gettime(CLOCK_MONOTONIC, &now);
   if (signal_seen != 0) {
     // one wish may come twice, from the terminal or scheduler and from make
-    const double later =
-        static_cast<double>(now.tv_sec - seen_at.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - seen_at.tv_nsec);
+    const double later = static_cast<double>(now.tv_sec - seen_at.tv_sec) +
+                         1e-9 * static_cast<double>(now.tv_nsec - seen_at.tv_nsec);
     if (later < 0.2) return;
   }
   if (signal_seen != 0 || places_to_stop == 0) end_at_once(signal);
@@ -61,7 +62,8 @@ void listen_to_signals(bool silent) {
   for (int signal : {SIGINT, SIGTERM}) {
     struct sigaction inherited {};
     // `nohup` and shells in the background have it ignored on purpose
-    if (sigaction(signal, nullptr, &inherited) == 0 && inherited.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+    if (sigaction(signal, nullptr, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

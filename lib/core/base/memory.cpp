@@ -35,7 +35,8 @@ double group_bytes() {
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("0::", 0) != 0) continue;
     const std::string folder = "/sys/fs/cgroup" + line.substr(3);
-    const double limit = number_in(folder + "/memory.max"), used = number_in(folder + "/memory.current");
+    const double limit = number_in(folder + "/memory.max"),
+                 used = number_in(folder + "/memory.current");
     if (limit < nothing && used < nothing) return limit - used;
   }
   return nothing;
@@ -54,7 +55,9 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-double free_memory() { return std::max(0.0, std::min(line_of("/proc/meminfo", "MemAvailable:"), group_bytes())); }
+double free_memory() {
+  return std::max(0.0, std::min(line_of("/proc/meminfo", "MemAvailable:"), group_bytes()));
+}
 
 double free_address() {
   rlimit limit{};

@@ -5,6 +5,7 @@
 
 namespace langer {
 
-inline constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                        inf = std::numeric_limits<double>::infinity();
 
 }  // namespace langer

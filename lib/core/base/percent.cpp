@@ -10,7 +10,8 @@ std::optional<double> percent_of(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   std::string rest(end, text.data() + text.size());
   std::erase(rest, ' ');
-  if (error != std::errc{} || rest != "%" || !std::isfinite(value) || !(value > 0)) return std::nullopt;
+  if (error != std::errc{} || rest != "%" || !std::isfinite(value) || !(value > 0))
+    return std::nullopt;
   return value;
 }
 

@@ -6,6 +6,7 @@
 
 namespace langer {
 
-std::optional<double> percent_of(const std::string& text);  // "1%" or "1 %": 1; nothing where it is none above 0
+std::optional<double> percent_of(
+    const std::string& text);  // "1%" or "1 %": 1; nothing where it is none above 0
 
 }  // namespace langer

@@ -1,4 +1,5 @@
-// A text between double quotes as JSON reads it, and YAML, which takes JSON's escapes in double quotes.
+// A text between double quotes as JSON reads it, and YAML, which takes JSON's escapes in double
+// quotes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
-// Ranks: the processes that mpirun or srun has started for one solution. All of them follow the same program with the same numbers; each
-// has cells of its own, and what these make is summed. Rank 0 alone speaks and writes.
+// Ranks: the processes that mpirun or srun has started for one solution. All of them follow the
+// same program with the same numbers; each has cells of its own, and what these make is summed.
+// Rank 0 alone speaks and writes.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +11,17 @@
 
 namespace langer {
 
-// How many processes were started together and which of them this one is, by the environment; MPI need not be loaded for it.
+// How many processes were started together and which of them this one is, by the environment; MPI
+// need not be loaded for it.
 struct Launched {
   int rank = 0, n = 1;
 };
 inline Launched launched() {
-  constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
-                                      {"PMI_SIZE", "PMI_RANK"},
-                                      // of a step: a batch script has SLURM_NTASKS for all of its job
-                                      {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
+  constexpr const char* names[][2] = {
+      {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+      {"PMI_SIZE", "PMI_RANK"},
+      // of a step: a batch script has SLURM_NTASKS for all of its job
+      {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
   for (const auto& [size, rank] : names) {
     const char *n = std::getenv(size), *own = std::getenv(rank);
     if (n && own && std::atoi(n) > 0) return {std::atoi(own), std::atoi(n)};
@@ -40,14 +43,17 @@ class Ranks {
   virtual double largest(double x) const = 0;
   virtual void from_first(void* x, std::size_t bytes) const = 0;  // what rank 0 has
   // Into parts that share few facets, by METIS: the rank of each cell. nodes: (n_cells, per_cell)
-  virtual std::vector<int> divide(const std::vector<int>& nodes, int per_cell, int n_nodes) const = 0;
+  virtual std::vector<int> divide(const std::vector<int>& nodes, int per_cell,
+                                  int n_nodes) const = 0;
 
-  // The end of the program, in which all ranks meet; returns the exit code of rank 0. Where others do not come, because only this one has
-  // failed, the program is ended on all of them. failed: whether this one has; say: called on a rank that has failed where rank 0 has not.
+  // The end of the program, in which all ranks meet; returns the exit code of rank 0. Where others
+  // do not come, because only this one has failed, the program is ended on all of them. failed:
+  // whether this one has; say: called on a rank that has failed where rank 0 has not.
   virtual int end(int code, bool failed, void (*say)(const char*), const std::string& why) = 0;
 };
 
-// This program's, where it was started as several ranks and knows how to share the work; nullptr otherwise.
+// This program's, where it was started as several ranks and knows how to share the work; nullptr
+// otherwise.
 inline Ranks*& ranks() {
   static Ranks* all = nullptr;
   return all;

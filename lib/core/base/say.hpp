@@ -1,6 +1,7 @@
-// Words to the person who waits, on stderr. That nobody reads any more (`2>&1 | head`) is no reason to stop working.
-// On a terminal a status line may stand below the words and is rewritten in place; warnings and errors have a colour there,
-// unless NO_COLOR is set. What is said goes to a log, too, where there is one (--log).
+// Words to the person who waits, on stderr. That nobody reads any more (`2>&1 | head`) is no reason
+// to stop working. On a terminal a status line may stand below the words and is rewritten in place;
+// warnings and errors have a colour there, unless NO_COLOR is set. What is said goes to a log, too,
+// where there is one (--log).
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// A text in parts: what stands between separators; one at the end ends the last part and begins no other.
+// A text in parts: what stands between separators; one at the end ends the last part and begins no
+// other.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// CPU seconds of this process, all its threads; a stopwatch adds the time of its own life to a total. Seconds since the start.
+// CPU seconds of this process, all its threads; a stopwatch adds the time of its own life to a
+// total. Seconds since the start.
 #pragma once
 
 #include <ctime>
@@ -16,7 +17,8 @@ inline double wall_seconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   static const timespec start = now;
-  return static_cast<double>(now.tv_sec - start.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - start.tv_nsec);
+  return static_cast<double>(now.tv_sec - start.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec - start.tv_nsec);
 }
 
 class Stopwatch {

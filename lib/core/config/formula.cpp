@@ -9,11 +9,12 @@
 
 namespace langer {
 
-std::vector<double> evaluate(const std::string& formula, const std::vector<FormulaPoint>& points, const Place& where,
-                             const std::string& key) {
+std::vector<double> evaluate(const std::string& formula, const std::vector<FormulaPoint>& points,
+                             const Place& where, const std::string& key) {
   const auto refuse = [&](const std::string& found) {
-    throw Failure(Exit::config, Error{where, key, found, "a formula of x, y and z [mm] with one finite value",
-                                      "for example \"30 + 2*x\"; sin and its like take radians"});
+    throw Failure(Exit::config,
+                  Error{where, key, found, "a formula of x, y and z [mm] with one finite value",
+                        "for example \"30 + 2*x\"; sin and its like take radians"});
   };
   std::vector<double> values;
   FormulaPoint at{0, 0, 0};
@@ -28,7 +29,8 @@ std::vector<double> evaluate(const std::string& formula, const std::vector<Formu
       const double* value = parser.Eval(n);
       if (n != 1) refuse(fmt::format("\"{}\" has {} values", formula, n));
       if (!std::isfinite(value[0]))
-        refuse(fmt::format("\"{}\" is {} at ({:g}, {:g}, {:g})", formula, value[0], point.x, point.y, point.z));
+        refuse(fmt::format("\"{}\" is {} at ({:g}, {:g}, {:g})", formula, value[0], point.x,
+                           point.y, point.z));
       values.push_back(value[0]);
     }
   } catch (const mu::Parser::exception_type& error) {

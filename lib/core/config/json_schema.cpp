@@ -20,7 +20,8 @@ std::string flat(const Tree& t) {
       for (const Tree& item : t.list) s += (s.empty() ? "" : ", ") + flat(item);
       return "[" + s + "]";
     case Tree::Kind::map:
-      for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ", ") + quoted(key) + ": " + flat(value);
+      for (const auto& [key, value] : t.map)
+        s += (s.empty() ? "" : ", ") + quoted(key) + ": " + flat(value);
       return "{" + s + "}";
   }
   return s;
@@ -31,12 +32,15 @@ std::string flat(const Tree& t) {
 std::string json_of(const Tree& t, int indent) {
   constexpr std::size_t widest = 100;
   const std::string one = flat(t);
-  if (one.size() + static_cast<std::size_t>(indent) <= widest || (t.kind != Tree::Kind::map && t.kind != Tree::Kind::list))
+  if (one.size() + static_cast<std::size_t>(indent) <= widest ||
+      (t.kind != Tree::Kind::map && t.kind != Tree::Kind::list))
     return one;
   const std::string margin(static_cast<std::size_t>(indent) + 2, ' ');
   std::string s;
-  for (const Tree& item : t.list) s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
-  for (const auto& [key, value] : t.map) s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
+  for (const Tree& item : t.list)
+    s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
+  for (const auto& [key, value] : t.map)
+    s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
   const std::string end(static_cast<std::size_t>(indent), ' ');
   return t.kind == Tree::Kind::map ? "{\n" + s + "\n" + end + "}" : "[\n" + s + "\n" + end + "]";
 }
@@ -44,15 +48,21 @@ std::string json_of(const Tree& t, int indent) {
 namespace schema {
 
 Tree included() {
-  return object({{"description", word("a file, or a list of files, whose keys stand here; keys beside it win")},
-                 {"anyOf", list({type("string"), object({{"type", word("array")}, {"items", type("string")}})})}});
+  return object({{"description",
+                  word("a file, or a list of files, whose keys stand here; keys beside it win")},
+                 {"anyOf", list({type("string"),
+                                 object({{"type", word("array")}, {"items", type("string")}})})}});
 }
 
 Tree number(const Member& m, bool whole) {
   Tree t = type(whole ? "integer" : "number");
   const Range& r = m.range;
-  if (std::isfinite(r.low)) t.map.push_back({r.low_included ? "minimum" : "exclusiveMinimum", plain_tree(number_text(r.low))});
-  if (std::isfinite(r.high)) t.map.push_back({r.high_included ? "maximum" : "exclusiveMaximum", plain_tree(number_text(r.high))});
+  if (std::isfinite(r.low))
+    t.map.push_back(
+        {r.low_included ? "minimum" : "exclusiveMinimum", plain_tree(number_text(r.low))});
+  if (std::isfinite(r.high))
+    t.map.push_back(
+        {r.high_included ? "maximum" : "exclusiveMaximum", plain_tree(number_text(r.high))});
   return t;
 }
 
@@ -63,7 +73,9 @@ Tree described(Tree schema, const Member& m) {
   return schema;
 }
 
-void refuse_others(Tree& object) { object.map.push_back({"additionalProperties", plain_tree("false")}); }
+void refuse_others(Tree& object) {
+  object.map.push_back({"additionalProperties", plain_tree("false")});
+}
 
 Tree or_included(Tree whole, const std::string& part) {
   return object({{"if", object({{"type", word("object")}, {"required", words({"include"})}})},
@@ -74,7 +86,8 @@ Tree or_included(Tree whole, const std::string& part) {
 std::string document(const std::string& title, Tree root, const Definitions& definitions) {
   Tree all = object();
   for (const auto& [name, tree] : definitions) all.map.push_back({name, tree});
-  Tree t = object({{"$schema", word("http://json-schema.org/draft-07/schema#")}, {"title", word(title)}});
+  Tree t = object(
+      {{"$schema", word("http://json-schema.org/draft-07/schema#")}, {"title", word(title)}});
   for (Tree::Entry& entry : root.map) t.map.push_back(std::move(entry));
   // beside $ref draft 7 reads nothing else
   if (const Tree* ref = t.find("$ref")) {

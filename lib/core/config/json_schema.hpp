@@ -1,6 +1,7 @@
-// JSON Schema (draft 7) of a config from its listing: what an editor needs to complete keys and to mark mistakes.
-// It says what one key may hold; rules between keys (complaints()) are the reader's. A file or a map that includes another
-// need not have the keys that are required: each struct with required keys has a second definition without them.
+// JSON Schema (draft 7) of a config from its listing: what an editor needs to complete keys and to
+// mark mistakes. It says what one key may hold; rules between keys (complaints()) are the reader's.
+// A file or a map that includes another need not have the keys that are required: each struct with
+// required keys has a second definition without them.
 #pragma once
 
 #include <cxxabi.h>
@@ -43,8 +44,12 @@ inline Tree words(const std::vector<std::string>& all) {
   return list(std::move(items));
 }
 inline Tree type(const std::string& name) { return object({{"type", word(name)}}); }
-inline Tree types(const std::vector<std::string>& names) { return object({{"type", words(names)}}); }
-inline Tree reference(const std::string& name) { return object({{"$ref", word("#/definitions/" + name)}}); }
+inline Tree types(const std::vector<std::string>& names) {
+  return object({{"type", words(names)}});
+}
+inline Tree reference(const std::string& name) {
+  return object({{"$ref", word("#/definitions/" + name)}});
+}
 
 Tree included();  // what `include` may hold
 Tree number(const Member& m, bool whole);
@@ -61,7 +66,8 @@ std::string type_name() {
   char* text = abi::__cxa_demangle(typeid(T).name(), nullptr, nullptr, &status);
   std::string name = status == 0 ? text : typeid(T).name();
   std::free(text);
-  if (const std::size_t colon = name.rfind(':'); colon != std::string::npos) name.erase(0, colon + 1);
+  if (const std::size_t colon = name.rfind(':'); colon != std::string::npos)
+    name.erase(0, colon + 1);
   return name;
 }
 
@@ -71,7 +77,8 @@ inline constexpr bool is_words = std::is_same_v<T, std::string> || Named<T>;
 // whether a map of this type cannot be empty
 template <class T>
 bool asks() {
-  if constexpr (is_optional<T> || is_vector<T> || is_array<T> || is_named_things<T> || is_leaf<T> || is_history<T>)
+  if constexpr (is_optional<T> || is_vector<T> || is_array<T> || is_named_things<T> || is_leaf<T> ||
+                is_history<T>)
     return false;
   else if constexpr (is_choice<T>)
     return true;
@@ -98,8 +105,9 @@ bool asks_within() {
   else {
     bool any = asks<T>();
     T object{};
-    for_each_line(object,
-                  [&](const Member&, const auto& value) { any = any || asks_within<std::remove_cvref_t<decltype(value)>>(); });
+    for_each_line(object, [&](const Member&, const auto& value) {
+      any = any || asks_within<std::remove_cvref_t<decltype(value)>>();
+    });
     return any;
   }
 }
@@ -189,11 +197,13 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
   else if constexpr (is_whole_number<T> || std::is_floating_point_v<T>)
     return number(m, is_whole_number<T>);
   else if constexpr (is_history<T>)
-    return object({{"anyOf", list({number(m, false), of<std::vector<HistoryPointConfig>>(m, whole, definitions)})}});
+    return object({{"anyOf", list({number(m, false),
+                                   of<std::vector<HistoryPointConfig>>(m, whole, definitions)})}});
   else if constexpr (Named<T>)
     return object({{"enum", words(words_of<T>())}});
   else if constexpr (std::is_same_v<T, std::string>)
-    return m.words.empty() ? types({"string", "number", "boolean"}) : object({{"enum", words(m.words)}});
+    return m.words.empty() ? types({"string", "number", "boolean"})
+                           : object({{"enum", words(m.words)}});
   else if constexpr (std::is_same_v<T, InputPath>)
     return type("string");
   else if constexpr (is_choice<T>) {
@@ -209,18 +219,23 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
     return t;
   } else if constexpr (is_sum<T>) {
     using Term = typename T::value_type;
-    return object({{"anyOf", list({of_alternatives<Term>(whole, definitions),
-                                   object({{"type", word("array")}, {"items", of<Term>(m, whole, definitions)}})})}});
+    return object(
+        {{"anyOf",
+          list({of_alternatives<Term>(whole, definitions),
+                object({{"type", word("array")}, {"items", of<Term>(m, whole, definitions)}})})}});
   } else if constexpr (is_vector<T> || is_array<T>) {
-    Tree t = object({{"type", word("array")}, {"items", of<typename T::value_type>(m, whole, definitions)}});
+    Tree t = object(
+        {{"type", word("array")}, {"items", of<typename T::value_type>(m, whole, definitions)}});
     if constexpr (is_array<T>)
-      for (const char* end : {"minItems", "maxItems"}) t.map.push_back({end, plain_tree(std::to_string(std::tuple_size_v<T>))});
+      for (const char* end : {"minItems", "maxItems"})
+        t.map.push_back({end, plain_tree(std::to_string(std::tuple_size_v<T>))});
     return t;
   } else if constexpr (is_named_things<T>) {
     Tree t = object(
         {{"type", word("object")},
          {"properties", object({{"include", included()}})},
-         {"patternProperties", object({{"^(?!include$)[A-Za-z0-9_+-]+$", of<typename T::mapped_type>(m, whole, definitions)}})}});
+         {"patternProperties", object({{"^(?!include$)[A-Za-z0-9_+-]+$",
+                                        of<typename T::mapped_type>(m, whole, definitions)}})}});
     refuse_others(t);
     return t;
   } else

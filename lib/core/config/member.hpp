@@ -1,4 +1,5 @@
-// One line of a config listing (base/fields.hpp) as a value, and the kinds of member types that a listing may name.
+// One line of a config listing (base/fields.hpp) as a value, and the kinds of member types that a
+// listing may name.
 #pragma once
 
 #include <array>
@@ -31,7 +32,8 @@ struct Member {
   void add(Required) { required = true; }
   // several ranges hold together
   void add(const Range& r) {
-    if (r.low > range.low || (r.low == range.low && !r.low_included)) range.low = r.low, range.low_included = r.low_included;
+    if (r.low > range.low || (r.low == range.low && !r.low_included))
+      range.low = r.low, range.low_included = r.low_included;
     if (r.high < range.high || (r.high == range.high && !r.high_included))
       range.high = r.high, range.high_included = r.high_included;
   }
@@ -51,7 +53,8 @@ template <class Object, class On>
 struct Lines {
   Object& object;
   On& on;
-  void operator()(auto pointer, const char* key, const char* unit, const char* doc, const auto&... extras) {
+  void operator()(auto pointer, const char* key, const char* unit, const char* doc,
+                  const auto&... extras) {
     on(member(key, unit, doc, extras...), object.*pointer);
   }
 };
@@ -108,24 +111,28 @@ template <class... T>
 inline constexpr bool is_sum<std::vector<std::variant<T...>>> = true;
 
 template <class T>
-inline constexpr bool is_history = std::is_same_v<T, HistoryConfig>;  // a number, or a list of points
+inline constexpr bool is_history =
+    std::is_same_v<T, HistoryConfig>;  // a number, or a list of points
 
 template <class T>
 inline constexpr bool is_whole_number = std::is_integral_v<T> && !std::is_same_v<T, bool>;
 template <class T>
-inline constexpr bool is_leaf =
-    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string> || std::is_same_v<T, InputPath>;
+inline constexpr bool is_leaf = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+                                std::is_same_v<T, std::string> || std::is_same_v<T, InputPath>;
 
 // calls on(alternative) with a default value of each alternative of a std::variant
 template <class Choice>
 void for_each_alternative(auto&& on) {
-  [&]<std::size_t... i>(std::index_sequence<i...>) { (on(std::variant_alternative_t<i, Choice>{}), ...); }
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (on(std::variant_alternative_t<i, Choice>{}), ...);
+  }
   (std::make_index_sequence<std::variant_size_v<Choice>>{});
 }
 template <class Choice>
 std::vector<std::string> alternatives() {
   std::vector<std::string> words;
-  for_each_alternative<Choice>([&](const auto& a) { words.push_back(std::remove_cvref_t<decltype(a)>::key); });
+  for_each_alternative<Choice>(
+      [&](const auto& a) { words.push_back(std::remove_cvref_t<decltype(a)>::key); });
   return words;
 }
 
@@ -143,7 +150,8 @@ std::vector<std::string> keys_of() {
   for_each_line(object, [&](const Member& m, const auto& value) {
     if constexpr (is_choice<std::remove_cvref_t<decltype(value)>>)
       if (is_among_keys<std::remove_cvref_t<decltype(value)>>(m))
-        for (const std::string& key : alternatives<std::remove_cvref_t<decltype(value)>>()) keys.push_back(key);
+        for (const std::string& key : alternatives<std::remove_cvref_t<decltype(value)>>())
+          keys.push_back(key);
     if (*m.key) keys.push_back(m.key);
   });
   return keys;
@@ -165,7 +173,8 @@ std::vector<FormerWord> former_words_of() {
     return {};
 }
 
-// How a message or the reference names what a member may hold, e.g. "a number > 0 in MPa", "one of a, b".
+// How a message or the reference names what a member may hold, e.g. "a number > 0 in MPa", "one of
+// a, b".
 std::string number_words(const Member& m, bool whole);
 std::string list_words(const std::vector<std::string>& words);  // "a, b, c"
 
@@ -188,11 +197,13 @@ std::string type_words(const Member& m) {
   else if constexpr (is_choice<T>)
     return "a map with exactly one of the keys " + list_words(alternatives<T>());
   else if constexpr (is_sum<T>)
-    return "a map with one or more of the keys " + list_words(alternatives<typename T::value_type>());
+    return "a map with one or more of the keys " +
+           list_words(alternatives<typename T::value_type>());
   else if constexpr (is_vector<T>)
     return "a list; each item " + type_words<typename T::value_type>(m);
   else if constexpr (is_array<T>)
-    return "a list of " + std::to_string(std::tuple_size_v<T>) + "; each item " + type_words<typename T::value_type>(m);
+    return "a list of " + std::to_string(std::tuple_size_v<T>) + "; each item " +
+           type_words<typename T::value_type>(m);
   else if constexpr (is_named_things<T>)
     return "a map of names; each value " + type_words<typename T::mapped_type>(m);
   else {

@@ -42,7 +42,9 @@ bool within(double x, const Range& r) {
 
 }  // namespace
 
-std::string list_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+std::string list_words(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
 
 std::string number_words(const Member& m, bool whole) {
   std::string s = whole ? "a whole number" : "a number";
@@ -54,20 +56,23 @@ std::string number_words(const Member& m, bool whole) {
   return s;
 }
 
-// lengths, which must be positive, and positions, both in mm: squares and ratios of what is in here stay numbers
+// lengths, which must be positive, and positions, both in mm: squares and ratios of what is in here
+// stay numbers
 static bool is_length(double x, const Member& m) {
   const bool positive_only = m.range.low == 0 && !m.range.low_included;
   return std::abs(x) <= 1e9 && (!positive_only || x >= 1e-9);
 }
 
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, bool& out, Findings& f) {
-  if (tree.kind == Tree::Kind::scalar && !tree.quoted && (tree.scalar == "true" || tree.scalar == "false"))
+  if (tree.kind == Tree::Kind::scalar && !tree.quoted &&
+      (tree.scalar == "true" || tree.scalar == "false"))
     out = tree.scalar == "true";
   else
     f.say(tree.place, path, "found " + description(tree), "true or false", m.hint);
 }
 
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out, Findings& f) {
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out,
+               Findings& f) {
   const auto wrong = [&](const std::string& hint) {
     f.say(tree.place, path, "found " + description(tree), number_words(m, false), hint);
   };
@@ -76,7 +81,8 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
   double x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large or too small for a double");
-  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s)) return wrong(number_hint(tree, m));
+  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s))
+    return wrong(number_hint(tree, m));
   if (!std::isfinite(x)) return wrong("numbers must be finite");
   if (!within(x, m.range)) return wrong(m.hint);
   if (std::string_view(m.unit) == unit::mm && !is_length(x, m))
@@ -84,21 +90,25 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
   out = x;
 }
 
-void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out, Findings& f) {
+void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out,
+                  Findings& f) {
   out = {};
   if (tree.kind == Tree::Kind::scalar) return read_leaf(tree, path, m, out.value, f);
   if (tree.kind != Tree::Kind::list)
-    return f.say(tree.place, path, "found " + description(tree), type_words<HistoryConfig>(m), m.hint);
+    return f.say(tree.place, path, "found " + description(tree), type_words<HistoryConfig>(m),
+                 m.hint);
   const std::size_t before = f.errors.size();
   read_items(tree, path, m, out.points, f);
   if (f.errors.size() > before) return;
   for (const Complaint& c : place_complaints(out.points, "", "{t: 1, to: ...}"))
     f.say(tree.place, path, c.found, c.expected, c.hint);
   for (std::size_t i = 0; i < out.points.size(); ++i)  // as large as a number in this place may be
-    if (const Tree* to = tree.list[i].find("to")) read_leaf(*to, join(item(path, i), "to"), m, out.points[i].to, f);
+    if (const Tree* to = tree.list[i].find("to"))
+      read_leaf(*to, join(item(path, i), "to"), m, out.points[i].to, f);
 }
 
-long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f) {
+long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low,
+                     long long high, Findings& f) {
   const auto wrong = [&](const std::string& hint) {
     f.say(tree.place, path, "found " + description(tree), number_words(m, true), hint);
     return 0LL;
@@ -108,44 +118,53 @@ long long read_whole(const Tree& tree, const std::string& path, const Member& m,
   long long x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (error == std::errc::result_out_of_range) return wrong("too large for a whole number");
-  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s)) return wrong(number_hint(tree, m));
+  if (tree.quoted || error != std::errc{} || end != s.data() + s.size() || has_leading_zero(s))
+    return wrong(number_hint(tree, m));
   if (!within(static_cast<double>(x), m.range)) return wrong(m.hint);
   if (x < low || x > high) return wrong("too large for a whole number");
   return x;
 }
 
-int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f,
+int read_word(const Tree& tree, const std::string& path, const Member& m,
+              const std::vector<std::string>& words, Findings& f,
               const std::vector<FormerWord>& former) {
   if (tree.kind == Tree::Kind::scalar) {
     std::string word = tree.scalar;
     for (const FormerWord& name : former)
       if (word == name.was) f.notice(tree.place, path, name.was, name.is), word = name.is;
-    if (const auto it = std::find(words.begin(), words.end(), word); it != words.end()) return static_cast<int>(it - words.begin());
+    if (const auto it = std::find(words.begin(), words.end(), word); it != words.end())
+      return static_cast<int>(it - words.begin());
   }
   std::string hint = m.hint;
   if (tree.kind == Tree::Kind::scalar)
-    if (const std::string near = nearest(tree.scalar, words); !near.empty()) hint = fmt::format("did you mean \"{}\"?", near);
+    if (const std::string near = nearest(tree.scalar, words); !near.empty())
+      hint = fmt::format("did you mean \"{}\"?", near);
   f.say(tree.place, path, "found " + description(tree), "one of " + list_words(words), hint);
   return -1;
 }
 
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out, Findings& f) {
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out,
+               Findings& f) {
   if (!m.words.empty()) {
-    if (const int i = read_word(tree, path, m, m.words, f); i >= 0) out = m.words[static_cast<std::size_t>(i)];
+    if (const int i = read_word(tree, path, m, m.words, f); i >= 0)
+      out = m.words[static_cast<std::size_t>(i)];
   } else if (tree.kind == Tree::Kind::scalar)
     out = tree.scalar;
   else
     f.say(tree.place, path, "found " + description(tree), "a text", m.hint);
 }
 
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f) {
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out,
+               Findings& f) {
   if (tree.kind == Tree::Kind::scalar && !tree.scalar.empty())
     out.path = (std::filesystem::path(tree.base) / tree.scalar).lexically_normal().string();
   else
-    f.say(tree.place, path, "found " + description(tree), "the path of a file, relative to this one", m.hint);
+    f.say(tree.place, path, "found " + description(tree),
+          "the path of a file, relative to this one", m.hint);
 }
 
-void say_unknown(const Tree::Entry& entry, const std::string& path, const std::vector<std::string>& known, Findings& f) {
+void say_unknown(const Tree::Entry& entry, const std::string& path,
+                 const std::vector<std::string>& known, Findings& f) {
   const std::string near = nearest(entry.key, known);
   f.say(entry.value.place, path,
         fmt::format("unknown key \"{}\"; known: {}{}", entry.key, list_words(known),
@@ -156,9 +175,12 @@ const Tree* find_member(const Tree& tree, const std::string& path, const Member&
   const Tree *given = tree.find(m.key), *old = *m.former ? tree.find(m.former) : nullptr;
   if (!old) return given;
   // lowest first: --set or a sweep, the file that includes, those that lie under it
-  const auto depth = [](const Tree& t) { return t.set_later ? -1 : std::countr_zero(t.layers); };
+  const auto depth = [](const Tree& t) {
+    return t.set_later ? -1 : std::countr_zero(t.layers);
+  };
   if (given && depth(*given) == depth(*old)) {
-    f.say(old->place, join(path, m.former), fmt::format("found beside {}, which it is now called", m.key), "one of the two");
+    f.say(old->place, join(path, m.former),
+          fmt::format("found beside {}, which it is now called", m.key), "one of the two");
     return given;
   }
   f.notice(old->place, path, m.former, m.key);
@@ -167,13 +189,15 @@ const Tree* find_member(const Tree& tree, const std::string& path, const Member&
 
 Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {
   Tree part;
-  part.kind = Tree::Kind::map, part.place = tree.place, part.base = tree.base, part.layers = tree.layers;
+  part.kind = Tree::Kind::map, part.place = tree.place, part.base = tree.base,
+  part.layers = tree.layers;
   for (const Tree::Entry& entry : tree.map)
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) part.map.push_back(entry);
   return part;
 }
 
-std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum, Findings& f) {
+std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
+                                       Findings& f) {
   using Entries = std::vector<const Tree::Entry*>;
   const auto those = [&](auto&& hold) {
     Entries found;
@@ -189,24 +213,29 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
   const Entries later = those([](const Tree& t) { return t.set_later; });
   if (!later.empty() && later.size() < tree.map.size()) {
     const Entries there = those([](const Tree& t) { return !t.set_later; });
-    f.say(later[0]->value.place, path, fmt::format("{} added to {}", words(later), words(there)), "a value of what is there",
+    f.say(later[0]->value.place, path, fmt::format("{} added to {}", words(later), words(there)),
+          "a value of what is there",
           fmt::format("to replace it: --set '{}={{{}: {{...}}}}'", path, later[0]->key));
     return {};
   }
   std::uint64_t used = 0;
   for (const Tree::Entry& entry : tree.map) used |= entry.value.layers;
   const int top = std::countr_zero(used);
-  const auto of_layer = [&](int layer) { return those([&](const Tree& t) { return layer < 64 && t.layers >> layer & 1; }); };
+  const auto of_layer = [&](int layer) {
+    return those([&](const Tree& t) { return layer < 64 && t.layers >> layer & 1; });
+  };
   const Entries over = used ? of_layer(top) : those([](const Tree&) { return true; });
   for (int layer = top + 1; layer < 64; ++layer) {
     const Entries under = of_layer(layer);
     if (under.empty() || under == over) continue;
-    const bool others = std::none_of(over.begin(), over.end(), [&](const Tree::Entry* e) { return e->value.layers >> layer; });
+    const bool others = std::none_of(
+        over.begin(), over.end(), [&](const Tree::Entry* e) { return e->value.layers >> layer; });
     if (others) break;
-    f.say(tree.place, path, fmt::format("found {} beside an included {}", words(over), words(under)),
-          "the alternatives that are included, with other numbers, or only others, which replace them",
-          is_sum ? fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key)
-                 : "leave this key out of the included file");
+    f.say(
+        tree.place, path, fmt::format("found {} beside an included {}", words(over), words(under)),
+        "the alternatives that are included, with other numbers, or only others, which replace them",
+        is_sum ? fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key)
+               : "leave this key out of the included file");
     return {};
   }
   return over;
@@ -214,18 +243,24 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
 
 void throw_sorted(std::vector<Error> errors) {
   std::stable_sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) {
-    return std::tie(a.where.file, a.where.line, a.where.column) < std::tie(b.where.file, b.where.line, b.where.column);
+    return std::tie(a.where.file, a.where.line, a.where.column) <
+           std::tie(b.where.file, b.where.line, b.where.column);
   });
   throw Failure(Exit::config, std::move(errors));
 }
 
 bool is_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '+' || c == '-';
   });
 }
 
-std::string join(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
-std::string item(const std::string& path, std::size_t index) { return fmt::format("{}[{}]", path, index); }
+std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+std::string item(const std::string& path, std::size_t index) {
+  return fmt::format("{}[{}]", path, index);
+}
 
 }  // namespace langer

@@ -1,6 +1,7 @@
 // Tree -> config struct by the struct's listing (base/fields.hpp): the only way a config is read.
-// All errors of a file are collected and thrown together as one Failure(config): unknown key (with the nearest known
-// one), missing key (at the parent), wrong type, out of range, non-finite number, rules between keys.
+// All errors of a file are collected and thrown together as one Failure(config): unknown key (with
+// the nearest known one), missing key (at the parent), wrong type, out of range, non-finite number,
+// rules between keys.
 //
 //   auto [config, where, notices] = read_config<SolveConfig>(load_yaml("solve.yaml"));
 //   where("contacts[0].friction")  ->  Place, for errors found later
@@ -30,32 +31,42 @@ struct Loaded {
 struct Findings {
   std::vector<Error> errors;
   std::vector<std::string> notices;
-  void say(const Place& where, const std::string& key, std::string found, std::string expected = "", std::string hint = "") {
+  void say(const Place& where, const std::string& key, std::string found, std::string expected = "",
+           std::string hint = "") {
     errors.push_back({where, key, std::move(found), std::move(expected), std::move(hint)});
   }
-  void notice(const Place& where, const std::string& key, const std::string& was, const std::string& is) {
+  void notice(const Place& where, const std::string& key, const std::string& was,
+              const std::string& is) {
     notices.push_back(text(Error{where, key, was + " is now called " + is, "", ""}));
   }
 };
 
 void read_leaf(const Tree& tree, const std::string& path, const Member& m, bool& out, Findings& f);
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out, Findings& f);
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out, Findings& f);
-void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out, Findings& f);
-void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out, Findings& f);
-long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low, long long high, Findings& f);
-int read_word(const Tree& tree, const std::string& path, const Member& m, const std::vector<std::string>& words, Findings& f,
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, double& out,
+               Findings& f);
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, std::string& out,
+               Findings& f);
+void read_leaf(const Tree& tree, const std::string& path, const Member& m, InputPath& out,
+               Findings& f);
+void read_history(const Tree& tree, const std::string& path, const Member& m, HistoryConfig& out,
+                  Findings& f);
+long long read_whole(const Tree& tree, const std::string& path, const Member& m, long long low,
+                     long long high, Findings& f);
+int read_word(const Tree& tree, const std::string& path, const Member& m,
+              const std::vector<std::string>& words, Findings& f,
               const std::vector<FormerWord>& former = {});  // -1: none
-void say_unknown(const Tree::Entry& entry, const std::string& path, const std::vector<std::string>& known, Findings& f);
+void say_unknown(const Tree::Entry& entry, const std::string& path,
+                 const std::vector<std::string>& known, Findings& f);
 [[noreturn]] void throw_sorted(std::vector<Error> errors);  // by place
-bool is_name(const std::string& name);                      // may stand in file names, HDF5 paths and paths of keys
+bool is_name(const std::string& name);  // may stand in file names, HDF5 paths and paths of keys
 std::string join(const std::string& path, const std::string& key);
 std::string item(const std::string& path, std::size_t index);
 
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
 
-// What stands under the member's key or its former one, whichever lies over the other; nullptr: neither. An error within one file.
+// What stands under the member's key or its former one, whichever lies over the other; nullptr:
+// neither. An error within one file.
 const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f);
 
 // the entries of a map that have these keys
@@ -75,8 +86,8 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
         if (!part.map.empty())
           read_value(part, path, m, value, f);
         else if (m.required)
-          f.say(tree.place, path, "none of the keys " + list_words(keys), "exactly one of them (" + std::string(m.doc) + ")",
-                m.hint);
+          f.say(tree.place, path, "none of the keys " + list_words(keys),
+                "exactly one of them (" + std::string(m.doc) + ")", m.hint);
         return;
       }
     known.push_back(m.key);
@@ -95,18 +106,25 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
     if (f.errors.size() > before) return;
     for (const Complaint& c : out.complaints()) {
       const Place place = c.key.empty() ? tree.place : place_of(tree, c.key);
-      f.say(place, c.key.empty() ? path : c.key[0] == '[' ? path + c.key : join(path, c.key), c.found, c.expected, c.hint);
+      f.say(place,
+            c.key.empty()     ? path
+            : c.key[0] == '[' ? path + c.key
+                              : join(path, c.key),
+            c.found, c.expected, c.hint);
     }
   }
 }
 
-// Of a map of alternatives, what holds: those of an included file give way as a whole to others that are written over them.
-// Said, and empty, where some are the same and some are others, or --set adds one to those that are there.
-std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum, Findings& f);
+// Of a map of alternatives, what holds: those of an included file give way as a whole to others
+// that are written over them. Said, and empty, where some are the same and some are others, or
+// --set adds one to those that are there.
+std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
+                                       Findings& f);
 
 // Reads the alternative that `entry` names; false if there is none of that name.
 template <class Choice>
-bool read_alternative(const Tree::Entry& entry, const std::string& path, const Member& m, Choice& out, Findings& f) {
+bool read_alternative(const Tree::Entry& entry, const std::string& path, const Member& m,
+                      Choice& out, Findings& f) {
   bool found = false;
   for_each_alternative<Choice>([&](auto alternative) {
     if (entry.key != decltype(alternative)::key) return;
@@ -121,15 +139,16 @@ bool read_alternative(const Tree::Entry& entry, const std::string& path, const M
 template <class T>
 void read_number(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
   constexpr auto low = static_cast<long long>(std::numeric_limits<T>::min());
-  constexpr auto high =
-      sizeof(T) < 8 ? static_cast<long long>(std::numeric_limits<T>::max()) : std::numeric_limits<long long>::max();
+  constexpr auto high = sizeof(T) < 8 ? static_cast<long long>(std::numeric_limits<T>::max())
+                                      : std::numeric_limits<long long>::max();
   const std::size_t before = f.errors.size();
   const long long value = read_whole(tree, path, m, low, high, f);
   if (f.errors.size() == before) out = static_cast<T>(value);
 }
 
 template <class Choice>
-void read_choice(const Tree& tree, const std::string& path, const Member& m, Choice& out, Findings& f) {
+void read_choice(const Tree& tree, const std::string& path, const Member& m, Choice& out,
+                 Findings& f) {
   const std::size_t before = f.errors.size();
   const std::vector<const Tree::Entry*> entries = chosen(tree, path, false, f);
   if (f.errors.size() > before) return;
@@ -139,13 +158,16 @@ void read_choice(const Tree& tree, const std::string& path, const Member& m, Cho
   }
   const std::vector<std::string> known = alternatives<Choice>();
   for (const Tree::Entry* entry : entries)  // a misspelt key says more than their number
-    if (std::find(known.begin(), known.end(), entry->key) == known.end()) say_unknown(*entry, path, known, f);
+    if (std::find(known.begin(), known.end(), entry->key) == known.end())
+      say_unknown(*entry, path, known, f);
   if (f.errors.size() == before)
-    f.say(tree.place, path, "found " + std::to_string(entries.size()) + " keys", type_words<Choice>(m), m.hint);
+    f.say(tree.place, path, "found " + std::to_string(entries.size()) + " keys",
+          type_words<Choice>(m), m.hint);
 }
 
 template <class Item>
-void read_items(const Tree& tree, const std::string& path, const Member& m, std::vector<Item>& out, Findings& f) {
+void read_items(const Tree& tree, const std::string& path, const Member& m, std::vector<Item>& out,
+                Findings& f) {
   for (std::size_t i = 0; i < tree.list.size(); ++i) {
     Item value{};
     read_value(tree.list[i], item(path, i), m, value, f);
@@ -154,11 +176,13 @@ void read_items(const Tree& tree, const std::string& path, const Member& m, std:
 }
 
 template <class Thing>
-void read_named_things(const Tree& tree, const std::string& path, const Member& m, std::map<std::string, Thing>& out, Findings& f) {
+void read_named_things(const Tree& tree, const std::string& path, const Member& m,
+                       std::map<std::string, Thing>& out, Findings& f) {
   out.clear();
   for (const Tree::Entry& entry : tree.map) {
     if (!is_name(entry.key)) {
-      f.say(entry.value.place, path, "found the name \"" + entry.key + "\"", "letters, digits, _, + and - only");
+      f.say(entry.value.place, path, "found the name \"" + entry.key + "\"",
+            "letters, digits, _, + and - only");
       continue;
     }
     read_value(entry.value, join(path, entry.key), m, out[entry.key], f);
@@ -167,7 +191,8 @@ void read_named_things(const Tree& tree, const std::string& path, const Member& 
 
 // a list, or a map of which several keys are terms
 template <class Term>
-void read_sum(const Tree& tree, const std::string& path, const Member& m, std::vector<Term>& out, Findings& f) {
+void read_sum(const Tree& tree, const std::string& path, const Member& m, std::vector<Term>& out,
+              Findings& f) {
   out.clear();
   for (const Tree::Entry* entry : chosen(tree, path, true, f)) {
     Term term;
@@ -179,14 +204,19 @@ void read_sum(const Tree& tree, const std::string& path, const Member& m, std::v
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
   using Kind = Tree::Kind;
-  const auto wrong = [&](const std::string& found) { f.say(tree.place, path, found, type_words<T>(m), m.hint); };
-  const auto wrong_kind = [&] { wrong("found " + description(tree)); };
+  const auto wrong = [&](const std::string& found) {
+    f.say(tree.place, path, found, type_words<T>(m), m.hint);
+  };
+  const auto wrong_kind = [&] {
+    wrong("found " + description(tree));
+  };
   if constexpr (is_whole_number<T>) {
     read_number(tree, path, m, out, f);
   } else if constexpr (is_history<T>) {
     read_history(tree, path, m, out, f);
   } else if constexpr (Named<T>) {
-    if (const int i = read_word(tree, path, m, words_of<T>(), f, former_words_of<T>()); i >= 0) out = static_cast<T>(i);
+    if (const int i = read_word(tree, path, m, words_of<T>(), f, former_words_of<T>()); i >= 0)
+      out = static_cast<T>(i);
   } else if constexpr (is_leaf<T>) {
     read_leaf(tree, path, m, out, f);
   } else if constexpr (is_optional<T>) {
@@ -206,8 +236,10 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     read_items(tree, path, m, out, f);
   } else if constexpr (is_array<T>) {
     if (tree.kind != Kind::list) return wrong_kind();
-    if (tree.list.size() != out.size()) return wrong("found " + std::to_string(tree.list.size()) + " items");
-    for (std::size_t i = 0; i < out.size(); ++i) read_value(tree.list[i], item(path, i), m, out[i], f);
+    if (tree.list.size() != out.size())
+      return wrong("found " + std::to_string(tree.list.size()) + " items");
+    for (std::size_t i = 0; i < out.size(); ++i)
+      read_value(tree.list[i], item(path, i), m, out[i], f);
   } else if constexpr (is_named_things<T>) {
     if (tree.kind != Kind::map) return wrong_kind();
     read_named_things(tree, path, m, out, f);
@@ -233,7 +265,8 @@ Loaded<Config> read_config(Tree tree) {
   if (tree.kind == Tree::Kind::map || tree.kind == Tree::Kind::null)
     read_struct(tree, "", config, f);
   else
-    f.say(tree.place, "", "found " + description(tree), "a map with the keys " + list_words(keys_of<Config>()));
+    f.say(tree.place, "", "found " + description(tree),
+          "a map with the keys " + list_words(keys_of<Config>()));
   if (!f.errors.empty()) throw_sorted(std::move(f.errors));
   return {std::move(config), {std::move(tree)}, std::move(f.notices)};
 }

@@ -46,8 +46,9 @@ std::vector<PathStep> split_path(const std::string& path) {
 namespace {
 
 bool lies_under_others(const Tree& one, const std::vector<Tree::Entry>& all) {
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Tree::Entry& e) { return std::countr_zero(e.value.layers) < std::countr_zero(one.layers); });
+  return std::any_of(all.begin(), all.end(), [&](const Tree::Entry& e) {
+    return std::countr_zero(e.value.layers) < std::countr_zero(one.layers);
+  });
 }
 
 }  // namespace
@@ -64,14 +65,17 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
   for (const PathStep& step : steps) {
     if (step.key.empty()) {
       const int n = static_cast<int>(at->list.size());
-      if (at->kind != Tree::Kind::list) fail(fmt::format("{} is {}", walked, description(*at)), "a list");
+      if (at->kind != Tree::Kind::list)
+        fail(fmt::format("{} is {}", walked, description(*at)), "a list");
       if (step.index >= n)
-        fail(fmt::format("{} has {} {}", walked, n, n == 1 ? "item" : "items"), fmt::format("an index below {}", n));
+        fail(fmt::format("{} has {} {}", walked, n, n == 1 ? "item" : "items"),
+             fmt::format("an index below {}", n));
       walked += fmt::format("[{}]", step.index);
       at = &at->list[static_cast<std::size_t>(step.index)];
     } else {
       if (at->kind == Tree::Kind::null) at->kind = Tree::Kind::map;
-      if (at->kind != Tree::Kind::map) fail(fmt::format("{} is {}", walked, description(*at)), "a map");
+      if (at->kind != Tree::Kind::map)
+        fail(fmt::format("{} is {}", walked, description(*at)), "a map");
       walked += (walked.empty() ? "" : ".") + step.key;
       if (!at->find(step.key)) {
         Tree made;
@@ -79,7 +83,8 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
         at->map.push_back({step.key, made});
       }
       Tree* next = const_cast<Tree*>(at->find(step.key));
-      if (lies_under_others(*next, at->map)) next->set_later = true;  // what lies over it may have replaced it
+      if (lies_under_others(*next, at->map))
+        next->set_later = true;  // what lies over it may have replaced it
       at = next;
     }
   }
@@ -113,7 +118,8 @@ std::string description(const Tree& tree) {
     case Tree::Kind::scalar:
       break;
   }
-  const std::string shown = tree.scalar.size() > longest ? tree.scalar.substr(0, longest) + "..." : tree.scalar;
+  const std::string shown =
+      tree.scalar.size() > longest ? tree.scalar.substr(0, longest) + "..." : tree.scalar;
   return tree.quoted ? "the text \"" + shown + "\"" : shown;
 }
 

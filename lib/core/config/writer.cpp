@@ -18,23 +18,28 @@ std::string relative_path(const std::string& path, const std::string& folder) {
   const fs::path from = fs::absolute(folder.empty() ? "." : folder), to = fs::absolute(path);
   std::error_code ec;
   const fs::path relative = fs::relative(to, from, ec);
-  return (ec ? to.lexically_relative(from) : relative).string();  // ... nor below one that may not be looked into
+  return (ec ? to.lexically_relative(from) : relative)
+      .string();  // ... nor below one that may not be looked into
 }
 PathText relative_to(const std::string& folder) {
-  return [folder](const std::string& path) { return relative_path(path, folder); };
+  return [folder](const std::string& path) {
+    return relative_path(path, folder);
+  };
 }
 
 namespace {
 
 bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool plain_letters(const std::string& s) {
-  return std::all_of(s.begin(), s.end(),
-                     [](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-'; });
+  return std::all_of(s.begin(), s.end(), [](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '+' || c == '-';
+  });
 }
 
 // Texts that any YAML reader takes for a text when they stand without quotes.
 bool is_safe_plain(const std::string& s) {
-  static const std::vector<std::string> taken{"true", "false", "yes", "no", "on", "off", "y", "n", "null"};
+  static const std::vector<std::string> taken{"true", "false", "yes", "no",  "on",
+                                              "off",  "y",     "n",   "null"};
   if (s.empty()) return false;
   std::string lower = s;
   for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
@@ -49,8 +54,9 @@ std::string in_line(const Tree& t) {
 
 bool fits_a_line(const Tree& t) {
   if (t.kind == Tree::Kind::map) return t.map.empty();
-  return std::all_of(t.list.begin(), t.list.end(),
-                     [](const Tree& item) { return item.kind == Tree::Kind::scalar || item.kind == Tree::Kind::null; });
+  return std::all_of(t.list.begin(), t.list.end(), [](const Tree& item) {
+    return item.kind == Tree::Kind::scalar || item.kind == Tree::Kind::null;
+  });
 }
 
 std::string one_line(const Tree& t) {
@@ -114,15 +120,20 @@ Tree text_tree(const std::string& s) {
 std::string reference_text(const std::vector<DescribedKey>& keys) {
   std::size_t key_width = 0, kind_width = 0;
   constexpr std::size_t widest = 44;
-  const auto head = [](const DescribedKey& k) { return std::string(2 * static_cast<std::size_t>(k.level), ' ') + k.key; };
-  const auto kind = [](const DescribedKey& k) { return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise; };
+  const auto head = [](const DescribedKey& k) {
+    return std::string(2 * static_cast<std::size_t>(k.level), ' ') + k.key;
+  };
+  const auto kind = [](const DescribedKey& k) {
+    return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise;
+  };
   for (const DescribedKey& k : keys) {
     key_width = std::max(key_width, head(k).size());
     kind_width = std::max(kind_width, std::min(kind(k).size(), widest));
   }
   std::string out;
   for (const DescribedKey& k : keys) {
-    std::string line = fmt::format("{:<{}}  {:<{}}  {}", head(k), key_width, kind(k), kind_width, k.doc);
+    std::string line =
+        fmt::format("{:<{}}  {:<{}}  {}", head(k), key_width, kind(k), kind_width, k.doc);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   }

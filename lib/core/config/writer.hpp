@@ -1,6 +1,6 @@
-// Config struct -> canonical YAML text (every key, defaults filled in; equal structs give equal text), and --describe.
-// Keys stand in the order of the listing, absent optional keys and files are left out, numbers are the shortest that read back
-// the same.
+// Config struct -> canonical YAML text (every key, defaults filled in; equal structs give equal
+// text), and --describe. Keys stand in the order of the listing, absent optional keys and files are
+// left out, numbers are the shortest that read back the same.
 //
 //   std::string effective = to_yaml(config);
 //   std::string reference = describe<SolveConfig>();     // key, type, unit, default, range, meaning
@@ -17,9 +17,11 @@ namespace langer {
 
 using PathText = std::function<std::string(const std::string& path)>;
 std::string as_held(const std::string& path);
-std::string file_name(const std::string& path);  // without folders: does not depend on where a file lies
-std::string relative_path(const std::string& path, const std::string& folder);  // symbolic links are followed
-PathText relative_to(const std::string& folder);                                // as seen from a file in that folder
+std::string file_name(
+    const std::string& path);  // without folders: does not depend on where a file lies
+std::string relative_path(const std::string& path,
+                          const std::string& folder);  // symbolic links are followed
+PathText relative_to(const std::string& folder);       // as seen from a file in that folder
 
 std::string to_text(const Tree& tree);  // block YAML; lists of scalars in one line
 std::string number_text(double x);      // shortest text that reads back the same; never "-0"
@@ -45,7 +47,11 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
     return text_tree(path_text(value.path));
   else if constexpr (is_choice<T>) {
     t.kind = Tree::Kind::map;
-    std::visit([&](const auto& a) { t.map.push_back({std::remove_cvref_t<decltype(a)>::key, to_tree(a, path_text)}); }, value);
+    std::visit(
+        [&](const auto& a) {
+          t.map.push_back({std::remove_cvref_t<decltype(a)>::key, to_tree(a, path_text)});
+        },
+        value);
   } else if constexpr (is_sum<T>) {
     // a map where each term stands once, otherwise a list
     t.kind = Tree::Kind::map;
@@ -94,19 +100,28 @@ struct NamedFile {
 };
 template <class T>
 void collect_files(const T& value, const std::string& path, std::vector<NamedFile>& files) {
-  const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  const auto below = [&](const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+  };
   if constexpr (std::is_same_v<T, InputPath>) {
     if (!value.path.empty()) files.push_back({path, value.path});
   } else if constexpr (is_optional<T>) {
     if (value) collect_files(*value, path, files);
   } else if constexpr (is_choice<T>) {
-    std::visit([&](const auto& a) { collect_files(a, below(std::remove_cvref_t<decltype(a)>::key), files); }, value);
+    std::visit(
+        [&](const auto& a) {
+          collect_files(a, below(std::remove_cvref_t<decltype(a)>::key), files);
+        },
+        value);
   } else if constexpr (is_vector<T> || is_array<T>) {
-    for (std::size_t i = 0; i < value.size(); ++i) collect_files(value[i], path + "[" + std::to_string(i) + "]", files);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      collect_files(value[i], path + "[" + std::to_string(i) + "]", files);
   } else if constexpr (is_named_things<T>) {
     for (const auto& [name, one] : value) collect_files(one, below(name), files);
   } else if constexpr (Listed<T>)
-    for_each_line(value, [&](const Member& m, const auto& part) { collect_files(part, *m.key ? below(m.key) : path, files); });
+    for_each_line(value, [&](const Member& m, const auto& part) {
+      collect_files(part, *m.key ? below(m.key) : path, files);
+    });
 }
 template <Listed Config>
 std::vector<NamedFile> files_named_by(const Config& config) {
@@ -161,7 +176,8 @@ inline constexpr bool has_parts = false;
 template <class T>
 inline constexpr bool has_parts<std::vector<T>> = Listed<T> || is_choice<T> || has_parts<T>;
 template <class T>
-inline constexpr bool has_parts<std::map<std::string, T>> = Listed<T> || is_choice<T> || is_sum<T> || has_parts<T>;
+inline constexpr bool has_parts<std::map<std::string, T>> =
+    Listed<T> || is_choice<T> || is_sum<T> || has_parts<T>;
 
 template <class T>
 std::string kind_words(const Member& m) {
@@ -191,7 +207,8 @@ void describe_lines(int level, std::vector<DescribedKey>& keys) {
         const std::size_t first = keys.size();
         describe_parts<V>(level, keys);
         for (std::size_t i = first; i < keys.size(); ++i)
-          if (keys[i].level == level) keys[i].otherwise = "one of " + list_words(alternatives<V>()), keys[i].doc = m.doc;
+          if (keys[i].level == level)
+            keys[i].otherwise = "one of " + list_words(alternatives<V>()), keys[i].doc = m.doc;
         return;
       }
     std::string otherwise;

@@ -29,8 +29,10 @@ constexpr std::size_t deepest = 64;
 constexpr std::size_t most_parts = 100'000;
 constexpr std::size_t largest_file = 4 << 20;  // bytes
 
-[[noreturn]] void refuse(const Place& place, std::string found, std::string expected = "", std::string hint = "") {
-  throw Failure(Exit::config, Error{place, "", std::move(found), std::move(expected), std::move(hint)});
+[[noreturn]] void refuse(const Place& place, std::string found, std::string expected = "",
+                         std::string hint = "") {
+  throw Failure(Exit::config,
+                Error{place, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
 std::size_t depth(const Tree& t) {
@@ -47,7 +49,8 @@ std::size_t parts(const Tree& t) {
   return n;
 }
 
-// Builds a tree from the parser's events; every event has an exact mark, which the parser's own nodes do not keep.
+// Builds a tree from the parser's events; every event has an exact mark, which the parser's own
+// nodes do not keep.
 class Builder : public YAML::EventHandler {
  public:
   Builder(std::string file, std::string base, std::size_t& n_parts)
@@ -62,7 +65,8 @@ class Builder : public YAML::EventHandler {
     if (expects_key()) refuse(place(mark), "found an empty key", "a name before \":\"");
     add(made(Tree::Kind::null, mark), anchor);
   }
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
     check_tag(tag, mark);
     if (expects_key()) return take_key(value, mark);
     Tree t = made(Tree::Kind::scalar, mark);
@@ -74,7 +78,8 @@ class Builder : public YAML::EventHandler {
     if (expects_key()) refuse(place(mark), "found an alias as a key", "a name");
     const auto known = anchors_.find(anchor);
     if (known == anchors_.end())
-      refuse(place(mark), "found an alias inside its own anchor", "a value that does not contain itself");
+      refuse(place(mark), "found an alias inside its own anchor",
+             "a value that does not contain itself");
     n_parts_ += parts(known->second);
     check_size(mark);
     if (open_.size() + depth(known->second) > deepest) refuse_depth(mark);
@@ -82,10 +87,12 @@ class Builder : public YAML::EventHandler {
     t.place = place(mark);
     add(std::move(t), 0);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
     begin(Tree::Kind::list, mark, tag, anchor);
   }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
     begin(Tree::Kind::map, mark, tag, anchor);
   }
   void OnSequenceEnd() override { end(); }
@@ -97,7 +104,8 @@ class Builder : public YAML::EventHandler {
     YAML::anchor_t anchor;
     std::string key;  // of a map: the key whose value comes next
     Place key_place;
-    bool has_key = false, drop = false;               // drop: the key was refused, its value is read and forgotten
+    bool has_key = false,
+         drop = false;  // drop: the key was refused, its value is read and forgotten
     std::unordered_map<std::string, int> lines = {};  // where each key of a map stands
   };
   std::string file_, base_;
@@ -106,16 +114,23 @@ class Builder : public YAML::EventHandler {
   std::map<YAML::anchor_t, Tree> anchors_;
 
   Place place(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
-  bool expects_key() const { return !open_.empty() && open_.back().tree.kind == Tree::Kind::map && !open_.back().has_key; }
+  bool expects_key() const {
+    return !open_.empty() && open_.back().tree.kind == Tree::Kind::map && !open_.back().has_key;
+  }
   void check_tag(const std::string& tag, const YAML::Mark& mark) {
     if (tag != "" && tag != "?" && tag != "!")
       errors.push_back({place(mark), "", "found the tag " + tag, "a value without a tag", ""});
   }
   void check_size(const YAML::Mark& mark) {
     if (n_parts_ > most_parts)
-      refuse(place(mark), fmt::format("more than {} parts, aliases and includes counted as often as they are used", most_parts));
+      refuse(
+          place(mark),
+          fmt::format("more than {} parts, aliases and includes counted as often as they are used",
+                      most_parts));
   }
-  void refuse_depth(const YAML::Mark& mark) { refuse(place(mark), fmt::format("nested more than {} levels deep", deepest)); }
+  void refuse_depth(const YAML::Mark& mark) {
+    refuse(place(mark), fmt::format("nested more than {} levels deep", deepest));
+  }
 
   Tree made(Tree::Kind kind, const YAML::Mark& mark) {
     ++n_parts_;
@@ -134,17 +149,22 @@ class Builder : public YAML::EventHandler {
     map.drop = false;
     if (const auto [first, is_new] = map.lines.emplace(key, map.key_place.line); !is_new) {
       errors.push_back(
-          {map.key_place, "", fmt::format("the key \"{}\" was already given at line {}", key, first->second), "each key once", ""});
+          {map.key_place, "",
+           fmt::format("the key \"{}\" was already given at line {}", key, first->second),
+           "each key once", ""});
       map.drop = true;
     } else if (key == "<<") {
-      errors.push_back(
-          {map.key_place, "", "found a merge key \"<<\"", "\"include: file\"", "keys beside `include` win over the included ones"});
+      errors.push_back({map.key_place, "", "found a merge key \"<<\"", "\"include: file\"",
+                        "keys beside `include` win over the included ones"});
       map.drop = true;
     }
   }
-  void begin(Tree::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+  void begin(Tree::Kind kind, const YAML::Mark& mark, const std::string& tag,
+             YAML::anchor_t anchor) {
     check_tag(tag, mark);
-    if (expects_key()) refuse(place(mark), kind == Tree::Kind::list ? "found a list as a key" : "found a map as a key", "a name");
+    if (expects_key())
+      refuse(place(mark),
+             kind == Tree::Kind::list ? "found a list as a key" : "found a map as a key", "a name");
     if (open_.size() + 1 > deepest) refuse_depth(mark);
     open_.push_back({made(kind, mark), anchor, "", {}, false, false});
   }
@@ -170,8 +190,10 @@ class Builder : public YAML::EventHandler {
   }
 };
 
-Tree parse(const std::string& text, const std::string& file, const std::string& base, std::size_t& n_parts) {
-  if (text.find('\0') != std::string::npos) refuse({file, 0, 0}, "this is not a text file", "a YAML file");
+Tree parse(const std::string& text, const std::string& file, const std::string& base,
+           std::size_t& n_parts) {
+  if (text.find('\0') != std::string::npos)
+    refuse({file, 0, 0}, "this is not a text file", "a YAML file");
   Builder builder(file, base, n_parts);
   std::istringstream stream(text);
   try {
@@ -180,11 +202,12 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
     builder.root.base = base;
     parser.HandleNextDocument(builder);
     const Tree first = builder.root;
-    if (parser.HandleNextDocument(builder)) refuse(builder.root.place, "found a second document", "one YAML document in a file");
+    if (parser.HandleNextDocument(builder))
+      refuse(builder.root.place, "found a second document", "one YAML document in a file");
     builder.root = first;
   } catch (const YAML::Exception& e) {
-    const YamlTrouble t =
-        yaml_trouble(text, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1, e.msg);
+    const YamlTrouble t = yaml_trouble(text, e.mark.is_null() ? 0 : e.mark.line + 1,
+                                       e.mark.is_null() ? 0 : e.mark.column + 1, e.msg);
     refuse({file, t.line, t.column}, t.found, t.expected, t.hint);
   }
   if (!builder.errors.empty()) throw Failure(Exit::config, builder.errors);
@@ -214,7 +237,8 @@ void merge(Tree& base, const Tree& over) {
     }
   }
   std::sort(taken.rbegin(), taken.rend());
-  for (const std::size_t i : taken) base.map.erase(base.map.begin() + static_cast<std::ptrdiff_t>(i));
+  for (const std::size_t i : taken)
+    base.map.erase(base.map.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 std::uint64_t layers_in(const Tree& tree) {
@@ -250,11 +274,13 @@ fs::path own_name(const fs::path& path) {
   return ec ? path.lexically_normal() : canonical;
 }
 
-// What a file that is not there may have been meant for: its present name, or the nearest one beside it.
+// What a file that is not there may have been meant for: its present name, or the nearest one
+// beside it.
 std::string meant_for(const fs::path& path) {
   std::error_code ec;
   std::vector<std::string> beside;
-  for (const auto& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ec))
+  for (const auto& entry :
+       fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ec))
     if (entry.path().extension() == ".yaml") beside.push_back(entry.path().filename().string());
   const std::string name = path.filename().string();
   std::string now = name == "trade.yaml"         ? "refinement_study.yaml"
@@ -284,12 +310,15 @@ void resolve_includes(Tree& tree, Reading& reading) {
     const fs::path path = (fs::path(file->base) / file->scalar).lexically_normal();
     std::error_code ec;
     if (!fs::is_regular_file(path, ec))
-      refuse(file->place, "include: there is no file " + path.string(), "a path relative to this file", meant_for(path));
-    if (std::find(reading.files.begin(), reading.files.end(), own_name(path)) != reading.files.end())
+      refuse(file->place, "include: there is no file " + path.string(),
+             "a path relative to this file", meant_for(path));
+    if (std::find(reading.files.begin(), reading.files.end(), own_name(path)) !=
+        reading.files.end())
       refuse(file->place, "include: " + path.string() + " includes itself");
     const Tree included = load(path.string(), reading);
     if (included.kind != Tree::Kind::map)
-      refuse(file->place, fmt::format("include: {} holds {}", path.string(), description(included)), "a map");
+      refuse(file->place, fmt::format("include: {} holds {}", path.string(), description(included)),
+             "a map");
     lay(base, included);
   }
   std::erase_if(tree.map, [](const Tree::Entry& e) { return e.key == "include"; });
@@ -299,18 +328,22 @@ void resolve_includes(Tree& tree, Reading& reading) {
 
 Tree load(const std::string& path, Reading& reading) {
   std::error_code ec;
-  if (fs::is_directory(path, ec)) throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
+  if (fs::is_directory(path, ec))
+    throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw Failure(Exit::input, fs::exists(path, ec) ? Error{{path, 0, 0}, "", "cannot be read", "", ""}
-                                                    : Error{{path, 0, 0}, "", "there is no such file", "", meant_for(path)});
+    throw Failure(Exit::input,
+                  fs::exists(path, ec)
+                      ? Error{{path, 0, 0}, "", "cannot be read", "", ""}
+                      : Error{{path, 0, 0}, "", "there is no such file", "", meant_for(path)});
   std::string text;  // by parts: a device has no size, and most files are small
   std::array<char, 1 << 14> part;
   do {
     file.read(part.data(), part.size());
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
   } while (file && text.size() <= largest_file);
-  if (text.size() > largest_file) refuse({path, 0, 0}, fmt::format("larger than {} bytes", largest_file), "a YAML file");
+  if (text.size() > largest_file)
+    refuse({path, 0, 0}, fmt::format("larger than {} bytes", largest_file), "a YAML file");
   reading.files.push_back(own_name(path));
   Tree tree = parse(text, path, fs::path(path).parent_path().string(), reading.n_parts);
   resolve_includes(tree, reading);

@@ -22,12 +22,14 @@ std::vector<TextLine> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string s; std::getline(stream, s);) {
     const std::size_t first = s.find_first_not_of(" \t\r");
-    lines.push_back({s, first == std::string::npos ? s.size() : first, first == std::string::npos || s[first] == '#'});
+    lines.push_back({s, first == std::string::npos ? s.size() : first,
+                     first == std::string::npos || s[first] == '#'});
   }
   return lines;
 }
 
-// a bracket or quote that is open at the end of a line, with its place; quotes of comments do not count
+// a bracket or quote that is open at the end of a line, with its place; quotes of comments do not
+// count
 struct Opened {
   std::size_t line = 0, column = 0;
   char mark = 0;
@@ -39,13 +41,16 @@ std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t
     for (std::size_t k = 0; k < s.size(); ++k) {
       const bool quoted = !open.empty() && (open.back().mark == '"' || open.back().mark == '\'');
       if (quoted) {
-        if (s[k] == open.back().mark && !(s[k] == '"' && k > 0 && s[k - 1] == '\\')) open.pop_back();
+        if (s[k] == open.back().mark && !(s[k] == '"' && k > 0 && s[k - 1] == '\\'))
+          open.pop_back();
       } else if (s[k] == '#' && (k == 0 || s[k - 1] == ' ' || s[k - 1] == '\t')) {
         break;
       } else if (s[k] == '[' || s[k] == '{' ||
-                 ((s[k] == '"' || s[k] == '\'') && (k == 0 || std::string(" \t[{,:").find(s[k - 1]) != std::string::npos))) {
+                 ((s[k] == '"' || s[k] == '\'') &&
+                  (k == 0 || std::string(" \t[{,:").find(s[k - 1]) != std::string::npos))) {
         open.push_back({i, k, s[k]});
-      } else if ((s[k] == ']' || s[k] == '}') && !open.empty() && open.back().mark == (s[k] == ']' ? '[' : '{')) {
+      } else if ((s[k] == ']' || s[k] == '}') && !open.empty() &&
+                 open.back().mark == (s[k] == ']' ? '[' : '{')) {
         open.pop_back();
       }
     }
@@ -54,7 +59,8 @@ std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t
   return open.front();
 }
 
-// columns at which the blocks that are open before a line begin, ascending; a list's item opens one behind its dash
+// columns at which the blocks that are open before a line begin, ascending; a list's item opens one
+// behind its dash
 std::vector<std::size_t> levels_before(const std::vector<TextLine>& lines, std::size_t at) {
   std::vector<std::size_t> levels;
   for (std::size_t i = 0; i < at; ++i) {
@@ -62,7 +68,8 @@ std::vector<std::size_t> levels_before(const std::vector<TextLine>& lines, std::
     while (!levels.empty() && levels.back() > lines[i].indent) levels.pop_back();
     if (levels.empty() || levels.back() < lines[i].indent) levels.push_back(lines[i].indent);
     const std::string& s = lines[i].text;
-    if (s.compare(lines[i].indent, 2, "- ") == 0) levels.push_back(std::min(s.find_first_not_of(" -", lines[i].indent), s.size()));
+    if (s.compare(lines[i].indent, 2, "- ") == 0)
+      levels.push_back(std::min(s.find_first_not_of(" -", lines[i].indent), s.size()));
   }
   return levels;
 }
@@ -80,7 +87,8 @@ std::optional<std::size_t> colon_without_blank(const TextLine& line) {
   std::size_t k = line.indent;
   if (s.compare(k, 2, "- ") == 0) k += 2;
   while (k < s.size() && (std::isalnum(static_cast<unsigned char>(s[k])) || s[k] == '_')) ++k;
-  if (k == line.indent || k + 1 >= s.size() || s[k] != ':' || s[k + 1] == ' ' || s[k + 1] == '\t' || s[k + 1] == '\r')
+  if (k == line.indent || k + 1 >= s.size() || s[k] != ':' || s[k + 1] == ' ' || s[k + 1] == '\t' ||
+      s[k + 1] == '\r')
     return std::nullopt;
   return k;
 }
@@ -89,17 +97,24 @@ std::optional<std::size_t> colon_without_blank(const TextLine& line) {
 
 YamlTrouble yaml_trouble(const std::string& text, int line, int column, const std::string& words) {
   const std::vector<TextLine> lines = lines_of(text);
-  const auto at = static_cast<std::size_t>(std::max(line, 1) - 1), last = std::min(at, lines.empty() ? 0 : lines.size() - 1);
-  const auto place = [](std::size_t row, std::size_t k) { return std::pair{static_cast<int>(row) + 1, static_cast<int>(k) + 1}; };
+  const auto at = static_cast<std::size_t>(std::max(line, 1) - 1),
+             last = std::min(at, lines.empty() ? 0 : lines.size() - 1);
+  const auto place = [](std::size_t row, std::size_t k) {
+    return std::pair{static_cast<int>(row) + 1, static_cast<int>(k) + 1};
+  };
   for (std::size_t i = 0; i <= last && i < lines.size(); ++i)
-    if (const std::size_t tab = lines[i].text.find('\t'); tab < lines[i].indent && !lines[i].empty) {
+    if (const std::size_t tab = lines[i].text.find('\t');
+        tab < lines[i].indent && !lines[i].empty) {
       const auto [row, k] = place(i, tab);
-      return {row, k, "found a tab in the indentation", "blanks", "YAML is indented by blanks: replace each tab by two"};
+      return {row, k, "found a tab in the indentation", "blanks",
+              "YAML is indented by blanks: replace each tab by two"};
     }
   for (std::size_t i = last + 1; i-- > 0 && i + 2 > last && i < lines.size();)
     if (const auto colon = colon_without_blank(lines[i]); colon && !lines[i].empty) {
       const auto [row, k] = place(i, *colon);
-      return {row, k, "found a colon without a blank behind it: " + lines[i].text.substr(lines[i].indent), "key: value", ""};
+      return {row, k,
+              "found a colon without a blank behind it: " + lines[i].text.substr(lines[i].indent),
+              "key: value", ""};
     }
   if (const auto open = first_open(lines, lines.size()); open && open->line <= last) {
     const auto [row, k] = place(open->line, open->column);
@@ -114,7 +129,9 @@ YamlTrouble yaml_trouble(const std::string& text, int line, int column, const st
     const bool known = std::find(levels.begin(), levels.end(), lines[last].indent) != levels.end();
     if (!levels.empty() && !known) {
       const auto [row, k] = place(last, lines[last].indent);
-      return {row, k, fmt::format("indented by {} blanks; what stands above it by {}", lines[last].indent, words_of(levels)),
+      return {row, k,
+              fmt::format("indented by {} blanks; what stands above it by {}", lines[last].indent,
+                          words_of(levels)),
               "as many blanks as the keys that it belongs to",
               "a key deeper than its neighbours needs a line above it that ends in a colon"};
     }

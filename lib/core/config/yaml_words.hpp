@@ -1,5 +1,6 @@
-// Where a text stops being YAML, in the words of somebody who typed it: tabs, indentation, a missing blank behind a colon, a bracket or
-// quote without its end. The parser's own words where it is none of these.
+// Where a text stops being YAML, in the words of somebody who typed it: tabs, indentation, a
+// missing blank behind a colon, a bracket or quote without its end. The parser's own words where it
+// is none of these.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
-// A 64-bit checksum of bytes: FNV-1a over words of eight, each followed by a shift that brings high bits down. Every step is one to
-// one, so a change within one word always shows, and any other goes unseen once in 2^64.
+// A 64-bit checksum of bytes: FNV-1a over words of eight, each followed by a shift that brings high
+// bits down. Every step is one to one, so a change within one word always shows, and any other goes
+// unseen once in 2^64.
 #pragma once
 
 #include <cstdint>

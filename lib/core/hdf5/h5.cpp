@@ -50,11 +50,15 @@ void written(bool good, const Group& group, const std::string& name) {
   if (!good) group.refuse(name, "cannot be written", "", "is the disk full?");
 }
 
-void Group::refuse(const std::string& name, const std::string& found, const std::string& expected, const std::string& hint) const {
-  throw Failure(Exit::input, Error{{file_->path}, name.empty() ? path_ : full(name), found, expected, hint});
+void Group::refuse(const std::string& name, const std::string& found, const std::string& expected,
+                   const std::string& hint) const {
+  throw Failure(Exit::input,
+                Error{{file_->path}, name.empty() ? path_ : full(name), found, expected, hint});
 }
 
-std::string Group::full(const std::string& name) const { return (path_ == "/" ? "" : path_) + "/" + name; }
+std::string Group::full(const std::string& name) const {
+  return (path_ == "/" ? "" : path_) + "/" + name;
+}
 
 namespace {
 
@@ -68,7 +72,8 @@ herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
-// a link on the way to a path leads into another file; soft links are followed, `depth` of them at most
+// a link on the way to a path leads into another file; soft links are followed, `depth` of them at
+// most
 bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
     const std::string begin = path.substr(0, end);
@@ -77,7 +82,9 @@ bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
     if (info.type != H5L_TYPE_HARD && info.type != H5L_TYPE_SOFT) return true;
     if (info.type == H5L_TYPE_SOFT) {
       std::string target(info.u.val_size, '\0');
-      if (depth == 0 || H5Lget_val(file, begin.c_str(), target.data(), target.size(), H5P_DEFAULT) < 0) return true;
+      if (depth == 0 ||
+          H5Lget_val(file, begin.c_str(), target.data(), target.size(), H5P_DEFAULT) < 0)
+        return true;
       target = target.c_str();
       if (!target.starts_with('/')) target = begin.substr(0, begin.rfind('/') + 1) + target;
       return leads_elsewhere(file, target + (end == path.npos ? "" : path.substr(end)), depth - 1);
@@ -86,12 +93,16 @@ bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
   }
 }
 
-void refuse_external(hid_t file, const Group& group, const std::string& name, const std::string& full) {
+void refuse_external(hid_t file, const Group& group, const std::string& name,
+                     const std::string& full) {
   if (leads_elsewhere(file, full))
-    group.refuse(name, "is a link into another file", "the data themselves", "copy them into this file (h5copy)");
+    group.refuse(name, "is a link into another file", "the data themselves",
+                 "copy them into this file (h5copy)");
 }
 
-Handle open_object(hid_t file, const std::string& path) { return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose}; }
+Handle open_object(hid_t file, const std::string& path) {
+  return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose};
+}
 
 // a run has its journal, and adds to it
 bool being_written(const std::string& part) {
@@ -104,30 +115,35 @@ bool being_written(const std::string& part) {
 
 Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
-void write_attribute(hid_t object, const Group& group, const std::string& name, hid_t type, hid_t space, hid_t memory,
-                     const void* values) {
+void write_attribute(hid_t object, const Group& group, const std::string& name, hid_t type,
+                     hid_t space, hid_t memory, const void* values) {
   if (H5Aexists(object, name.c_str()) > 0) {
     const Handle old(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle old_type(H5Aget_type(old), H5Tclose), old_space(H5Aget_space(old), H5Sclose);
-    if (H5Tequal(old_type, type) > 0 && H5Sget_simple_extent_npoints(old_space) == H5Sget_simple_extent_npoints(space))
+    if (H5Tequal(old_type, type) > 0 &&
+        H5Sget_simple_extent_npoints(old_space) == H5Sget_simple_extent_npoints(space))
       return written(H5Awrite(old, memory, values) >= 0, group, name);
     written(H5Adelete(object, name.c_str()) >= 0, group, name);
   }
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
   written(attribute.good() && H5Awrite(attribute, memory, values) >= 0, group, name);
 }
 
-void write_text_attribute(hid_t object, const Group& group, const std::string& name, const std::string& text) {
+void write_text_attribute(hid_t object, const Group& group, const std::string& name,
+                          const std::string& text) {
   const Handle type = string_type(text), space = scalar();
   const std::string padded = text.empty() ? std::string(1, '\0') : text;
   write_attribute(object, group, name, type, space, type, padded.data());
 }
 
-std::string read_text_attribute(hid_t object, const Group& group, const std::string& name, std::uintmax_t size) {
+std::string read_text_attribute(hid_t object, const Group& group, const std::string& name,
+                                std::uintmax_t size) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
   if (!attribute.good()) group.refuse("", fmt::format("attribute {} is missing", name));
   const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
-  return string_value(group, name, type, space, size, [&](hid_t memory, void* to) { return H5Aread(attribute, memory, to); });
+  return string_value(group, name, type, space, size,
+                      [&](hid_t memory, void* to) { return H5Aread(attribute, memory, to); });
 }
 
 }  // namespace
@@ -140,7 +156,8 @@ bool Group::has(const std::string& name) const {
 void refuse_stored_elsewhere(hid_t dataset, const Group& group, const std::string& name) {
   const Handle list(H5Dget_create_plist(dataset), H5Pclose);
   if (list.good() && (H5Pget_external_count(list) > 0 || H5Pget_layout(list) == H5D_VIRTUAL))
-    group.refuse(name, "keeps its values in another file", "the values themselves", "copy them into this file (h5repack)");
+    group.refuse(name, "keeps its values in another file", "the values themselves",
+                 "copy them into this file (h5repack)");
 }
 
 namespace {
@@ -163,7 +180,8 @@ std::vector<std::string> Group::groups() const { return links(file_->id, *this, 
 std::vector<std::string> Group::datasets() const { return links(file_->id, *this, H5I_DATASET); }
 
 Group Group::group(const std::string& name) const {
-  const Handle handle(has(name) ? H5Gopen2(file_->id, full(name).c_str(), H5P_DEFAULT) : -1, H5Gclose);
+  const Handle handle(has(name) ? H5Gopen2(file_->id, full(name).c_str(), H5P_DEFAULT) : -1,
+                      H5Gclose);
   if (!handle.good()) refuse(name, "group is missing");
   return {file_, full(name)};
 }
@@ -171,7 +189,8 @@ Group Group::group(const std::string& name) const {
 Group Group::make_group(const std::string& name) const {
   if (has(name)) return group(name);
   const Handle list = creation(H5P_GROUP_CREATE);
-  const Handle made(H5Gcreate2(file_->id, full(name).c_str(), H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose);
+  const Handle made(H5Gcreate2(file_->id, full(name).c_str(), H5P_DEFAULT, list, H5P_DEFAULT),
+                    H5Gclose);
   written(made.good(), *this, name);
   return {file_, full(name)};
 }
@@ -181,13 +200,15 @@ void Group::attribute(const std::string& name, const std::string& text) const {
 }
 
 void Group::attribute(const std::string& name, std::int64_t value) const {
-  write_attribute(open_object(file_->id, path_), *this, name, H5T_STD_I64LE, scalar(), H5T_NATIVE_INT64, &value);
+  write_attribute(open_object(file_->id, path_), *this, name, H5T_STD_I64LE, scalar(),
+                  H5T_NATIVE_INT64, &value);
 }
 
 void Group::attribute(const std::string& name, const std::vector<std::int64_t>& values) const {
   const hsize_t n = values.size();
   const Handle list(H5Screate_simple(1, &n, nullptr), H5Sclose);
-  write_attribute(open_object(file_->id, path_), *this, name, H5T_STD_I64LE, list, H5T_NATIVE_INT64, values.data());
+  write_attribute(open_object(file_->id, path_), *this, name, H5T_STD_I64LE, list, H5T_NATIVE_INT64,
+                  values.data());
 }
 
 bool Group::has_attribute(const std::string& name) const {
@@ -211,7 +232,8 @@ std::int64_t Group::integer_attribute(const std::string& name) const {
   return value;
 }
 
-void Group::annotate(const std::string& dataset, const std::string& name, const std::string& text) const {
+void Group::annotate(const std::string& dataset, const std::string& name,
+                     const std::string& text) const {
   write_text_attribute(open_object(file_->id, full(dataset)), *this, name, text);
 }
 
@@ -237,8 +259,11 @@ File File::create(const std::string& path, Unfinished unfinished) {
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file->id = H5Fcreate(file->current.c_str(), H5F_ACC_TRUNC, list, access);
   if (file->id < 0)
-    throw Failure(Exit::input,
-                  Error{{file->current}, "", "cannot be created", "", "does the folder exist, and may it be written?"});
+    throw Failure(Exit::input, Error{{file->current},
+                                     "",
+                                     "cannot be created",
+                                     "",
+                                     "does the folder exist, and may it be written?"});
   file->writing = true;
   file->size = std::numeric_limits<std::uintmax_t>::max();
   return File(file);
@@ -253,7 +278,8 @@ File File::open(const std::string& path) {
   if (!std::filesystem::exists(path, none)) refuse("no such file", "");
   if (std::filesystem::is_directory(path, none)) refuse("is a folder, not a file", "");
   const Seal seal = seal_of(path);
-  if (seal == Seal::broken) refuse("damaged: its content does not fit its checksum", "make it again");
+  if (seal == Seal::broken)
+    refuse("damaged: its content does not fit its checksum", "make it again");
   if (seal == Seal::none && path.ends_with(".part") && !being_written(path))
     refuse("was left by a run that was killed: nothing tells whether it is whole",
            "run the same command again: it goes on from the steps that are whole");
@@ -263,7 +289,9 @@ File File::open(const std::string& path) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file->id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  if (file->id < 0) refuse("not a readable HDF5 file: truncated, still being written, or of another kind", "make it again");
+  if (file->id < 0)
+    refuse("not a readable HDF5 file: truncated, still being written, or of another kind",
+           "make it again");
   return File(file);
 }
 

@@ -1,9 +1,10 @@
-// HDF5 files as plain values: the only door to the C library, whose own types and messages stay behind h5.cpp.
+// HDF5 files as plain values: the only door to the C library, whose own types and messages stay
+// behind h5.cpp.
 //   shapes   row-major extents; {} is a scalar; `any` matches every extent
 //   types    double (f64), std::int64_t (i64), std::uint8_t (u8), strings of fixed length
-// A file is written as <path>.part and gets its name in commit(), with a checksum behind HDF5's last byte (the seal).
-// Refused with path and dataset: missing, truncated or changed files, other types or shapes, sizes beyond the file.
-// Object times are off, so equal content gives equal bytes.
+// A file is written as <path>.part and gets its name in commit(), with a checksum behind HDF5's
+// last byte (the seal). Refused with path and dataset: missing, truncated or changed files, other
+// types or shapes, sizes beyond the file. Object times are off, so equal content gives equal bytes.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,8 @@ struct OpenFile;
 // A group of an open file; cheap to copy.
 class Group {
  public:
-  Group(std::shared_ptr<OpenFile> file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+  Group(std::shared_ptr<OpenFile> file, std::string path)
+      : file_(std::move(file)), path_(std::move(path)) {}
 
   bool has(const std::string& name) const;
   std::vector<std::string> groups() const;    // names, ascending
@@ -48,17 +50,20 @@ class Group {
 
   // attributes of a dataset of this group
   void annotate(const std::string& dataset, const std::string& name, const std::string& text) const;
-  std::string annotation(const std::string& dataset, const std::string& name) const;  // "" where there is none
+  std::string annotation(const std::string& dataset,
+                         const std::string& name) const;  // "" where there is none
   std::string unit(const std::string& dataset) const { return annotation(dataset, "unit"); }
 
   // creates, or overwrites an array of the same shape
   template <class T>
-  void write(const std::string& name, const Shape& shape, std::span<const T> values, const std::string& unit = "") const;
+  void write(const std::string& name, const Shape& shape, std::span<const T> values,
+             const std::string& unit = "") const;
   void write_scalar(const std::string& name, double value, const std::string& unit = "") const;
   void write_text(const std::string& name, const std::string& text) const;
   // no rows yet; rows never appended read as NaN (or the least integer)
   template <class T>
-  void make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk, const std::string& unit = "") const;
+  void make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk,
+                       const std::string& unit = "") const;
   template <class T>
   void append(const std::string& name, std::span<const T> rows) const;
 
@@ -66,14 +71,16 @@ class Group {
   template <class T>
   Array<T> read(const std::string& name, const Shape& expected) const;
   template <class T>
-  Array<T> read_rows(const std::string& name, std::size_t first, std::size_t count, const Shape& row) const;
-  std::vector<double> read_finite(const std::string& name, const Shape& expected) const;  // refuses NaN and infinity
+  Array<T> read_rows(const std::string& name, std::size_t first, std::size_t count,
+                     const Shape& row) const;
+  std::vector<double> read_finite(const std::string& name,
+                                  const Shape& expected) const;  // refuses NaN and infinity
   double read_scalar(const std::string& name) const;
   std::string read_text(const std::string& name) const;
 
   // the failure that names this file and the place in it
-  [[noreturn]] void refuse(const std::string& name, const std::string& found, const std::string& expected = "",
-                           const std::string& hint = "") const;
+  [[noreturn]] void refuse(const std::string& name, const std::string& found,
+                           const std::string& expected = "", const std::string& hint = "") const;
   const std::string& path() const { return path_; }
 
  private:

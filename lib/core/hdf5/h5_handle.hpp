@@ -43,8 +43,10 @@ void written(bool good, const Group& group, const std::string& name);
 
 // a string, fixed or variable length, through HDF5's reading call
 template <class Read>
-std::string string_value(const Group& group, const std::string& name, hid_t type, hid_t space, std::uintmax_t size, Read read) {
-  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) group.refuse(name, "is not a string");
+std::string string_value(const Group& group, const std::string& name, hid_t type, hid_t space,
+                         std::uintmax_t size, Read read) {
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
+    group.refuse(name, "is not a string");
   if (H5Tis_variable_str(type) > 0) {
     char* text = nullptr;
     const Handle memory(H5Tcopy(type), H5Tclose);

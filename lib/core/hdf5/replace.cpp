@@ -27,14 +27,16 @@ bool first_time = false;  // the main output of this run was not there
 void refuse_link(const std::string& path) {
   std::error_code none;
   if (fs::is_symlink(fs::symlink_status(path, none)))
-    refuse(path, "is a link to " + fs::read_symlink(path, none).string(), "name the file itself, or remove the link");
+    refuse(path, "is a link to " + fs::read_symlink(path, none).string(),
+           "name the file itself, or remove the link");
 }
 
 void refuse_input(const std::string& path) {
   std::error_code none;
   for (const std::string& input : spared())
     if (fs::equivalent(input, path, none))
-      refuse(path, "is read by this run and would be replaced", "another name or folder for the output (-o)");
+      refuse(path, "is read by this run and would be replaced",
+             "another name or folder for the output (-o)");
 }
 
 // `words` within the first and last megabyte of a file
@@ -68,7 +70,9 @@ void need_replaceable(const std::string& path) {
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
   if (fs::exists(status) && !fs::is_regular_file(status))
-    refuse(path, fs::is_directory(status) ? "is a folder" : "is no plain file (a device, FIFO or socket)", "the name of a file");
+    refuse(path,
+           fs::is_directory(status) ? "is a folder" : "is no plain file (a device, FIFO or socket)",
+           "the name of a file");
   refuse_input(path);
 }
 
@@ -77,15 +81,18 @@ void begin_beside(const std::string& output) { first_time = !fs::exists(output);
 void need_replaceable_by(const std::string& path, const std::string& text) {
   need_replaceable(path);
   if (!first_time) return;
-  const std::string line = text.substr(0, text.find('\n') + 1), is = begin_of(path, std::max<std::size_t>(line.size(), 1));
+  const std::string line = text.substr(0, text.find('\n') + 1),
+                    is = begin_of(path, std::max<std::size_t>(line.size(), 1));
   if (!is.empty() && is != line)
-    refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
+    refuse(path, "is there already and was not made by this step",
+           "remove or rename it, or -o into another folder");
 }
 
 void need_replaceable_from(const std::string& path, const std::string& script) {
   need_replaceable(path);
   if (first_time && !begin_of(path, 1).empty() && !fs::exists(script))
-    refuse(path, "is there already and was not made by this step", "remove or rename it, or -o into another folder");
+    refuse(path, "is there already and was not made by this step",
+           "remove or rename it, or -o into another folder");
 }
 
 void need_own_output(const std::string& path) {
@@ -110,7 +117,8 @@ void need_own_log(const std::string& path) {
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
   if (!fs::exists(status) || fs::is_character_file(status)) return;
-  if (!fs::is_regular_file(status)) refuse(path, "is no file for a log", "the name of a file (--log)");
+  if (!fs::is_regular_file(status))
+    refuse(path, "is no file for a log", "the name of a file (--log)");
   const std::string begin = begin_of(path, 9);
   if (!begin.empty() && !begin.starts_with("# langer"))
     refuse(path, "is there already and is no log of langer", "another name (--log), or remove it");

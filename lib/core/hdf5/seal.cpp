@@ -27,7 +27,9 @@ constexpr std::string_view seal_begin = "\nlanger seal:", older_begin = "\nlange
 constexpr std::size_t seal_length = seal_begin.size() + 16 + 1;  // begin, 16 hex digits, newline
 
 [[noreturn]] void cannot_write(const std::string& path) {
-  throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
+  throw Failure(
+      Exit::input,
+      Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
 }
 
 // the blocks of a file one after another; `take` goes on from the checksum of those before
@@ -44,7 +46,8 @@ std::uint64_t over_blocks(std::ifstream& in, std::uintmax_t bytes, const Take& t
   return h;
 }
 
-// FNV-1a over words of eight bytes, in files of versions up to 0.2.0: two sign bits that are turned over cancel
+// FNV-1a over words of eight bytes, in files of versions up to 0.2.0: two sign bits that are turned
+// over cancel
 std::uint64_t older_checksum(std::string_view bytes, std::uint64_t h) {
   for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
     std::uint64_t word = 0;
@@ -65,10 +68,12 @@ void sync_path(const std::string& path, int flags) {
 
 void append_seal(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const std::string seal = fmt::format("{}{:016x}\n", seal_begin, over_blocks(in, std::filesystem::file_size(path), checksum));
+  const std::string seal = fmt::format("{}{:016x}\n", seal_begin,
+                                       over_blocks(in, std::filesystem::file_size(path), checksum));
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND);
   if (fd < 0) cannot_write(path);
-  const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) && ::fsync(fd) == 0;
+  const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) &&
+                       ::fsync(fd) == 0;
   ::close(fd);
   if (!written) cannot_write(path);
 }
@@ -85,7 +90,8 @@ Seal seal_of(const std::string& path) {
   if (!older && !seal.starts_with(seal_begin)) return Seal::none;
   in.seekg(0);
   const std::uint64_t sum = over_blocks(in, size - seal_length, older ? older_checksum : checksum);
-  return seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum) ? Seal::broken : Seal::whole;
+  return seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum) ? Seal::broken
+                                                                           : Seal::whole;
 }
 
 void rename_durably(const std::string& from, const std::string& to) {
@@ -119,7 +125,9 @@ std::string write_part(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-void write_text_file(const std::string& path, const std::string& text) { rename_durably(write_part(path, text), path); }
+void write_text_file(const std::string& path, const std::string& text) {
+  rename_durably(write_part(path, text), path);
+}
 
 void write_text_file_soon(const std::string& path, const std::string& text) {
   if (std::rename(write_part(path, text).c_str(), path.c_str()) != 0) cannot_write(path);

@@ -1,4 +1,5 @@
-// Values are in mm, N, MPa, s and degrees. A dataset that says otherwise is refused: it would be read as what it is not.
+// Values are in mm, N, MPa, s and degrees. A dataset that says otherwise is refused: it would be
+// read as what it is not.
 #pragma once
 
 #include <cctype>
@@ -12,13 +13,15 @@ namespace langer {
 
 inline constexpr const char* house_units = "mm N MPa s deg";
 
-// `unit`: that of the values as they are used; the dataset's attribute `unit` or `units`, where it has one, must say the same. "-" and ""
-// there pass: so older versions wrote what nobody had named.
+// `unit`: that of the values as they are used; the dataset's attribute `unit` or `units`, where it
+// has one, must say the same. "-" and "" there pass: so older versions wrote what nobody had named.
 inline void need_unit(const h5::Group& group, const std::string& name, const std::string& unit) {
   if (unit.empty()) return;
   for (const char* attribute : {"unit", "units"})
-    if (const std::string found = group.annotation(name, attribute); !found.empty() && found != "-" && found != unit)
-      group.refuse(name, fmt::format("values in {}", found), unit == "-" ? "a pure number" : "values in " + unit,
+    if (const std::string found = group.annotation(name, attribute);
+        !found.empty() && found != "-" && found != unit)
+      group.refuse(name, fmt::format("values in {}", found),
+                   unit == "-" ? "a pure number" : "values in " + unit,
                    "convert them: langer reads mm, N, MPa, s and degrees");
 }
 
@@ -28,8 +31,8 @@ inline bool among_ours(const std::string& unit) {
   return false;
 }
 
-// Of values that are used with the unit that stands beside them: it has to be made of ours, so that tables and pictures of several files
-// have one unit for one name.
+// Of values that are used with the unit that stands beside them: it has to be made of ours, so that
+// tables and pictures of several files have one unit for one name.
 inline void need_known_unit(const h5::Group& group, const std::string& name) {
   const std::string unit = group.unit(name);
   std::string word;
@@ -39,7 +42,8 @@ inline void need_known_unit(const h5::Group& group, const std::string& name) {
       continue;
     }
     if (!word.empty() && !among_ours(word))
-      group.refuse(name, fmt::format("values in {}", unit), "values in mm, N, MPa, s or deg", "convert them");
+      group.refuse(name, fmt::format("values in {}", unit), "values in mm, N, MPa, s or deg",
+                   "convert them");
     word.clear();
   }
 }

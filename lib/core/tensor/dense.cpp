@@ -48,11 +48,14 @@ SymmetricEigen symmetric_eigen(const MatX& A) {
   const Eigen::SelfAdjointEigenSolver<MatX> of(A);
   return {of.eigenvalues(), of.eigenvectors()};
 }
-VecX symmetric_eigenvalues(const MatX& A) { return Eigen::SelfAdjointEigenSolver<MatX>(A, Eigen::EigenvaluesOnly).eigenvalues(); }
+VecX symmetric_eigenvalues(const MatX& A) {
+  return Eigen::SelfAdjointEigenSolver<MatX>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
 
 MatX covariance_root(const MatX& C) {
   const VecX size = C.diagonal().cwiseSqrt();
-  const SymmetricEigen scaled = symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
+  const SymmetricEigen scaled =
+      symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
   return size.asDiagonal() * scaled.vectors * scaled.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 

@@ -1,4 +1,5 @@
-// Decompositions of dense matrices. Eigen's, compiled in one place: where they are used each takes the compiler seconds.
+// Decompositions of dense matrices. Eigen's, compiled in one place: where they are used each takes
+// the compiler seconds.
 #pragma once
 
 #include <Eigen/LU>
@@ -80,7 +81,8 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const MatX& A);
 VecX symmetric_eigenvalues(const MatX& A);  // (n), ascending
 
-// C = R R^T of a covariance, by eigenvalues in units of its diagonal; those that rounding makes negative are 0
+// C = R R^T of a covariance, by eigenvalues in units of its diagonal; those that rounding makes
+// negative are 0
 MatX covariance_root(const MatX& C);
 
 bool positive_definite(const MatX& A);

@@ -1,6 +1,8 @@
-// Invariants of C, each with gradient and Hessian with respect to C.                  [A23] eqs 6-11
+// Invariants of C, each with gradient and Hessian with respect to C.                  [A23] eqs
+// 6-11
 //   I1_bar = I3^(-1/3) I:C    I4_bar = I3^(-1/3) M:C, M = a a^T    I2_bar = I3^(-2/3) I2    J = sqrt(I3)
-// I1_bar and I4_bar are one invariant with two tensors M, and it is linear in M: sums of such terms share one Hessian.
+// I1_bar and I4_bar are one invariant with two tensors M, and it is linear in M: sums of such terms
+// share one Hessian.
 //   gradients  (6) tensor components, shear not doubled;  Hessians  (6,6) components ijkl
 //   so that  S = 2 sum W' dI_dC  and  D = 4 sum (W'' dI_dC dI_dC^T + W' d2I_dC2)  are in the order of voigt.hpp
 // C must be positive definite (det F > 0 is the element's to check).
@@ -24,8 +26,8 @@ inline Invariants invariants(const Mat3& C) {
   v.C = voigt(C);
   const auto& c = v.C;  // 11 22 33 12 23 13
   Vec6 cof;
-  cof << c[1] * c[2] - c[4] * c[4], c[0] * c[2] - c[5] * c[5], c[0] * c[1] - c[3] * c[3], c[4] * c[5] - c[3] * c[2],
-      c[3] * c[5] - c[0] * c[4], c[3] * c[4] - c[1] * c[5];
+  cof << c[1] * c[2] - c[4] * c[4], c[0] * c[2] - c[5] * c[5], c[0] * c[1] - c[3] * c[3],
+      c[4] * c[5] - c[3] * c[2], c[3] * c[5] - c[0] * c[4], c[3] * c[4] - c[1] * c[5];
   v.I1 = c[0] + c[1] + c[2];
   v.I3 = c[0] * cof[0] + c[3] * cof[3] + c[5] * cof[5];
   v.C_inverse = cof / v.I3;
@@ -42,7 +44,8 @@ inline Vec6 identity6() { return (Vec6() << 1, 1, 1, 0, 0, 0).finished(); }
 
 // a a^T
 inline Vec6 structural_tensor(const Vec3& a) {
-  return (Vec6() << a[0] * a[0], a[1] * a[1], a[2] * a[2], a[0] * a[1], a[1] * a[2], a[0] * a[2]).finished();
+  return (Vec6() << a[0] * a[0], a[1] * a[1], a[2] * a[2], a[0] * a[1], a[1] * a[2], a[0] * a[2])
+      .finished();
 }
 
 // C^-1 o C^-1 = -dC^-1/dC
@@ -53,7 +56,9 @@ inline Mat6 inverse_product(const Invariants& v) { return symmetric_product(tens
 inline double linear_bar(const Invariants& v, const Vec6& M) { return v.m * contraction(M, v.C); }
 
 //   m (M - (M:C)/3 C^-1)
-inline Vec6 dlinear_bar_dC(const Invariants& v, const Vec6& M) { return v.m * (M - (contraction(M, v.C) / 3) * v.C_inverse); }
+inline Vec6 dlinear_bar_dC(const Invariants& v, const Vec6& M) {
+  return v.m * (M - (contraction(M, v.C) / 3) * v.C_inverse);
+}
 
 //   m (-1/3 (M x C^-1 + C^-1 x M) + (M:C)/9 C^-1 x C^-1 + (M:C)/3 C^-1 o C^-1)
 // = m (-1/3 (N x C^-1 + C^-1 x N) + (M:C)/3 C^-1 o C^-1),  N = M - (M:C)/6 C^-1
@@ -66,7 +71,9 @@ inline Mat6 d2linear_bar_dC2(const Invariants& v, const Vec6& M, const Mat6& C_i
 
 // --- I2_bar = I3^(-2/3) I2,  I2 = (I1^2 - C:C)/2,  G = dI2/dC = I1 I - C
 
-inline double I2_bar(const Invariants& v) { return 0.5 * v.m * v.m * (v.I1 * v.I1 - contraction(v.C, v.C)); }
+inline double I2_bar(const Invariants& v) {
+  return 0.5 * v.m * v.m * (v.I1 * v.I1 - contraction(v.C, v.C));
+}
 
 //   m^2 (G - 2/3 I2 C^-1)
 inline Vec6 dI2_bar_dC(const Invariants& v) {

@@ -1,5 +1,6 @@
 // Eight doubles that are computed with at once: one lane per element.
-// The compiler maps it to the widest registers of the machine; laws and kernels are templates on the number type.
+// The compiler maps it to the widest registers of the machine; laws and kernels are templates on
+// the number type.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,8 @@ struct Packet {
   static constexpr int lanes = 8;
   typedef double Lanes __attribute__((vector_size(64)));
   Lanes v;
-  Packet() = default;  // P x; has any value, P() and P x{} are zero: kernels do not clear what they fill
+  Packet() =
+      default;  // P x; has any value, P() and P x{} are zero: kernels do not clear what they fill
   Packet(double x) : v(Lanes{} + x) {}
   explicit Packet(Lanes x) : v(x) {}
   double operator[](int i) const { return v[i]; }
@@ -47,7 +49,8 @@ struct Packet {
   friend Packet abs(const Packet& a) {
     return lanewise(a, [](double x) { return std::abs(x); });
   }
-  // near 1, where dilatations are: (1 + e)^(1/3) to e^3, and one step of Halley, which cubes what is left of it
+  // near 1, where dilatations are: (1 + e)^(1/3) to e^3, and one step of Halley, which cubes what
+  // is left of it
   friend Packet cbrt(const Packet& a) {
     const Packet e = a - 1.0;
     const Packet r = 1.0 + e * (1.0 / 3 - e * (1.0 / 9));
@@ -62,11 +65,15 @@ struct Packet {
 };
 
 // x where test >= 0, else 0
-inline Packet where_not_negative(const Packet& test, const Packet& x) { return Packet(test.v >= 0 ? x.v : Packet::Lanes{}); }
+inline Packet where_not_negative(const Packet& test, const Packet& x) {
+  return Packet(test.v >= 0 ? x.v : Packet::Lanes{});
+}
 inline double where_not_negative(double test, double x) { return test >= 0 ? x : 0; }
 
 // x where test >= 0, else y
-inline Packet where_not_negative(const Packet& test, const Packet& x, const Packet& y) { return Packet(test.v >= 0 ? x.v : y.v); }
+inline Packet where_not_negative(const Packet& test, const Packet& x, const Packet& y) {
+  return Packet(test.v >= 0 ? x.v : y.v);
+}
 inline double where_not_negative(double test, double x, double y) { return test >= 0 ? x : y; }
 
 // |a| < most in every lane; not of NaN, without a trap

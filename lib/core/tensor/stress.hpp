@@ -11,7 +11,9 @@
 namespace langer {
 
 // sigma = F S F^T / J
-inline Mat3 cauchy(const Mat3& F, const Vec6& S, double J) { return F * tensor(S) * F.transpose() / J; }
+inline Mat3 cauchy(const Mat3& F, const Vec6& S, double J) {
+  return F * tensor(S) * F.transpose() / J;
+}
 inline Mat3 cauchy(const Mat3& F, const Vec6& S) { return cauchy(F, S, F.determinant()); }
 
 inline double mean_stress(const Mat3& sigma) { return sigma.trace() / 3; }

@@ -35,8 +35,10 @@ inline Vec6 voigt_strain(const Mat3& E) {
 // A symmetric. Written out: this stands in the innermost loop of every tangent.
 inline Mat6 symmetric_product(const Mat3& A) {
   const double a = A(0, 0), b = A(1, 1), c = A(2, 2), d = A(0, 1), e = A(1, 2), f = A(0, 2);
-  const double ad = a * d, af = a * f, bd = b * d, be = b * e, ce = c * e, cf = c * f, de = d * e, df = d * f, ef = e * f;
-  const double p33 = 0.5 * (a * b + d * d), p44 = 0.5 * (b * c + e * e), p55 = 0.5 * (a * c + f * f);
+  const double ad = a * d, af = a * f, bd = b * d, be = b * e, ce = c * e, cf = c * f, de = d * e,
+               df = d * f, ef = e * f;
+  const double p33 = 0.5 * (a * b + d * d), p44 = 0.5 * (b * c + e * e),
+               p55 = 0.5 * (a * c + f * f);
   const double p34 = 0.5 * (de + b * f), p35 = 0.5 * (df + a * e), p45 = 0.5 * (ef + c * d);
   Mat6 P;
   P << a * a, d * d, f * f, ad, df, af,  //

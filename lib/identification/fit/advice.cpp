@@ -15,7 +15,8 @@ struct Known {
   double ln_det;
 };
 
-// errors by eigenvalues, in units of the diagonal, so that a nearly singular matrix keeps what is known of the rest
+// errors by eigenvalues, in units of the diagonal, so that a nearly singular matrix keeps what is
+// known of the rest
 Known known(const MatX& M) {
   const auto n = M.rows();
   VecX d = M.diagonal().cwiseSqrt();
@@ -47,16 +48,21 @@ MatX information(const MatX& J, const VecX& size, double noise) {
   return A.transpose() * A;
 }
 
-std::vector<Advice> advise(const MatX& so_far, const VecX& size, const std::vector<Candidate>& candidates) {
+std::vector<Advice> advise(const MatX& so_far, const VecX& size,
+                           const std::vector<Candidate>& candidates) {
   const Known before = known(so_far);
   std::vector<Advice> all;
   for (const Candidate& c : candidates) {
     const Known after = known(so_far + information(c.J, size, c.noise));
-    Advice one{c.name, after.relative.maxCoeff(), {after.relative.data(), after.relative.data() + after.relative.size()}, 0};
+    Advice one{c.name,
+               after.relative.maxCoeff(),
+               {after.relative.data(), after.relative.data() + after.relative.size()},
+               0};
     one.gain = (after.ln_det - before.ln_det) / static_cast<double>(size.size());
     all.push_back(one);
   }
-  std::stable_sort(all.begin(), all.end(), [](const Advice& a, const Advice& b) { return a.worst < b.worst; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Advice& a, const Advice& b) { return a.worst < b.worst; });
   return all;
 }
 

@@ -30,13 +30,16 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
   const Eigen::Index n = A.cols();
   VecX x = VecX::Zero(n).cwiseMax(lower).cwiseMin(upper);
   std::vector<At> at(static_cast<std::size_t>(n), At::free);
-  const auto state = [&](Eigen::Index i) -> At& { return at[static_cast<std::size_t>(i)]; };
+  const auto state = [&](Eigen::Index i) -> At& {
+    return at[static_cast<std::size_t>(i)];
+  };
   for (Eigen::Index i = 0; i < n; ++i) {
     if (x[i] == lower[i]) state(i) = At::lower;
     if (x[i] == upper[i]) state(i) = At::upper;
   }
 
-  // each round lowers the cost or frees one variable: the number of sets is finite, the limit guards against rounding only
+  // each round lowers the cost or frees one variable: the number of sets is finite, the limit
+  // guards against rounding only
   for (Eigen::Index round = 0; round < 20 * (n + 1); ++round) {
     // towards the answer of the free variables as far as the box allows
     for (Eigen::Index pass = 0; pass <= n; ++pass) {

@@ -21,7 +21,9 @@ using Words = std::map<std::string, Word>;
 Words words_of_deformation() {
   using enum StrainMeasure;
   const Word deformation{Of::deformation}, elongation{Of::deformation, true};
-  const auto by = [](StrainMeasure measure) { return Word{Of::deformation, false, measure}; };
+  const auto by = [](StrainMeasure measure) {
+    return Word{Of::deformation, false, measure};
+  };
   return {
       {"strain", deformation},
       {"tensile_strain", deformation},
@@ -63,7 +65,9 @@ Words words_of_deformation() {
 Words words_of_stress() {
   using enum StressMeasure;
   const Word any_stress{Of::stress}, force{Of::stress, false, {}, nominal};
-  const auto in = [](StressMeasure measure) { return Word{Of::stress, false, {}, measure}; };
+  const auto in = [](StressMeasure measure) {
+    return Word{Of::stress, false, {}, measure};
+  };
   return {
       {"stress", any_stress},
       {"tensile_stress", any_stress},
@@ -101,9 +105,10 @@ const Words& words() {
 
 const std::map<std::string, StressUnit>& stress_units() {
   using enum StressUnit;
-  static const std::map<std::string, StressUnit> known{{"MPa", MPa},      {"N/mm2", MPa}, {"N/mm^2", MPa}, {"N/mm\xC2\xB2", MPa},
-                                                       {"N/mm\xB2", MPa}, {"kPa", kPa},   {"Pa", Pa},      {"N", N},
-                                                       {"mN", mN},        {"kN", kN}};
+  static const std::map<std::string, StressUnit> known{
+      {"MPa", MPa},      {"N/mm2", MPa}, {"N/mm^2", MPa}, {"N/mm\xC2\xB2", MPa},
+      {"N/mm\xB2", MPa}, {"kPa", kPa},   {"Pa", Pa},      {"N", N},
+      {"mN", mN},        {"kN", kN}};
   return known;
 }
 
@@ -117,33 +122,37 @@ const std::map<std::string, StrainUnit>& strain_units() {
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t_");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t_") + 1 - first);
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(" \t_") + 1 - first);
 }
 
 std::string without_brackets(const std::string& unit) {
-  const bool in_brackets =
-      unit.size() > 2 && ((unit.front() == '(' && unit.back() == ')') || (unit.front() == '[' && unit.back() == ']'));
+  const bool in_brackets = unit.size() > 2 && ((unit.front() == '(' && unit.back() == ')') ||
+                                               (unit.front() == '[' && unit.back() == ']'));
   return trimmed(in_brackets ? unit.substr(1, unit.size() - 2) : unit);
 }
 
 // "Force (N)" -> "Force", "N"
 std::pair<std::string, std::string> split_unit(const std::string& name) {
   if (name.ends_with(')') || name.ends_with(']'))
-    if (const std::size_t open = name.rfind(name.back() == ')' ? '(' : '['); open != std::string::npos && open > 0)
+    if (const std::size_t open = name.rfind(name.back() == ')' ? '(' : '[');
+        open != std::string::npos && open > 0)
       return {trimmed(name.substr(0, open)), without_brackets(name.substr(open))};
   for (const char* between : {" / ", " in "})
     if (const std::size_t at = name.rfind(between); at != std::string::npos)
       return {trimmed(name.substr(0, at)), trimmed(name.substr(at + std::string(between).size()))};
   if (const std::size_t at = name.find_last_of("_ "); at != std::string::npos && at > 0) {
     const std::string end = name.substr(at + 1);
-    if (stress_units().count(end) || (strain_units().count(end) && end != "1")) return {trimmed(name.substr(0, at)), end};
+    if (stress_units().count(end) || (strain_units().count(end) && end != "1"))
+      return {trimmed(name.substr(0, at)), end};
   }
   return {trimmed(name), ""};
 }
 
 std::string plain(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+    return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c);
+  });
   for (char& c : name)
     if (c == ' ' || c == '-') c = '_';
   return name;
@@ -154,7 +163,8 @@ std::optional<Word> word(const std::string& name) {
   if (found != words().end()) return found->second;
   // an axis or a specimen behind it: lambda_x, stretch_1, nominal_stress_z
   if (const std::size_t at = name.rfind('_'); at != std::string::npos && name.size() == at + 2)
-    if (const auto stem = words().find(name.substr(0, at)); stem != words().end()) return stem->second;
+    if (const auto stem = words().find(name.substr(0, at)); stem != words().end())
+      return stem->second;
   return std::nullopt;
 }
 

@@ -1,4 +1,5 @@
-// What a column's name says of it: quantity, measure and unit, in the words of machines and of spreadsheets.
+// What a column's name says of it: quantity, measure and unit, in the words of machines and of
+// spreadsheets.
 //   cauchy_stress_kPa, Force (N), "Standardkraft [N]", "Extension / mm", Strain in %, lambda_x; a unit may stand in a line of its own
 #pragma once
 
@@ -11,10 +12,17 @@
 namespace langer {
 
 enum class StrainMeasure { engineering, stretch, green_lagrange, log };
-constexpr auto names(StrainMeasure) { return std::array{"engineering", "stretch", "green_lagrange", "log"}; }
+constexpr auto names(StrainMeasure) {
+  return std::array{"engineering", "stretch", "green_lagrange", "log"};
+}
 enum class StressUnit { MPa, kPa, Pa, N, mN, kN };  // the last three: of a force
 constexpr auto names(StressUnit) { return std::array{"MPa", "kPa", "Pa", "N", "mN", "kN"}; }
-enum class StrainUnit { fraction, percent, mm, um };  // the last two: of an elongation, or of the length between marks
+enum class StrainUnit {
+  fraction,
+  percent,
+  mm,
+  um
+};  // the last two: of an elongation, or of the length between marks
 constexpr auto names(StrainUnit) { return std::array{"fraction", "percent", "mm", "um"}; }
 
 inline bool is_force(StressUnit unit) { return unit >= StressUnit::N; }

@@ -22,9 +22,11 @@ struct Objective {
     const VecX p = Eigen::Map<const VecX>(x.data(), static_cast<Eigen::Index>(x.size()));
     VecX r;
     MatX J;
-    const bool exists = q.residual(p, r) && r.allFinite() && (gradient.empty() || jacobian(q, p, J));
+    const bool exists =
+        q.residual(p, r) && r.allFinite() && (gradient.empty() || jacobian(q, p, J));
     const double f = exists ? 0.5 * r.squaredNorm() / scale : 1e6;
-    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = exists ? J.col(static_cast<Eigen::Index>(i)).dot(r) / scale : 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      gradient[i] = exists ? J.col(static_cast<Eigen::Index>(i)).dot(r) / scale : 0;
     if (exists && f < lowest) lowest = f, best = p;
     return f;
   }
@@ -36,12 +38,15 @@ double objective(const std::vector<double>& x, std::vector<double>& gradient, vo
 
 }  // namespace
 
-Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed, int evaluations) {
+Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed,
+                       int evaluations) {
   Objective f;
   f.q = least_squares_problem(problem);
   f.scale = 0.5 * f.q.size * f.q.size;
   const auto n = static_cast<unsigned>(f.q.start.size());
-  const auto list = [](const VecX& v) { return std::vector<double>(v.begin(), v.end()); };
+  const auto list = [](const VecX& v) {
+    return std::vector<double>(v.begin(), v.end());
+  };
   const auto configured = [&](nlopt::algorithm algorithm, int most) {
     nlopt::opt o(algorithm, n);
     o.set_lower_bounds(list(f.q.lower)), o.set_upper_bounds(list(f.q.upper));
@@ -72,17 +77,25 @@ Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& firs
   Comparison c;
   c.p = f.best;
   c.cost = f.lowest * f.scale;
-  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale, higher = c.cost - first.cost;
+  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale,
+               higher = c.cost - first.cost;
   c.agrees = std::abs(higher) <= allowed;
   double apart = 0;
   for (Eigen::Index i = 0; i < c.p.size(); ++i)
-    apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) / std::max(std::abs(first.p[i]), f.q.typical[i]));
-  const std::string same = apart < 1e-2 ? fmt::format("parameters within {:.0e} of themselves", apart)
-                                        : "with other parameters: these tests cannot decide between the two";
-  c.text = c.agrees ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
-           : higher < 0
-               ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed", c.cost, first.cost)
-               : fmt::format("NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here", c.cost, first.cost);
+    apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) /
+                                std::max(std::abs(first.p[i]), f.q.typical[i]));
+  const std::string same = apart < 1e-2
+                               ? fmt::format("parameters within {:.0e} of themselves", apart)
+                               : "with other parameters: these tests cannot decide between the two";
+  c.text =
+      c.agrees
+          ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
+      : higher < 0
+          ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed",
+                        c.cost, first.cost)
+          : fmt::format(
+                "NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here",
+                c.cost, first.cost);
   return c;
 }
 

@@ -10,11 +10,14 @@ namespace langer {
 namespace {
 
 struct Reach {
-  double strain = 0, stress = 0;  // largest amounts; strain: of engineering strains, or of the shear
+  double strain = 0,
+         stress = 0;  // largest amounts; strain: of engineering strains, or of the shear
   double secant() const { return stress / strain; }
 };
 
-double strain_of(const Test& test, double value) { return test.kind == TestKind::simple_shear ? value : value - 1; }
+double strain_of(const Test& test, double value) {
+  return test.kind == TestKind::simple_shear ? value : value - 1;
+}
 
 Reach reach(const Test& test) {
   Reach r{0, largest_stress(test)};
@@ -30,27 +33,34 @@ void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) 
         "test {}: strains up to {:.3g}, {:.3g} %: if the file gives percent, say strain_unit: percent (or name the column strain_percent)",
         test.name, r.strain, 100 * r.strain));
   else if (r.strain > 0 && r.strain < least_strain)
-    all.push_back(fmt::format("test {}: strains of {:.2g} % at most: if the file gives fractions, its unit is not percent",
-                              test.name, 100 * r.strain));
+    all.push_back(fmt::format(
+        "test {}: strains of {:.2g} % at most: if the file gives fractions, its unit is not percent",
+        test.name, 100 * r.strain));
   if (!(r.strain > 0) || !(r.stress > 0)) return;
-  // tendon and cartilage have up to some 1000 MPa at strains of 0.1, skin and rubber 0.01 to 100, brain and fat some 0.001
+  // tendon and cartilage have up to some 1000 MPa at strains of 0.1, skin and rubber 0.01 to 100,
+  // brain and fat some 0.001
   const double most = r.strain > 0.15 ? 100 : 5000, least = 1e-5;
   if (r.strain <= most_strain && r.secant() > most)
     all.push_back(fmt::format(
         "test {}: {:.3g} MPa at a strain of {:.2g}, {:.2g} MPa a unit of strain: more than soft tissue or rubber; is the stress in kPa?",
         test.name, r.stress, r.strain, r.secant()));
   else if (r.secant() < least)
-    all.push_back(fmt::format("test {}: {:.2g} MPa at a strain of {:.2g}: less than the softest gel; is the stress in MPa, or kPa?",
-                              test.name, r.stress, r.strain));
+    all.push_back(fmt::format(
+        "test {}: {:.2g} MPa at a strain of {:.2g}: less than the softest gel; is the stress in MPa, or kPa?",
+        test.name, r.stress, r.strain));
 }
 
 void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) {
   constexpr double at_rest = 0.01, offset = 0.1, back = 0.05;
-  const double first = strain_of(test, test.first[0]), z = test.second.empty() ? 0 : test.second[0] - 1;
-  if (std::abs(first) < at_rest * r.strain && std::abs(z) < at_rest * r.strain && std::abs(test.stress_x[0]) > offset * r.stress)
-    all.push_back(fmt::format("test {}: {:.3g} MPa at no strain, {:.2g} % of the largest: an offset of the force, or a preload",
-                              test.name, test.stress_x[0], 100 * std::abs(test.stress_x[0]) / r.stress));
-  // a protocol of several branches and a history go back on purpose, in another uniaxial test it is the way back or a cycle
+  const double first = strain_of(test, test.first[0]),
+               z = test.second.empty() ? 0 : test.second[0] - 1;
+  if (std::abs(first) < at_rest * r.strain && std::abs(z) < at_rest * r.strain &&
+      std::abs(test.stress_x[0]) > offset * r.stress)
+    all.push_back(fmt::format(
+        "test {}: {:.3g} MPa at no strain, {:.2g} % of the largest: an offset of the force, or a preload",
+        test.name, test.stress_x[0], 100 * std::abs(test.stress_x[0]) / r.stress));
+  // a protocol of several branches and a history go back on purpose, in another uniaxial test it is
+  // the way back or a cycle
   if (test.kind == TestKind::biaxial || !test.time.empty()) return;
   double farthest = 0;
   for (std::size_t i = 0; i < test.points(); ++i) {
@@ -83,8 +93,9 @@ std::vector<std::string> doubts(const std::vector<Test>& tests) {
   // skin along and across its fibres differs by some ten
   constexpr double most_ratio = 300;
   if (softest && high > most_ratio * low)
-    all.push_back(fmt::format("test {} is {:.0f} times as stiff as {}: is one of them in another unit?", stiffest->name, high / low,
-                              softest->name));
+    all.push_back(
+        fmt::format("test {} is {:.0f} times as stiff as {}: is one of them in another unit?",
+                    stiffest->name, high / low, softest->name));
   return all;
 }
 

@@ -1,5 +1,6 @@
-// What looks wrong in measured tests though every number can be read: units, offsets, cycles. Judged for soft tissues and rubbers;
-// nothing of it is certain, so each is a warning with what to look at.
+// What looks wrong in measured tests though every number can be read: units, offsets, cycles.
+// Judged for soft tissues and rubbers; nothing of it is certain, so each is a warning with what to
+// look at.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 
 namespace langer {
 
-std::vector<std::string> doubts(const std::vector<Test>& tests);  // notes of their reading first; a sentence each
+std::vector<std::string> doubts(
+    const std::vector<Test>& tests);  // notes of their reading first; a sentence each
 
 }  // namespace langer

@@ -28,7 +28,8 @@ std::vector<MaterialParameter> chosen(Material& material, const std::vector<Free
       list.push_back({p.key, p.name, p.unit, {}, nullptr});
       continue;
     }
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
     if (found == all.end()) throw std::logic_error("the law has no parameter " + p.key);
     list.push_back(*found);
   }
@@ -73,10 +74,12 @@ struct Model {
 // whether nothing of the state has to be found: then the stress is linear in every modulus
 bool imposed(const Test& test, const Material& law) {
   if (law.fibres.empty()) return true;
-  return test.kind == TestKind::simple_shear || (test.kind != TestKind::uniaxial && test.shear == OffAxisShear::held);
+  return test.kind == TestKind::simple_shear ||
+         (test.kind != TestKind::uniaxial && test.shear == OffAxisShear::held);
 }
 
-// 180 for an angle whose box holds all of them, and whatever follows it as well; 0 for other numbers
+// 180 for an angle whose box holds all of them, and whatever follows it as well; 0 for other
+// numbers
 double period(const FitProblem& problem, const FreeParameter& p, const std::string& unit) {
   if (unit != unit::deg || !(p.upper - p.lower >= 180 * (1 - 1e-12))) return 0;
   for (const Tie& tie : problem.ties)
@@ -84,8 +87,10 @@ double period(const FitProblem& problem, const FreeParameter& p, const std::stri
   return 180;
 }
 
-// One search, told within the box. An angle that turned as far as the wider box of the search allows goes on from there.
-LeastSquaresResult search(const FitProblem& problem, LeastSquares& q, const LeastSquaresOptions& options) {
+// One search, told within the box. An angle that turned as far as the wider box of the search
+// allows goes on from there.
+LeastSquaresResult search(const FitProblem& problem, LeastSquares& q,
+                          const LeastSquaresOptions& options) {
   LeastSquaresResult one;
   for (int turn = 0; turn < 4; ++turn) {
     one = least_squares(q, options);
@@ -102,7 +107,8 @@ LeastSquaresResult search(const FitProblem& problem, LeastSquares& q, const Leas
   return one;
 }
 
-// where a search starts: exponents up to 100 act alike over most of such a box, so small ones are drawn more often
+// where a search starts: exponents up to 100 act alike over most of such a box, so small ones are
+// drawn more often
 double drawn(const FreeParameter& p, double u) {
   const bool wide_exponent = p.key.ends_with(".c2") && p.upper - p.lower > 20;
   return p.lower + (wide_exponent ? u * u * u : u) * (p.upper - p.lower);
@@ -123,15 +129,17 @@ void know(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
   fit.noise = noise();
   std::vector<double> turn;
   Material law = problem.law;
-  for (const MaterialParameter& p : chosen(law, problem.free)) turn.push_back(p.unit == unit::deg ? 180 : 0);
+  for (const MaterialParameter& p : chosen(law, problem.free))
+    turn.push_back(p.unit == unit::deg ? 180 : 0);
   const SymmetricAngles found = symmetric_angles(q, best, fit.noise.total(), turn);
   fit.symmetric = found.at, fit.columns = found.columns;
   for (std::size_t i = 0; i < found.at.size(); ++i)
     if (found.at[i]) fit.left_out[i] = true;
   if (fit.left_out != best.at_bound) fit.noise = noise();
-  fit.covariance = fit.noise.total() > 0 || std::isfinite(fit.noise.freedom)
-                       ? covariance(best.J, fit.left_out, fit.noise)
-                       : MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
+  fit.covariance =
+      fit.noise.total() > 0 || std::isfinite(fit.noise.freedom)
+          ? covariance(best.J, fit.left_out, fit.noise)
+          : MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 FitQuality quality(const VecX& model, const VecX& stress, double largest) {
@@ -164,7 +172,8 @@ void judge_errors(const FitProblem& problem, const VecX& stress, FitResult& fit)
     at += m;
   }
   at = 0;
-  for (const Eigen::Index m : problem.further ? problem.further->curves() : std::vector<Eigen::Index>()) {
+  for (const Eigen::Index m :
+       problem.further ? problem.further->curves() : std::vector<Eigen::Index>()) {
     const VecX measured = problem.further->measured().segment(at, m);
     add(fit.further.segment(at, m), measured, measured.cwiseAbs().maxCoeff());
     at += m;
@@ -179,12 +188,14 @@ double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult&
   Eigen::Index at = 0, further = 0;
   for (const Eigen::Index m : curve_sizes(problem)) {
     const bool of_tests = at < stress.size();
-    const VecX y = of_tests ? stress.segment(at, m) : problem.further->measured().segment(further, m);
+    const VecX y =
+        of_tests ? stress.segment(at, m) : problem.further->measured().segment(further, m);
     const VecX w = of_tests ? weight.segment(at, m) : problem.further->weight().segment(further, m);
     (of_tests ? at : further) += m;
     spread += w.cwiseProduct((y.array() - y.mean()).matrix()).squaredNorm();
   }
-  return spread > 0 ? 1 - fit.best.r.squaredNorm() / spread : std::numeric_limits<double>::quiet_NaN();
+  return spread > 0 ? 1 - fit.best.r.squaredNorm() / spread
+                    : std::numeric_limits<double>::quiet_NaN();
 }
 
 void judge(const FitProblem& problem, FitResult& fit) {
@@ -197,10 +208,14 @@ void judge(const FitProblem& problem, FitResult& fit) {
   fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
   judge_errors(problem, stress, fit);
   const bool correlated = fit.noise.rho > 0;
-  const double spread = correlated ? minus_two_log_likelihood(fit.best.r, fit.noise)
-                                   : n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
-  const double k = static_cast<double>(problem.free.size()) + (correlated ? 2 : 1), m = fit.noise.effective;
-  fit.quality.aicc = m > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (m - k - 1) : std::numeric_limits<double>::quiet_NaN();
+  const double spread =
+      correlated
+          ? minus_two_log_likelihood(fit.best.r, fit.noise)
+          : n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
+  const double k = static_cast<double>(problem.free.size()) + (correlated ? 2 : 1),
+               m = fit.noise.effective;
+  fit.quality.aicc = m > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (m - k - 1)
+                               : std::numeric_limits<double>::quiet_NaN();
   fit.quality.bic = spread + k * std::log(m);
 }
 
@@ -219,7 +234,9 @@ LeastSquares with_further(LeastSquares q, const std::shared_ptr<FurtherTests>& f
   q.slope = [=](const VecX& p, MatX& J) {
     VecX first;
     MatX above, below;
-    if (!tests->residual(p, first) || (first.size() > 0 && !jacobian(*tests, p, above)) || !further->slope(p, below)) return false;
+    if (!tests->residual(p, first) || (first.size() > 0 && !jacobian(*tests, p, above)) ||
+        !further->slope(p, below))
+      return false;
     J.resize(first.size() + below.rows(), p.size());
     if (first.size() > 0) J.topRows(first.size()) = above;
     J.bottomRows(below.rows()) = weight.asDiagonal() * below;
@@ -231,7 +248,8 @@ LeastSquares with_further(LeastSquares q, const std::shared_ptr<FurtherTests>& f
 
 }  // namespace
 
-bool model_stress(const Material& material, const Test& test, Dilatation dilatation, double* stress) {
+bool model_stress(const Material& material, const Test& test, Dilatation dilatation,
+                  double* stress) {
   if (dilatation == Dilatation::compressible) {
     std::vector<double> strain(test.first);
     for (double& e : strain) e -= 1;
@@ -244,9 +262,11 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
   if (is_viscous(material) && !test.time.empty()) point.emplace(material, a);
   std::optional<double> then;  // at rest until the first point
   const auto state_at = [&](const auto& points, std::size_t i) {
-    const PointMemory memory = point ? point->begin(then ? points.time[i] - *then : 0) : PointMemory{};
-    const PlaneState state = plane_state(material, a, test.kind, points.first[i], points.second.empty() ? 1 : points.second[i],
-                                         test.shear, point ? &memory : nullptr);
+    const PointMemory memory =
+        point ? point->begin(then ? points.time[i] - *then : 0) : PointMemory{};
+    const PlaneState state = plane_state(material, a, test.kind, points.first[i],
+                                         points.second.empty() ? 1 : points.second[i], test.shear,
+                                         point ? &memory : nullptr);
     if (state.converged && point) point->accept(state.F), then = points.time[i];
     return state;
   };
@@ -265,7 +285,8 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
 VecX measured_stress(const std::vector<Test>& tests) {
   std::vector<double> all;
   for (const Test& test : tests)
-    for (const auto* list : {&test.stress_x, &test.stress_z}) all.insert(all.end(), list->begin(), list->end());
+    for (const auto* list : {&test.stress_x, &test.stress_z})
+      all.insert(all.end(), list->begin(), list->end());
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
@@ -274,7 +295,8 @@ std::vector<Eigen::Index> curve_sizes(const FitProblem& problem) {
   for (const Test& test : problem.tests)
     for (const auto* list : {&test.stress_x, &test.stress_z})
       if (!list->empty()) sizes.push_back(static_cast<Eigen::Index>(list->size()));
-  if (problem.further) sizes.insert(sizes.end(), problem.further->curves().begin(), problem.further->curves().end());
+  if (problem.further)
+    sizes.insert(sizes.end(), problem.further->curves().begin(), problem.further->curves().end());
   return sizes;
 }
 
@@ -297,12 +319,14 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
   const auto model = std::make_shared<Model>(problem);
   const auto n = static_cast<Eigen::Index>(problem.free.size());
   LeastSquares q;
-  q.residual = [model](const VecX& p, VecX& r) { return model->residual(p, r); };
+  q.residual = [model](const VecX& p, VecX& r) {
+    return model->residual(p, r);
+  };
   q.size = model->weight.cwiseProduct(model->stress).norm();
   q.lower.resize(n), q.upper.resize(n), q.typical.resize(n), q.start.resize(n);
-  const bool linear =
-      problem.dilatation == Dilatation::incompressible &&
-      std::all_of(problem.tests.begin(), problem.tests.end(), [&](const Test& t) { return imposed(t, problem.law); });
+  const bool linear = problem.dilatation == Dilatation::incompressible &&
+                      std::all_of(problem.tests.begin(), problem.tests.end(),
+                                  [&](const Test& t) { return imposed(t, problem.law); });
   const auto list = chosen(model->material, problem.free);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FreeParameter& p = problem.free[static_cast<std::size_t>(i)];
@@ -317,23 +341,29 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
   return problem.further ? with_further(std::move(q), problem.further) : q;
 }
 
-LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const LeastSquaresOptions& options) {
+LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
+                            const LeastSquaresOptions& options) {
   LeastSquares q = least_squares_problem(problem);
   q.start = start;
   return search(problem, q, options);
 }
 
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
-  std::size_t values = problem.further ? static_cast<std::size_t>(problem.further->measured().size()) : 0;
+  std::size_t values =
+      problem.further ? static_cast<std::size_t>(problem.further->measured().size()) : 0;
   double largest = problem.further ? problem.further->measured().cwiseAbs().maxCoeff() : 0;
-  for (const Test& test : problem.tests) values += test.values(), largest = std::max(largest, largest_stress(test));
+  for (const Test& test : problem.tests)
+    values += test.values(), largest = std::max(largest, largest_stress(test));
   if (values < problem.free.size())
     throw Failure(Exit::input, {{},
                                 "curve",
                                 fmt::format("{} points in the fitted range", values),
-                                fmt::format("as many as there are parameters ({}) at least", problem.free.size()),
+                                fmt::format("as many as there are parameters ({}) at least",
+                                            problem.free.size()),
                                 ""});
-  if (!(largest > 0)) throw Failure(Exit::input, {{}, "curve", "no stress but zero", "a curve of a stressed specimen", ""});
+  if (!(largest > 0))
+    throw Failure(Exit::input,
+                  {{}, "curve", "no stress but zero", "a curve of a stressed specimen", ""});
 
   LeastSquares q = least_squares_problem(problem);
   const Eigen::Index n = q.start.size();
@@ -344,7 +374,8 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   double lowest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < options.starts; ++k) {
     for (Eigen::Index i = 0; i < n; ++i)
-      q.start[i] = k == 0 ? given[i] : drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
+      q.start[i] =
+          k == 0 ? given[i] : drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
     LeastSquaresResult one = search(problem, q, options.least_squares);
     fit.starts.row(k) << one.p.transpose(), one.cost;
     // two starts at the same optimum differ by rounding: the first stays
@@ -359,7 +390,8 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
     const VecX stress = measured_stress(problem.tests);
     fit.model = stress + fit.best.r.head(stress.size()).cwiseQuotient(weights(problem.tests));
     if (const auto& more = problem.further)
-      fit.further = more->measured() + fit.best.r.tail(more->measured().size()).cwiseQuotient(more->weight());
+      fit.further =
+          more->measured() + fit.best.r.tail(more->measured().size()).cwiseQuotient(more->weight());
     judge(problem, fit);
   }
   return fit;

@@ -1,9 +1,11 @@
-// Parameters of a law from one or several tests: least squares on the stress.         [A23] eqs 35-36
+// Parameters of a law from one or several tests: least squares on the stress.         [A23] eqs
+// 35-36
 //   min over p of  1/2 sum_i w_i^2 (model_i(p) - stress_i)^2,  lower <= p <= upper
-// The values stand in the order of the tests; within a test all x components, then all z components.
-// An angle whose box holds 180 degrees is periodic: it has no bounds, and an answer is told within the box.
-// The search starts at the given values and at seeded random places of the box; the lowest cost wins, the first of equals.
-// Everything here may run on several threads at once, each with its own problem or result.
+// The values stand in the order of the tests; within a test all x components, then all z
+// components. An angle whose box holds 180 degrees is periodic: it has no bounds, and an answer is
+// told within the box. The search starts at the given values and at seeded random places of the
+// box; the lowest cost wins, the first of equals. Everything here may run on several threads at
+// once, each with its own problem or result.
 #pragma once
 
 #include <memory>
@@ -18,20 +20,23 @@ namespace langer {
 struct FreeParameter {
   std::string key;  // as in material/parameters.hpp
   double start = 0, lower = 0, upper = 0;
-  bool preset = false;  // its bound next to 0 is the preset's: what the tests justify may raise it (stiffness_at_rest.hpp)
-  std::string name = "", unit = "";  // of one that is no number of the law: of a scene, or of how it was measured
+  bool preset = false;  // its bound next to 0 is the preset's: what the tests justify may raise it
+                        // (stiffness_at_rest.hpp)
+  std::string name = "",
+              unit =
+                  "";  // of one that is no number of the law: of a scene, or of how it was measured
   bool of_law() const { return name.empty(); }
 };
 
-// Tests whose model this folder does not know, such as whole scenes: m values behind those of `tests`, each in a unit of its own.
-// p are all free parameters of the problem, in their order.
+// Tests whose model this folder does not know, such as whole scenes: m values behind those of
+// `tests`, each in a unit of its own. p are all free parameters of the problem, in their order.
 struct FurtherTests {
   virtual ~FurtherTests() = default;
   virtual const VecX& measured() const = 0;
   virtual const VecX& weight() const = 0;                       // 1/standard deviation
   virtual const std::vector<Eigen::Index>& curves() const = 0;  // values of each measured curve
   virtual bool model(const VecX& p, VecX& values) = 0;          // false where there is none
-  virtual bool slope(const VecX& p, MatX& J) = 0;               // (m, p) of the values, not weighted
+  virtual bool slope(const VecX& p, MatX& J) = 0;  // (m, p) of the values, not weighted
 };
 
 struct FitProblem {
@@ -40,7 +45,8 @@ struct FitProblem {
   std::vector<Test> tests;
   Dilatation dilatation = Dilatation::incompressible;  // compressible: held uniaxial tests only
   std::vector<Tie> ties = {};                          // resolved; of numbers that are not free
-  std::shared_ptr<FurtherTests> further = {};          // their weights are believed in: errors are no smaller than these make them
+  std::shared_ptr<FurtherTests> further =
+      {};  // their weights are believed in: errors are no smaller than these make them
 };
 
 struct FitOptions {
@@ -49,12 +55,13 @@ struct FitOptions {
   LeastSquaresOptions least_squares;
 };
 
-// How well a law describes the tests. Errors are |model - stress| in percent of the largest |stress| of the test; NaN for a test
-// without stress, which those of all tests leave out.
+// How well a law describes the tests. Errors are |model - stress| in percent of the largest
+// |stress| of the test; NaN for a test without stress, which those of all tests leave out.
 //   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2, NaN where every stress is the same
 //   aicc = -2 ln L + 2 k + 2 k (k + 1)/(n - k - 1),  bic = -2 ln L + k ln n
-// Where residuals are not correlated -2 ln L = N ln(2 cost/N), k = parameters + 1, n = N, the number of values. Where they are,
-// L is that of the autoregression (residual_noise.hpp), k one more and n the effective number of values.
+// Where residuals are not correlated -2 ln L = N ln(2 cost/N), k = parameters + 1, n = N, the
+// number of values. Where they are, L is that of the autoregression (residual_noise.hpp), k one
+// more and n the effective number of values.
 struct FitQuality {
   double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;
 };
@@ -62,23 +69,29 @@ struct FitQuality {
 struct FitResult {
   Material material;  // the law with the parameters found
   LeastSquaresResult best;
-  MatX covariance;  // under `noise`; NaN where the tests do not determine a parameter, and for those left out
+  MatX covariance;  // under `noise`; NaN where the tests do not determine a parameter, and for
+                    // those left out
   ResidualNoise noise;
   std::vector<bool> symmetric;  // angles of symmetry (periodic.hpp): no first effect
   std::vector<bool> left_out;   // of the covariance: those, and parameters on a bound
   MatX columns;                 // Jacobian, with the second derivative of angles of symmetry
-  MatX starts;                  // (k, p + 1) parameters and cost reached from each start; infinite cost where nothing was reached
-  VecX model;                   // of each value [MPa]; empty if no start has a model
-  VecX further;                 // of the further tests
+  MatX starts;   // (k, p + 1) parameters and cost reached from each start; infinite cost where
+                 // nothing was reached
+  VecX model;    // of each value [MPa]; empty if no start has a model
+  VecX further;  // of the further tests
   FitQuality quality;
-  std::vector<FitQuality> of_test;  // r2 and errors; behind those of tests a curve of the further ones each
+  std::vector<FitQuality>
+      of_test;  // r2 and errors; behind those of tests a curve of the further ones each
 };
 
-// stresses of a law in the states of a test [MPa], in the order above; false where a state does not exist
-bool model_stress(const Material& material, const Test& test, Dilatation dilatation, double* stress);
+// stresses of a law in the states of a test [MPa], in the order above; false where a state does not
+// exist
+bool model_stress(const Material& material, const Test& test, Dilatation dilatation,
+                  double* stress);
 
 VecX measured_stress(const std::vector<Test>& tests);
-std::vector<Eigen::Index> curve_sizes(const FitProblem& problem);  // values of each measured curve, in the order above
+std::vector<Eigen::Index> curve_sizes(
+    const FitProblem& problem);  // values of each measured curve, in the order above
 VecX weights(const std::vector<Test>& tests);
 
 // the law with the numbers p in place of the free ones
@@ -88,7 +101,8 @@ Material with_parameters(const FitProblem& problem, const VecX& p);
 LeastSquares least_squares_problem(const FitProblem& problem);
 
 // one search, from given values
-LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start, const LeastSquaresOptions& options = {});
+LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
+                            const LeastSquaresOptions& options = {});
 
 // Throws Failure(input) if there are fewer values than parameters, or no stress.
 // best.converged tells whether an optimum was found.

@@ -9,8 +9,8 @@
 #include "core/base/no_number.hpp"
 #include "core/base/quantile.hpp"
 #include "core/base/random.hpp"
-#include "identification/fit/periodic.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/fit/periodic.hpp"
 
 namespace langer {
 
@@ -29,7 +29,8 @@ struct Held {
       for (Eigen::Index i = 0; i < n - 1; ++i) w[i] = v[free[static_cast<std::size_t>(i)]];
       return w;
     };
-    rest.start = part(start), rest.lower = part(all.lower), rest.upper = part(all.upper), rest.typical = part(all.typical);
+    rest.start = part(start), rest.lower = part(all.lower), rest.upper = part(all.upper),
+    rest.typical = part(all.typical);
     rest.size = all.size;
     if (!all.linear.empty())
       for (Eigen::Index i : free) rest.linear.push_back(all.linear[static_cast<std::size_t>(i)]);
@@ -50,7 +51,8 @@ struct Point {
 };
 
 // chi-square above `chi_min` at x, others optimal, searched from the neighbour `from`
-Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX& from, double chi_min, double noise) {
+Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX& from,
+                    double chi_min, double noise) {
   Point point{x, inf, from};
   point.p[i] = x;
   double chi = inf;
@@ -71,13 +73,18 @@ Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX&
 }
 
 // Walks from the optimum to one side until the rise passes the limit; then the place where it does.
-void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& best, double error, double chi_min, double noise,
-          double limit, int side) {
+void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& best, double error,
+          double chi_min, double noise, double limit, int side) {
   const double half = 0.5 * q.period_of(i);
-  const double bound = half > 0 ? best[i] + side * half : side < 0 ? q.lower[i] : q.upper[i], room = std::abs(bound - best[i]);
+  const double bound = half > 0   ? best[i] + side * half
+                       : side < 0 ? q.lower[i]
+                                  : q.upper[i],
+               room = std::abs(bound - best[i]);
   double& end = side < 0 ? profile.low : profile.high;
   bool& open = side < 0 ? profile.low_open : profile.high_open;
-  double step = std::isfinite(error) && error > 0 ? 0.5 * error : 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
+  double step = std::isfinite(error) && error > 0
+                    ? 0.5 * error
+                    : 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
   Point last{best[i], 0, best};
   const double root = std::sqrt(limit);
   for (int n = 0; n < 40; ++n) {
@@ -91,10 +98,12 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
       Point in = last, out = next;
       for (int k = 0; k < 25 && std::abs(out.x - in.x) > 1e-4 * std::abs(out.x - best[i]); ++k) {
         // the root of the rise is nearly linear
-        const double a = std::sqrt(std::max(in.rise, 0.)), b = std::isfinite(out.rise) ? std::sqrt(out.rise) : 2 * root;
+        const double a = std::sqrt(std::max(in.rise, 0.)),
+                     b = std::isfinite(out.rise) ? std::sqrt(out.rise) : 2 * root;
         double t = b > a ? (root - a) / (b - a) : 0.5;
         if (k % 3 == 2 || !std::isfinite(out.rise)) t = 0.5;
-        const Point middle = profile_point(q, i, in.x + std::clamp(t, 0.05, 0.95) * (out.x - in.x), in.p, chi_min, noise);
+        const Point middle = profile_point(q, i, in.x + std::clamp(t, 0.05, 0.95) * (out.x - in.x),
+                                           in.p, chi_min, noise);
         (middle.rise < limit ? in : out) = middle;
         if (std::abs(middle.rise - limit) < 1e-4 * limit) {
           in = middle;
@@ -115,7 +124,8 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
 
 }  // namespace
 
-double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value, const VecX& best, double noise) {
+double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value,
+                    const VecX& best, double noise) {
   VecX r;
   if (!problem.residual(best, r)) return inf;
   return profile_point(problem, parameter, value, best, r.squaredNorm(), noise).rise;
@@ -124,12 +134,14 @@ double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double 
 VecX sizes_of(const LeastSquares& problem, const VecX& p) {
   VecX size = p.cwiseAbs();
   for (Eigen::Index i = 0; i < p.size(); ++i)
-    if (size[i] == 0) size[i] = problem.period_of(i) > 0 ? problem.period_of(i) : problem.upper[i] - problem.lower[i];
+    if (size[i] == 0)
+      size[i] =
+          problem.period_of(i) > 0 ? problem.period_of(i) : problem.upper[i] - problem.lower[i];
   return size;
 }
 
-Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, const std::vector<bool>& left_out,
-                                const ResidualNoise& noise) {
+Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
+                                const std::vector<bool>& left_out, const ResidualNoise& noise) {
   Identifiability s;
   const auto n = p.size();
   s.noise = noise.total(), s.size = size;
@@ -139,7 +151,8 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, 
   const auto k = static_cast<Eigen::Index>(free.size());
   MatX A(J.rows(), k);
   for (Eigen::Index j = 0; j < k; ++j)
-    A.col(j) = J.col(free[static_cast<std::size_t>(j)]) * size[free[static_cast<std::size_t>(j)]] / s.noise;
+    A.col(j) = J.col(free[static_cast<std::size_t>(j)]) * size[free[static_cast<std::size_t>(j)]] /
+               s.noise;
   s.error = s.correlation_worst = VecX::Constant(n, nan);
   s.covariance = s.correlation = MatX::Constant(n, n, nan);
   s.combination = MatX::Zero(n, k);
@@ -155,19 +168,22 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size, 
     V.col(c).cwiseAbs().maxCoeff(&at);
     if (V(at, c) < 0) V.col(c) *= -1;
   }
-  for (Eigen::Index j = 0; j < k; ++j) s.combination.row(free[static_cast<std::size_t>(j)]) = V.row(j);
+  for (Eigen::Index j = 0; j < k; ++j)
+    s.combination.row(free[static_cast<std::size_t>(j)]) = V.row(j);
   s.covariance = covariance(J, left_out, noise);
   for (Eigen::Index i : free) s.error[i] = std::sqrt(s.covariance(i, i));
   for (Eigen::Index i : free)
     for (Eigen::Index j : free) {
       s.correlation(i, j) = i == j ? 1 : s.covariance(i, j) / (s.error[i] * s.error[j]);
-      if (i != j && !std::islessequal(std::abs(s.correlation(i, j)), s.correlation_worst[i]))  // of NaN too, without a trap
+      if (i != j && !std::islessequal(std::abs(s.correlation(i, j)),
+                                      s.correlation_worst[i]))  // of NaN too, without a trap
         s.correlation_worst[i] = std::abs(s.correlation(i, j));
     }
   return s;
 }
 
-std::string sloppy_words(const Identifiability& s, const std::vector<std::string>& names, Eigen::Index which) {
+std::string sloppy_words(const Identifiability& s, const std::vector<std::string>& names,
+                         Eigen::Index which) {
   const VecX v = s.combination.col(which);
   const double largest = v.cwiseAbs().maxCoeff(), sigma = s.singular[which];
   // one standard deviation in all, or the whole size where even that is not felt
@@ -175,13 +191,15 @@ std::string sloppy_words(const Identifiability& s, const std::vector<std::string
   std::vector<std::string> parts;
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (std::abs(v[i]) > 0.05 * largest)
-      parts.push_back(fmt::format("{} {:+.3g} %", names[static_cast<std::size_t>(i)], 100 * scale * v[i]));
-  return fmt::format("{} {} move the data by {:.2g} standard deviation{} of the noise in all", fmt::join(parts, ", "),
-                     parts.size() > 1 ? "together" : "alone", sigma > 1e-6 ? 1. : sigma, sigma > 1e-6 ? "" : "s");
+      parts.push_back(
+          fmt::format("{} {:+.3g} %", names[static_cast<std::size_t>(i)], 100 * scale * v[i]));
+  return fmt::format("{} {} move the data by {:.2g} standard deviation{} of the noise in all",
+                     fmt::join(parts, ", "), parts.size() > 1 ? "together" : "alone",
+                     sigma > 1e-6 ? 1. : sigma, sigma > 1e-6 ? "" : "s");
 }
 
-std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error, double noise,
-                              const ProfileOptions& options) {
+std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error,
+                              double noise, const ProfileOptions& options) {
   const auto n = static_cast<int>(best.size()), jobs = 2 * n;
   const int threads = std::clamp(options.threads, 1, std::max(1, jobs));
   std::vector<LeastSquares> problem;
@@ -193,22 +211,27 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
   in_order(
       threads, jobs,
       [&](int worker, int job) {
-        walk(sides[static_cast<std::size_t>(job)], problem[static_cast<std::size_t>(worker)], job / 2, best, error[job / 2],
-             chi_min, noise * (options.factor.size() ? options.factor[job / 2] : 1), options.limit, job % 2 ? 1 : -1);
+        walk(sides[static_cast<std::size_t>(job)], problem[static_cast<std::size_t>(worker)],
+             job / 2, best, error[job / 2], chi_min,
+             noise * (options.factor.size() ? options.factor[job / 2] : 1), options.limit,
+             job % 2 ? 1 : -1);
       },
       [&](int, int job) {
         if (options.progress) options.progress((job + 1.) / jobs);
       });
   std::vector<Profile> all;
   for (int i = 0; i < n; ++i) {
-    const Profile &down = sides[static_cast<std::size_t>(2 * i)], &up = sides[static_cast<std::size_t>(2 * i + 1)];
+    const Profile &down = sides[static_cast<std::size_t>(2 * i)],
+                  &up = sides[static_cast<std::size_t>(2 * i + 1)];
     Profile one;
     std::vector<std::pair<double, double>> points{{best[i], 0}};
     for (const Profile* side : {&down, &up})
-      for (std::size_t k = 0; k < side->value.size(); ++k) points.push_back({side->value[k], side->rise[k]});
+      for (std::size_t k = 0; k < side->value.size(); ++k)
+        points.push_back({side->value[k], side->rise[k]});
     std::sort(points.begin(), points.end());
     for (const auto& [x, rise] : points) one.value.push_back(x), one.rise.push_back(rise);
-    one.low = down.low, one.low_open = down.low_open, one.high = up.high, one.high_open = up.high_open;
+    one.low = down.low, one.low_open = down.low_open, one.high = up.high,
+    one.high_open = up.high_open;
     all.push_back(std::move(one));
   }
   return all;
@@ -219,7 +242,8 @@ namespace {
 // draws residuals like those of the fit
 class Residuals {
  public:
-  Residuals(const VecX& r, const ResidualNoise& noise, double growth) : noise_(noise), innovation_(r) {
+  Residuals(const VecX& r, const ResidualNoise& noise, double growth)
+      : noise_(noise), innovation_(r) {
     Eigen::Index at = 0;
     const double begin = std::sqrt(1 - noise.rho * noise.rho);
     for (Eigen::Index n : noise.curves) {
@@ -230,7 +254,9 @@ class Residuals {
     innovation_.array() -= innovation_.mean();
     const double size = innovation_.norm() / std::sqrt(static_cast<double>(r.size()));
     innovation_ *= size > 0 ? growth * noise.deviation * begin / size : 0;
-    block_ = noise.rho > 0 ? static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size())))) : 1;
+    block_ = noise.rho > 0
+                 ? static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size()))))
+                 : 1;
   }
 
   VecX draw(Random& random) const {
@@ -239,7 +265,9 @@ class Residuals {
     Eigen::Index at = 0, from = 0, left = 0;
     for (Eigen::Index n : noise_.curves) {
       for (Eigen::Index i = 0; i < n; ++i, ++at, ++from, --left) {
-        if (left == 0) left = block_, from = static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(m)));
+        if (left == 0)
+          left = block_,
+          from = static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(m)));
         const double u = innovation_[from % m];
         e[at] = i == 0 ? u / std::sqrt(1 - noise_.rho * noise_.rho) : noise_.rho * e[at - 1] + u;
       }
@@ -257,13 +285,16 @@ class Residuals {
 
 }  // namespace
 
-VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out, const ResidualNoise& noise) {
+VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out,
+                         const ResidualNoise& noise) {
   ResidualNoise known = noise;
   known.freedom = inf;
-  return interval_factors(columns, left_out, noise).cwiseQuotient(interval_factors(columns, left_out, known));
+  return interval_factors(columns, left_out, noise)
+      .cwiseQuotient(interval_factors(columns, left_out, known));
 }
 
-Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise, const BootstrapOptions& options) {
+Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise,
+                    const BootstrapOptions& options) {
   Bootstrap result;
   const int threads = std::clamp(options.threads, 1, std::max(1, options.samples));
   std::vector<LeastSquares> problem;
@@ -293,18 +324,21 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
       },
       [&](int worker, int sample) {
         const LeastSquaresResult& one = found[static_cast<std::size_t>(worker)];
-        // a sample that still creeps along a valley counts where it got to: its cost is right to many digits
+        // a sample that still creeps along a valley counts where it got to: its cost is right to
+        // many digits
         if (std::isfinite(one.cost) && one.kkt <= 1e-4) {
           good.push_back(one.p);
           for (Eigen::Index j = 0; j < n; ++j)
-            if (problem[0].period_of(j) > 0) good.back()[j] = best[j] + difference(problem[0], j, best[j], one.p[j]);
+            if (problem[0].period_of(j) > 0)
+              good.back()[j] = best[j] + difference(problem[0], j, best[j], one.p[j]);
         } else {
           ++result.failed;
         }
         if (options.progress) options.progress((sample + 1.) / options.samples);
       });
   result.samples.resize(static_cast<Eigen::Index>(good.size()), n);
-  for (std::size_t i = 0; i < good.size(); ++i) result.samples.row(static_cast<Eigen::Index>(i)) = good[i];
+  for (std::size_t i = 0; i < good.size(); ++i)
+    result.samples.row(static_cast<Eigen::Index>(i)) = good[i];
   result.low = result.high = VecX::Constant(n, nan);
   for (Eigen::Index j = 0; j < n && good.size() > 1; ++j) {
     std::vector<double> x(good.size());
@@ -313,9 +347,12 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
     const double spread = options.spread.size() ? options.spread[j] : 1;
     const auto spread_out = [&](double x) {
       const double far = best[j] + spread * (x - best[j]);
-      return problem[0].period_of(j) > 0 ? far : std::clamp(far, problem[0].lower[j], problem[0].upper[j]);
+      return problem[0].period_of(j) > 0
+                 ? far
+                 : std::clamp(far, problem[0].lower[j], problem[0].upper[j]);
     };
-    // samples that end at a bound or an axis of symmetry leave out an estimate that stopped a rounding before it
+    // samples that end at a bound or an axis of symmetry leave out an estimate that stopped a
+    // rounding before it
     result.low[j] = std::min(spread_out(quantile(x, 0.025)), best[j]),
     result.high[j] = std::max(spread_out(quantile(x, 0.975)), best[j]);
   }

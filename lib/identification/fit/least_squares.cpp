@@ -25,11 +25,14 @@ double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const M
     if (norm == 0) continue;
     if (without_first_effect(q, J, i)) {
       const double t = q.typical[i];
-      const double moved = std::min(std::max(p[i] - g[i] * t * t / (q.size * q.size), q.lower[i]), q.upper[i]) - p[i];
+      const double moved =
+          std::min(std::max(p[i] - g[i] * t * t / (q.size * q.size), q.lower[i]), q.upper[i]) -
+          p[i];
       worst = std::max(worst, std::abs(moved) / t);
       continue;
     }
-    const double moved = std::min(std::max(p[i] - g[i] / (norm * norm), q.lower[i]), q.upper[i]) - p[i];
+    const double moved =
+        std::min(std::max(p[i] - g[i] / (norm * norm), q.lower[i]), q.upper[i]) - p[i];
     worst = std::max(worst, norm * std::abs(moved) / q.size);
   }
   return worst;
@@ -37,8 +40,8 @@ double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const M
 
 // the damped linear problem in the box: min |J d + r|^2 + mu |D d|^2
 // curvature: of the residual, beyond J^T J
-VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D, const VecX& curvature,
-                 double mu) {
+VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D,
+                 const VecX& curvature, double mu) {
   const Eigen::Index m = J.rows(), n = J.cols();
   // in units of D, so that a stiff and a soft parameter count alike
   MatX A(m + n, n);
@@ -46,7 +49,8 @@ VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX
   A.bottomRows(n) = (mu + curvature.array() / D.array().square()).sqrt().matrix().asDiagonal();
   VecX b = VecX::Zero(m + n);
   b.head(m) = -r;
-  return bounded_linear(A, b, D.cwiseProduct(q.lower - p), D.cwiseProduct(q.upper - p)).cwiseQuotient(D);
+  return bounded_linear(A, b, D.cwiseProduct(q.lower - p), D.cwiseProduct(q.upper - p))
+      .cwiseQuotient(D);
 }
 
 // r . d2r/dp_i^2 where it is positive: what Gauss and Newton leave out
@@ -54,7 +58,8 @@ VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
   VecX curvature = VecX::Zero(p.size()), moved = p, above, below;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) continue;
-    const double h = std::min({1e-3 * std::max(std::abs(p[i]), q.typical[i]), p[i] - q.lower[i], q.upper[i] - p[i]});
+    const double h = std::min(
+        {1e-3 * std::max(std::abs(p[i]), q.typical[i]), p[i] - q.lower[i], q.upper[i] - p[i]});
     if (!(h > 0)) continue;
     moved[i] = p[i] + h;
     const bool up = q.residual(moved, above) && above.allFinite();
@@ -66,8 +71,9 @@ VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
   return curvature;
 }
 
-// A place to go on from, along a parameter without first effect; p itself if there is none: beside p where the cost is lower,
-// or anywhere in the box where it is the same and other parameters have become free to lower it.
+// A place to go on from, along a parameter without first effect; p itself if there is none: beside
+// p where the cost is lower, or anywhere in the box where it is the same and other parameters have
+// become free to lower it.
 VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
   const double rounding = 1e-13 * q.size * q.size;
   VecX best = p, moved = p, other, level = p;
@@ -77,14 +83,16 @@ VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
     if (!without_first_effect(q, J, i)) continue;
     const auto gain_at = [&](double x) {
       moved[i] = std::min(std::max(x, q.lower[i]), q.upper[i]);
-      return q.residual(moved, other) && other.allFinite() ? 0.5 * (r - other).dot(r + other) : -q.size * q.size;
+      return q.residual(moved, other) && other.allFinite() ? 0.5 * (r - other).dot(r + other)
+                                                           : -q.size * q.size;
     };
     for (double part : {1e-3, -1e-3, 1e-2, -1e-2, 1e-1, -1e-1})
-      if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most) most = gained, best = moved;
+      if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most)
+        most = gained, best = moved;
     const double width = q.period_of(i) > 0 ? q.period_of(i) : q.upper[i] - q.lower[i];
     for (int k = 1; k < 8 && std::isfinite(width) && level == p; ++k)
-      if (std::abs(gain_at(q.lower[i] + k * width / 8)) <= rounding && jacobian(q, moved, J_other) &&
-          kkt_residual(q, moved, other, J_other) > 1e-6)
+      if (std::abs(gain_at(q.lower[i] + k * width / 8)) <= rounding &&
+          jacobian(q, moved, J_other) && kkt_residual(q, moved, other, J_other) > 1e-6)
         level = moved;
     moved[i] = p[i];
   }
@@ -110,7 +118,8 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) {
       // any step is exact: a large one, into the box
-      const double above = q.upper[i] - p[i], below = p[i] - q.lower[i], size = std::max(std::abs(p[i]), q.typical[i]);
+      const double above = q.upper[i] - p[i], below = p[i] - q.lower[i],
+                   size = std::max(std::abs(p[i]), q.typical[i]);
       const double h = above >= below ? std::min(size, above) : -std::min(size, below);
       if (base.size() == 0 && !at(i, p[i], base)) return false;
       if (h != 0 && !at(i, p[i] + h, value)) return false;
@@ -130,8 +139,11 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
     int first = -2;
     while (first < 0 && p[i] + first * h < q.lower[i]) ++first;
     while (p[i] + (first + 4) * h > q.upper[i]) --first;
-    static constexpr double weights[5][5] = {
-        {-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}, {-1, 6, -18, 10, 3}, {3, -16, 36, -48, 25}};
+    static constexpr double weights[5][5] = {{-25, 48, -36, 16, -3},
+                                             {-3, -10, 18, -6, 1},
+                                             {1, -8, 0, 8, -1},
+                                             {-1, 6, -18, 10, 3},
+                                             {3, -16, 36, -48, 25}};
     // of changes against the first point, so that a parameter without effect gives exactly zero
     VecX first_value, slope;
     for (int k = 0; k < 5; ++k) {
@@ -175,11 +187,13 @@ class LevenbergMarquardt {
 
  private:
   static constexpr int slow_ = 25;  // iterations after which a search is
-  // Where a least step is told a search ends, too, where a step promises less than this part of the cost: far less than a standard error,
-  // and less than runs of scenes are exact to. Data without noise never come to that, their cost falls to 0.
+  // Where a least step is told a search ends, too, where a step promises less than this part of the
+  // cost: far less than a standard error, and less than runs of scenes are exact to. Data without
+  // noise never come to that, their cost falls to 0.
   static constexpr double least_gain_ = 1e-7;
-  // And where no step gains ten times that, though the undamped one promises as much: the model has kinks, as that of a scene where fibres
-  // are taken up or let go at some Gauss point. Then the optimum is known to this part of the standard errors.
+  // And where no step gains ten times that, though the undamped one promises as much: the model has
+  // kinks, as that of a scene where fibres are taken up or let go at some Gauss point. Then the
+  // optimum is known to this part of the standard errors.
   static constexpr double stalled_gain_ = 1e-6, known_to_ = 0.03;
   static constexpr int stalled_steps_ = 2;
 
@@ -202,11 +216,14 @@ class LevenbergMarquardt {
         s_.converged = true, s_.why = "optimal within the step asked for";
         return;
       }
-      if (options.step > 0 && (!accepted || stalled_ >= stalled_steps_) && is_known_within_errors()) {
-        s_.converged = true, s_.why = "optimal to a thirtieth of the standard errors; the model has kinks";
+      if (options.step > 0 && (!accepted || stalled_ >= stalled_steps_) &&
+          is_known_within_errors()) {
+        s_.converged = true,
+        s_.why = "optimal to a thirtieth of the standard errors; the model has kinks";
         return;
       }
-      if (!accepted && !moved_aside()) return end("optimal within rounding", "no step lowers the cost");
+      if (!accepted && !moved_aside())
+        return end("optimal within rounding", "no step lowers the cost");
     }
     s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
     end("optimal", "iteration limit reached");
@@ -222,10 +239,13 @@ class LevenbergMarquardt {
     const VecX d = damped_step(q_, s_.p, s_.r, s_.J, D_, curvature_, mu_);
     const VecX p = (s_.p + d).cwiseMax(q_.lower).cwiseMin(q_.upper);
     // a heavily damped step is short far from the optimum, too
-    small_ = least > 0 && mu_ < 1 && ((p - s_.p).array().abs() <= least * s_.p.array().abs().max(1e-3 * q_.typical.array())).all();
+    small_ = least > 0 && mu_ < 1 &&
+             ((p - s_.p).array().abs() <= least * s_.p.array().abs().max(1e-3 * q_.typical.array()))
+                 .all();
     //   |r|^2/2 - |r + J d|^2/2 = -d.J^T r - |J d|^2/2
     const VecX Jd = s_.J * d;
-    const double predicted = -s_.r.dot(Jd) - 0.5 * Jd.squaredNorm() - 0.5 * curvature_.dot(d.cwiseAbs2());
+    const double predicted =
+        -s_.r.dot(Jd) - 0.5 * Jd.squaredNorm() - 0.5 * curvature_.dot(d.cwiseAbs2());
     small_ = small_ || (least > 0 && mu_ < 1 && predicted < least_gain_ * s_.cost);
     if (small_) return false;
     VecX r;
@@ -234,7 +254,8 @@ class LevenbergMarquardt {
     const double gained = exists ? 0.5 * (s_.r - r).dot(s_.r + r) : -1;
     if (exists && predicted > 0 && gained > 0)
       if (MatX J = s_.J; jacobian(q_, p, J)) {
-        mu_ = std::max(1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
+        mu_ = std::max(
+            1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
         growth_ = 2;
         stalled_ = gained < stalled_gain_ * s_.cost ? stalled_ + 1 : 0;
         take(p, r, J);
@@ -249,7 +270,8 @@ class LevenbergMarquardt {
     const Eigen::Index freedom = s_.r.size() - s_.p.size();
     if (freedom <= 0) return false;
     const VecX d = damped_step(q_, s_.p, s_.r, s_.J, D_, VecX::Zero(s_.p.size()), 0);
-    return (s_.J * d).squaredNorm() <= known_to_ * known_to_ * 2 * s_.cost / static_cast<double>(freedom);
+    return (s_.J * d).squaredNorm() <=
+           known_to_ * known_to_ * 2 * s_.cost / static_cast<double>(freedom);
   }
 
   bool moved_aside() {
@@ -285,10 +307,13 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
 
 MatX covariance(const LeastSquaresResult& s) {
   Eigen::Index n_free = 0;
-  for (Eigen::Index i = 0; i < s.p.size(); ++i) n_free += !s.at_bound[static_cast<std::size_t>(i)] && s.J.col(i).norm() > 0;
+  for (Eigen::Index i = 0; i < s.p.size(); ++i)
+    n_free += !s.at_bound[static_cast<std::size_t>(i)] && s.J.col(i).norm() > 0;
   const Eigen::Index m = s.r.size();
-  if (m <= n_free) return MatX::Constant(s.p.size(), s.p.size(), std::numeric_limits<double>::quiet_NaN());
-  return covariance(s.J, s.at_bound, white_noise(std::sqrt(2 * s.cost / static_cast<double>(m - n_free)), m));
+  if (m <= n_free)
+    return MatX::Constant(s.p.size(), s.p.size(), std::numeric_limits<double>::quiet_NaN());
+  return covariance(s.J, s.at_bound,
+                    white_noise(std::sqrt(2 * s.cost / static_cast<double>(m - n_free)), m));
 }
 
 }  // namespace langer

@@ -16,15 +16,16 @@ double into_box(double x, double period, double lower, double upper) {
   return x;
 }
 
-SymmetricAngles symmetric_angles(const LeastSquares& q, const LeastSquaresResult& best, double deviation,
-                                 const std::vector<double>& turn) {
+SymmetricAngles symmetric_angles(const LeastSquares& q, const LeastSquaresResult& best,
+                                 double deviation, const std::vector<double>& turn) {
   SymmetricAngles s{std::vector<bool>(static_cast<std::size_t>(best.p.size()), false), best.J};
   VecX p = best.p, above, below;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     const double period = turn[static_cast<std::size_t>(i)];
     if (!(period > 0) || best.at_bound[static_cast<std::size_t>(i)]) continue;
     const double slope = best.J.col(i).norm(), widest = period / 9;
-    const double h = slope > 0 ? std::clamp(1.96 * deviation / slope, 1e-5 * period, widest) : widest;
+    const double h =
+        slope > 0 ? std::clamp(1.96 * deviation / slope, 1e-5 * period, widest) : widest;
     p[i] = best.p[i] + h;
     const bool up = q.residual(p, above) && above.allFinite();
     p[i] = best.p[i] - h;

@@ -46,7 +46,8 @@ MatX correlated(const MatX& A, const Curves& curves, double rho) {
   Eigen::Index at = 0;
   for (Eigen::Index n : curves) {
     for (Eigen::Index i = 1; i < n; ++i) forward.row(at + i) += rho * forward.row(at + i - 1);
-    for (Eigen::Index i = n - 2; i >= 0; --i) backward.row(at + i) += rho * backward.row(at + i + 1);
+    for (Eigen::Index i = n - 2; i >= 0; --i)
+      backward.row(at + i) += rho * backward.row(at + i + 1);
     at += n;
   }
   return forward + backward - A;
@@ -82,14 +83,17 @@ Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double
   }
   const double variance = rest / free;  // of the innovations
   const double curves_log = static_cast<double>(curves.size()) * std::log1p(-rho * rho);
-  return {rho, -0.5 * (free * std::log(variance) + log_volume - curves_log), std::sqrt(variance / (1 - rho * rho))};
+  return {rho, -0.5 * (free * std::log(variance) + log_volume - curves_log),
+          std::sqrt(variance / (1 - rho * rho))};
 }
 
 // the largest value of f on [0, high]: a grid that gets finer towards high, then golden sections
 template <class F>
 double highest(F f, double high) {
   constexpr int steps = 40;
-  const auto at = [&](int k) { return 1 - std::pow(1 - high, static_cast<double>(k) / steps); };
+  const auto at = [&](int k) {
+    return 1 - std::pow(1 - high, static_cast<double>(k) / steps);
+  };
   int best = 0;
   double value = f(0.);
   for (int k = 1; k <= steps; ++k)
@@ -143,7 +147,8 @@ ResidualNoise white_noise(double deviation, Eigen::Index values) {
   return noise;
 }
 
-ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eigen::Index>& curves, double size) {
+ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eigen::Index>& curves,
+                             double size) {
   ResidualNoise noise;
   noise.curves = curves, noise.effective = static_cast<double>(r.size());
   const MatX U = column_space(J);
@@ -153,21 +158,28 @@ ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eig
   noise.deviation = r.norm() / std::sqrt(noise.freedom);
   const double high = largest_rho(curves);
   if (free < 3 || noise.deviation <= 1e-4 * size) return noise;
-  const auto at = [&](double rho) { return restricted(r, U, curves, rho); };
+  const auto at = [&](double rho) {
+    return restricted(r, U, curves, rho);
+  };
   const double rho = highest([&](double x) { return at(x).log_likelihood; }, high);
   const Restricted best = at(rho);
   if (2 * (best.log_likelihood - at(0).log_likelihood) < 2.706) return noise;
-  noise.rho = rho, noise.deviation = best.deviation, noise.effective = effective_values(curves, rho);
+  noise.rho = rho, noise.deviation = best.deviation,
+  noise.effective = effective_values(curves, rho);
   const double h = std::min(0.02, 0.3 * (1 - rho));
   const Restricted below = at(std::max(0., rho - h)), above = at(rho + h);
-  const double curvature = -(above.log_likelihood - 2 * best.log_likelihood + below.log_likelihood) / (h * h), most = 1 - rho * rho;
+  const double curvature =
+                   -(above.log_likelihood - 2 * best.log_likelihood + below.log_likelihood) /
+                   (h * h),
+               most = 1 - rho * rho;
   noise.rho_variance = curvature > 0 ? std::min(1 / curvature, most) : most;
   noise.below = {below.rho, below.deviation}, noise.above = {above.rho, above.deviation};
   return noise;
 }
 
 ResidualNoise with_least(ResidualNoise noise, double least) {
-  if (least > noise.deviation) noise.white = std::sqrt((least - noise.deviation) * (least + noise.deviation));
+  if (least > noise.deviation)
+    noise.white = std::sqrt((least - noise.deviation) * (least + noise.deviation));
   return noise;
 }
 
@@ -180,7 +192,8 @@ NoiseAlong along(const ResidualNoise& noise, const VecX& direction) {
   if (!(square > 0) || std::isinf(noise.freedom)) return {variance, inf};
   double relative = 2 / noise.freedom;
   if (noise.rho > 0 && noise.above.rho > noise.below.rho) {
-    const double slope = std::log(shown(noise.above.rho, noise.above.deviation) / shown(noise.below.rho, noise.below.deviation)) /
+    const double slope = std::log(shown(noise.above.rho, noise.above.deviation) /
+                                  shown(noise.below.rho, noise.below.deviation)) /
                          (noise.above.rho - noise.below.rho);
     relative += slope * slope * noise.rho_variance;
   }
@@ -201,13 +214,15 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   A = A * norms.cwiseInverse().asDiagonal();
   const Svd of = svd(A);
   const VecX& sv = of.values;
-  // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not distinguishable from 0
+  // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not
+  // distinguishable from 0
   const double smallest = 1e-10 * sv[0];
   VecX inverse = VecX::Zero(sv.size()), undetermined = VecX::Ones(k);
   for (Eigen::Index c = 0; c < sv.size(); ++c)
     if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= of.V.col(c).cwiseAbs2();
   const MatX P = of.U * inverse.asDiagonal() * of.V.transpose();  // (m, k): parameters are P^T e
-  const MatX VP = noise.deviation * noise.deviation * correlated(P, noise.curves, noise.rho) + noise.white * noise.white * P;
+  const MatX VP = noise.deviation * noise.deviation * correlated(P, noise.curves, noise.rho) +
+                  noise.white * noise.white * P;
   const MatX all = P.transpose() * VP;
   for (Eigen::Index a = 0; a < k; ++a)
     for (Eigen::Index b = 0; b < k; ++b)
@@ -217,7 +232,8 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   return cov;
 }
 
-VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out, const ResidualNoise& noise) {
+VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out,
+                      const ResidualNoise& noise) {
   VecX factors = VecX::Ones(columns.cols());
   const double total = noise.total();
   if (!(total > 0)) return factors;
@@ -234,8 +250,10 @@ VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out, co
 double minus_two_log_likelihood(const VecX& r, const ResidualNoise& noise) {
   const auto n = static_cast<double>(r.size());
   const auto value = [&](double rho) {
-    const double rest = std::max(innovations(r, noise.curves, rho).squaredNorm(), std::numeric_limits<double>::min());
-    return n * std::log(rest / n) - static_cast<double>(noise.curves.size()) * std::log1p(-rho * rho);
+    const double rest = std::max(innovations(r, noise.curves, rho).squaredNorm(),
+                                 std::numeric_limits<double>::min());
+    return n * std::log(rest / n) -
+           static_cast<double>(noise.curves.size()) * std::log1p(-rho * rho);
   };
   if (noise.rho == 0) return value(0);
   return value(highest([&](double rho) { return -value(rho); }, largest_rho(noise.curves)));

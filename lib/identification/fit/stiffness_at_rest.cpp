@@ -42,13 +42,18 @@ bool raise(FitProblem& problem, const VecX& p, Eigen::Index i, double least) {
 }
 
 // the largest modulus at rest that the tests allow, by number i, others following
-double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index i, double least, double noise) {
+double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index i, double least,
+                  double noise) {
   const LeastSquares q = least_squares_problem(problem);
   const VecX& p = fit.best.p;
   const double per = effect(problem, p, i), mu = shear_modulus(fit.material);
   if (!(std::abs(per) > 1e-9)) return inf;
-  const auto value = [&](double more) { return p[i] + more / per; };
-  const auto inside = [&](double more) { return value(more) >= q.lower[i] && value(more) <= q.upper[i]; };
+  const auto value = [&](double more) {
+    return p[i] + more / per;
+  };
+  const auto inside = [&](double more) {
+    return value(more) >= q.lower[i] && value(more) <= q.upper[i];
+  };
   double in = 0, out = least;
   while (inside(out) && profile_rise(q, i, value(out), p, noise) < limit) in = out, out *= 2;
   if (!inside(out)) return inf;
@@ -62,13 +67,17 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
 }  // namespace
 
 std::string in_words(const StiffnessAtRest& s) {
-  const std::string reach = std::isfinite(s.allowed) ? fmt::format("allow up to {:.3g} MPa (95 %)", s.allowed) : "allow any";
-  const std::string cost = s.taken > s.allowed * (1 + 1e-9)
-                               ? fmt::format(
-                                     "more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
-                                     "the tests near rest",
-                                     s.error_before, s.error_after)
-                               : fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before, s.error_after);
+  const std::string reach = std::isfinite(s.allowed)
+                                ? fmt::format("allow up to {:.3g} MPa (95 %)", s.allowed)
+                                : "allow any";
+  const std::string cost =
+      s.taken > s.allowed * (1 + 1e-9)
+          ? fmt::format(
+                "more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
+                "the tests near rest",
+                s.error_before, s.error_after)
+          : fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before,
+                        s.error_after);
   return fmt::format(
       "the tests do not determine the shear modulus at rest: they give {:.3g} MPa and {}; {:.3g} MPa is used, the least that tests with a "
       "noise of {:.3g} MPa can distinguish from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains depend on it",
@@ -79,7 +88,8 @@ double residual_noise(const FitProblem& problem, const FitResult& fit, double pa
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
   const auto m = fit.best.r.size(), n = fit.best.p.size();
-  return std::max(part * largest, m > n ? std::sqrt(2 * fit.best.cost / static_cast<double>(m - n)) : 0);
+  return std::max(part * largest,
+                  m > n ? std::sqrt(2 * fit.best.cost / static_cast<double>(m - n)) : 0);
 }
 
 double least_shear_modulus(const FitProblem& problem, double noise) {
@@ -93,7 +103,8 @@ double least_shear_modulus(const FitProblem& problem, double noise) {
   return sum > 0 ? noise / std::sqrt(sum) : inf;
 }
 
-std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& fit, const FitOptions& options, double part) {
+std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& fit,
+                                               const FitOptions& options, double part) {
   StiffnessAtRest s;
   s.noise = residual_noise(problem, fit, part);
   s.least = least_shear_modulus(problem, s.noise);
@@ -105,10 +116,12 @@ std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& f
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     if (!is_modulus_of_the_matrix(problem, i)) continue;
     FitProblem one = problem;
-    for (std::size_t k = 0; k < one.free.size(); ++k) one.free[k].start = fit.best.p[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < one.free.size(); ++k)
+      one.free[k].start = fit.best.p[static_cast<Eigen::Index>(k)];
     VecX p = fit.best.p;
     std::optional<FitResult> found;
-    for (int again = 0; again < 5; ++again) {  // exponents, which the effect of a modulus depends on, follow
+    for (int again = 0; again < 5;
+         ++again) {  // exponents, which the effect of a modulus depends on, follow
       if (!raise(one, p, static_cast<Eigen::Index>(i), s.least)) break;
       FitResult next = langer::fit(one, options);
       if (!next.best.converged) break;
@@ -116,7 +129,8 @@ std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& f
       if (shear_modulus(found->material) >= s.least * (1 - 1e-9)) break;
     }
     if (!found || shear_modulus(found->material) < s.least * (1 - 1e-9)) continue;
-    if (!best || found->best.cost < best->best.cost) best = std::move(found), raised = one, by = static_cast<Eigen::Index>(i);
+    if (!best || found->best.cost < best->best.cost)
+      best = std::move(found), raised = one, by = static_cast<Eigen::Index>(i);
   }
   if (!best) return std::nullopt;
   s.allowed = allowed_by(problem, fit, by, s.least, s.noise);

@@ -37,16 +37,23 @@ struct Reading {
   std::vector<Error> errors;
   std::vector<std::string> notes;
 
-  void say(int line, int column, std::string key, std::string found, std::string expected, std::string hint = "") {
+  void say(int line, int column, std::string key, std::string found, std::string expected,
+           std::string hint = "") {
     if (errors.size() < 10)
-      errors.push_back({{table.name, line, column}, std::move(key), std::move(found), std::move(expected), std::move(hint)});
+      errors.push_back({{table.name, line, column},
+                        std::move(key),
+                        std::move(found),
+                        std::move(expected),
+                        std::move(hint)});
   }
-  void say_of_column(std::size_t column, std::string key, std::string found, std::string expected, std::string hint = "") {
-    say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found), std::move(expected),
-        std::move(hint));
+  void say_of_column(std::size_t column, std::string key, std::string found, std::string expected,
+                     std::string hint = "") {
+    say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found),
+        std::move(expected), std::move(hint));
   }
   void note(std::size_t column, const std::string& text) {
-    notes.push_back(fmt::format("{}:{}:{}: {}", table.name, table.header.line, table.header.cells[column].column, text));
+    notes.push_back(fmt::format("{}:{}:{}: {}", table.name, table.header.line,
+                                table.header.cells[column].column, text));
   }
   void check() const {
     if (!errors.empty()) throw Failure(Exit::input, errors);
@@ -80,8 +87,12 @@ struct Reading {
       const bool deformation = m.of == ColumnMeaning::Of::deformation;
       std::string& slot = deformation ? format.strain_x : format.stress_x;
       if (!slot.empty())
-        say_of_column(i, "columns", fmt::format("a second column of {}: \"{}\"", deformation ? "deformation" : "stress", name(i)),
-                      expected, "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}");
+        say_of_column(
+            i, "columns",
+            fmt::format("a second column of {}: \"{}\"", deformation ? "deformation" : "stress",
+                        name(i)),
+            expected,
+            "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}");
       slot = name(i);
     }
     if (errors.empty() && (format.strain_x.empty() || format.stress_x.empty()))
@@ -92,49 +103,58 @@ struct Reading {
 
   // a key and a column's name: what both say has to agree
   template <class T>
-  std::optional<T> agreed(const std::optional<T>& key, const std::optional<T>& column, std::size_t at, const char* name_of_key,
-                          const char* what) {
+  std::optional<T> agreed(const std::optional<T>& key, const std::optional<T>& column,
+                          std::size_t at, const char* name_of_key, const char* what) {
     if (key && column && *key != *column)
       say_of_column(at, name_of_key, fmt::format("{} for the column \"{}\"", word(*key), name(at)),
                     fmt::format("the {} that the column's name carries", what));
     return key ? key : column;
   }
 
-  double size(const std::optional<double>& given, std::size_t column, const char* key, const char* what) {
+  double size(const std::optional<double>& given, std::size_t column, const char* key,
+              const char* what) {
     if (given) return *given;
     say_of_column(column, key, fmt::format("missing, for the column \"{}\"", name(column)), what,
                   fmt::format("{}: 10 (mm) in the item of `data`", key));
     return 1;
   }
 
-  void add_stress(AxisColumns& axis, std::size_t column, const std::optional<double>& width, const char* width_key) {
+  void add_stress(AxisColumns& axis, std::size_t column, const std::optional<double>& width,
+                  const char* width_key) {
     axis.has_stress = true, axis.stress = column;
     const ColumnMeaning m = meaning(column);
-    std::optional<StressUnit> unit = agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
+    std::optional<StressUnit> unit =
+        agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
     if (!unit && format.normalised) unit = StressUnit::MPa;  // any serves
     if (!unit)
       return say_of_column(
           column, "stress_unit",
-          m.foreign_unit.empty() ? "no unit for the column \"" + name(column) + "\""
-                                 : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
-          "stress_unit, or a name that ends in _MPa, _kPa or _Pa", "of a force: N, mN or kN, with width and thickness");
+          m.foreign_unit.empty()
+              ? "no unit for the column \"" + name(column) + "\""
+              : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
+          "stress_unit, or a name that ends in _MPa, _kPa or _Pa",
+          "of a force: N, mN or kN, with width and thickness");
     axis.stress_factor = per_unit_of_stress[static_cast<std::size_t>(*unit)];
     std::optional<StressMeasure> told = m.stress;
     if (is_force(*unit) && format.normalised) {
       told = StressMeasure::nominal;
     } else if (is_force(*unit)) {
-      axis.stress_factor /= size(width, column, width_key, "the width of the specimen in mm, across this force");
-      axis.stress_factor /= size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
+      axis.stress_factor /=
+          size(width, column, width_key, "the width of the specimen in mm, across this force");
+      axis.stress_factor /=
+          size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
       told = StressMeasure::nominal;
     }
     const auto measure =
-        agreed(format.stress, told, column, "stress", is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
+        agreed(format.stress, told, column, "stress",
+               is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
     if (measure) {
       format.like.measure = *measure;
     } else if (found_by_name) {
-      say_of_column(column, "stress", "not told for the column \"" + name(column) + "\"",
-                    "stress: cauchy (true) or nominal (force over the area at rest)",
-                    "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
+      say_of_column(
+          column, "stress", "not told for the column \"" + name(column) + "\"",
+          "stress: cauchy (true) or nominal (force over the area at rest)",
+          "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
     } else if (format.like.measure == StressMeasure::cauchy) {
       note(
           column,
@@ -145,46 +165,62 @@ struct Reading {
     }
   }
 
-  void add_strain(AxisColumns& axis, std::size_t column, const std::optional<double>& length, const char* length_key) {
+  void add_strain(AxisColumns& axis, std::size_t column, const std::optional<double>& length,
+                  const char* length_key) {
     axis.has_strain = true, axis.strain = column;
     const ColumnMeaning m = meaning(column);
     const bool slides = format.like.kind == TestKind::simple_shear;
-    std::optional<StrainUnit> unit = agreed(format.strain_unit, m.strain_unit, column, "strain_unit", "unit");
+    std::optional<StrainUnit> unit =
+        agreed(format.strain_unit, m.strain_unit, column, "strain_unit", "unit");
     if (!unit && (m.lengths || format.gauge_length || !m.foreign_unit.empty()) && !slides)
       say_of_column(column, "strain_unit",
                     m.foreign_unit.empty() ? "no unit for the column \"" + name(column) + "\""
-                                           : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
+                                           : fmt::format("the unit \"{}\" of the column \"{}\"",
+                                                         m.foreign_unit, name(column)),
                     "strain_unit: fraction, percent, mm or um, or a name that ends in it");
-    axis.strain_factor = per_unit_of_strain[static_cast<std::size_t>(unit.value_or(StrainUnit::fraction))];
+    axis.strain_factor =
+        per_unit_of_strain[static_cast<std::size_t>(unit.value_or(StrainUnit::fraction))];
     if (unit && is_length(*unit))
-      axis.strain_factor /= size(length, column, length_key, "the length at rest between grips or marks in mm");
-    const std::optional<StrainMeasure> measure = agreed(format.strain, m.strain, column, "strain", "measure");
+      axis.strain_factor /=
+          size(length, column, length_key, "the length at rest between grips or marks in mm");
+    const std::optional<StrainMeasure> measure =
+        agreed(format.strain, m.strain, column, "strain", "measure");
     if (unit && is_length(*unit) && measure && *measure > StrainMeasure::stretch)
-      say_of_column(column, "strain", word(*measure) + " for lengths", "engineering (an elongation) or stretch (a length)");
-    axis.measure = measure ? *measure : slides ? StrainMeasure::engineering : measure_by_values(axis, column, m);
+      say_of_column(column, "strain", word(*measure) + " for lengths",
+                    "engineering (an elongation) or stretch (a length)");
+    axis.measure = measure  ? *measure
+                   : slides ? StrainMeasure::engineering
+                            : measure_by_values(axis, column, m);
   }
 
   // nobody told: the first value does, or is asked about
-  StrainMeasure measure_by_values(const AxisColumns& axis, std::size_t column, const ColumnMeaning& m) {
-    const auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                                  [&](const CsvRow& r) { return chosen(r) && table.number(r.cells[column]); });
-    if (row == table.rows.end()) return StrainMeasure::engineering;  // said where the numbers are read
+  StrainMeasure measure_by_values(const AxisColumns& axis, std::size_t column,
+                                  const ColumnMeaning& m) {
+    const auto row = std::find_if(table.rows.begin(), table.rows.end(), [&](const CsvRow& r) {
+      return chosen(r) && table.number(r.cells[column]);
+    });
+    if (row == table.rows.end())
+      return StrainMeasure::engineering;  // said where the numbers are read
     const double first = axis.strain_factor * *table.number(row->cells[column]);
     const bool documented = name(column) == "strain" || name(column) == "strain_percent";
     constexpr double near = 0.1;
     if (std::abs(first - 1) <= near) {
       if (!documented) {
-        note(column, fmt::format("\"{}\" starts at {:g}: taken as stretch; say strain: stretch", name(column), first));
+        note(column, fmt::format("\"{}\" starts at {:g}: taken as stretch; say strain: stretch",
+                                 name(column), first));
         return StrainMeasure::stretch;
       }
-      say(row->line, row->cells[column].column, "strain", fmt::format("a column \"{}\" that starts at {:g}", name(column), first),
-          "the name stretch if it is one", "or strain: stretch, or strain: engineering, in the item of `data`");
+      say(row->line, row->cells[column].column, "strain",
+          fmt::format("a column \"{}\" that starts at {:g}", name(column), first),
+          "the name stretch if it is one",
+          "or strain: stretch, or strain: engineering, in the item of `data`");
     } else if (std::abs(first) <= near || m.lengths) {
       if (!documented && !m.lengths)
-        note(column,
-             fmt::format(
-                 "the measure of \"{}\" is not told: taken as engineering strain; say strain: engineering, log or green_lagrange",
-                 name(column)));
+        note(
+            column,
+            fmt::format(
+                "the measure of \"{}\" is not told: taken as engineering strain; say strain: engineering, log or green_lagrange",
+                name(column)));
     } else if (!documented) {
       say(row->line, row->cells[column].column, "strain",
           fmt::format("a column \"{}\" that starts at {:g}, neither 0 nor 1", name(column), first),
@@ -197,10 +233,14 @@ struct Reading {
     const CsvCell& cell = row.cells[column];
     const auto x = table.number(cell);
     if (x && std::isfinite(*x)) return *x;
-    const bool decimals = !x && cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos &&
+    const bool decimals = !x &&
+                          cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos &&
                           cell.text.find_first_of(".,") != std::string::npos;
-    say(row.line, cell.column, "", cell.text.empty() ? "found nothing" : "found " + cell.text, "a finite number",
-        decimals ? fmt::format("decimal {}s are read here, without thousands separators", word(table.decimal)) : "");
+    say(row.line, cell.column, "", cell.text.empty() ? "found nothing" : "found " + cell.text,
+        "a finite number",
+        decimals ? fmt::format("decimal {}s are read here, without thousands separators",
+                               word(table.decimal))
+                 : "");
     return 0;
   }
 
@@ -214,12 +254,14 @@ struct Reading {
                                                                      : std::exp(e);
     if (errors.size() > before) return 1;
     if (l > 0 && std::isfinite(l)) return l;
-    say(row.line, row.cells[axis.strain].column, "", fmt::format("found the stretch {}", l), "a stretch > 0");
+    say(row.line, row.cells[axis.strain].column, "", fmt::format("found the stretch {}", l),
+        "a stretch > 0");
     return 1;
   }
 
   bool chosen(const CsvRow& row) const {
-    return std::all_of(where.begin(), where.end(), [&](const auto& w) { return row.cells[w.first].text == w.second; });
+    return std::all_of(where.begin(), where.end(),
+                       [&](const auto& w) { return row.cells[w.first].text == w.second; });
   }
   bool is_empty(const CsvRow& row, const AxisColumns& axis) const {
     return row.cells[axis.strain].text.empty() && row.cells[axis.stress].text.empty();
@@ -229,7 +271,8 @@ struct Reading {
   double time(const CsvRow& row, const Test& test) {
     const double t = number(row, *time_column);
     if (!test.time.empty() && t < test.time.back())
-      say(row.line, row.cells[*time_column].column, "columns.time", fmt::format("found {:g} s after {:g} s", t, test.time.back()),
+      say(row.line, row.cells[*time_column].column, "columns.time",
+          fmt::format("found {:g} s after {:g} s", t, test.time.back()),
           "times that do not go back");
     return t;
   }
@@ -240,14 +283,16 @@ struct Reading {
 };
 
 Test& test_named(std::vector<Test>& tests, const Test& like, const std::string& name) {
-  const auto found = std::find_if(tests.begin(), tests.end(), [&](const Test& t) { return t.name == name; });
+  const auto found =
+      std::find_if(tests.begin(), tests.end(), [&](const Test& t) { return t.name == name; });
   if (found != tests.end()) return *found;
   tests.push_back(like);
   tests.back().name = name;
   return tests.back();
 }
 
-// The other axis of a test whose axes have grids of their own: the same specimen turned by 90 degrees.
+// The other axis of a test whose axes have grids of their own: the same specimen turned by 90
+// degrees.
 Test turned(const TestFormat& format, const std::string& name) {
   Test t = format.like;
   t.name = name;
@@ -257,8 +302,9 @@ Test turned(const TestFormat& format, const std::string& name) {
 }
 
 // others: of axes with grids of their own, the second ones
-void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z, const std::optional<std::size_t>& split, bool own_grids,
-               std::vector<Test>& tests, std::vector<Test>& others) {
+void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z,
+               const std::optional<std::size_t>& split, bool own_grids, std::vector<Test>& tests,
+               std::vector<Test>& others) {
   for (const CsvRow& row : in.table.rows) {
     if (!in.chosen(row)) continue;
     const std::string name = split ? row.cells[*split].text : "";
@@ -275,7 +321,8 @@ void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z, const st
     test.first.push_back(in.stretch(row, x));
     if (z.has_strain && !own_grids) test.second.push_back(in.stretch(row, z));
     test.stress_x.push_back(x.stress_factor * in.number(row, x.stress));
-    if (z.has_stress && !own_grids) test.stress_z.push_back(z.stress_factor * in.number(row, z.stress));
+    if (z.has_stress && !own_grids)
+      test.stress_z.push_back(z.stress_factor * in.number(row, z.stress));
   }
 }
 
@@ -283,13 +330,15 @@ void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z, const st
 
 std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   Reading in{table, format, {}, {}, {}, {}, false};
-  if (table.header.cells.empty()) throw Failure(Exit::input, {{table.name, 0, 0}, "", "found 0 points", "two at least", ""});
+  if (table.header.cells.empty())
+    throw Failure(Exit::input, {{table.name, 0, 0}, "", "found 0 points", "two at least", ""});
   in.found_by_name = format.strain_x.empty() && format.stress_x.empty();
   if (in.found_by_name) in.find_columns();
   const TestFormat& f = in.format;
   const bool biaxial = f.like.kind == TestKind::biaxial;
   const bool own_grids = !biaxial && !f.strain_z.empty() && !f.stress_z.empty();
-  const auto strain_x = in.column(f.strain_x, "columns.strain_x"), stress_x = in.column(f.stress_x, "columns.stress_x");
+  const auto strain_x = in.column(f.strain_x, "columns.strain_x"),
+             stress_x = in.column(f.stress_x, "columns.stress_x");
   std::optional<std::size_t> strain_z, stress_z, split;
   if (!f.strain_z.empty()) strain_z = in.column(f.strain_z, "columns.strain_z");
   if (!f.stress_z.empty()) stress_z = in.column(f.stress_z, "columns.stress_z");
@@ -314,17 +363,22 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
     keep_times(test, f.part.time_from, f.part.time_to);
     if (f.toe && test.points() > 0) shift_to_toe(test, *f.toe, table.name);
     if (f.rest_at_start && test.points() > 0) shift_to_start(test);
-    keep_range(test, std::vector<double>(own_grids && !test.second.empty() ? test.second : test.first), f.part.strain_from,
-               f.part.strain_to);
+    keep_range(test,
+               std::vector<double>(own_grids && !test.second.empty() ? test.second : test.first),
+               f.part.strain_from, f.part.strain_to);
     compare_from(test, f.part.compare_from);
     if (test.points() < 2)
       throw Failure(Exit::input, {{table.name, 0, 0},
                                   split ? f.split + " = " + test.name : std::string(),
-                                  fmt::format("found {} points{}", test.points(), is_part ? " in the range" : ""),
+                                  fmt::format("found {} points{}", test.points(),
+                                              is_part ? " in the range" : ""),
                                   "two at least",
                                   ""});
     if (f.normalised) normalise(test, table.name);
-    test.name = (!split ? f.like.name : f.like.name.empty() ? test.name : f.like.name + "_" + test.name) + end;
+    test.name = (!split                ? f.like.name
+                 : f.like.name.empty() ? test.name
+                                       : f.like.name + "_" + test.name) +
+                end;
   };
   for (Test& test : tests) finish(test, "");
   for (Test& test : others) finish(test, "_z");
@@ -333,17 +387,21 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   return tests;
 }
 
-std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name, const TestFormat& format) {
+std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name,
+                              const TestFormat& format) {
   const auto names_columns = [&](const std::vector<CsvCell>& cells) {
     const auto has = [&](const std::string& name) {
-      return name.empty() || std::any_of(cells.begin(), cells.end(), [&](const CsvCell& c) { return c.text == name; });
+      return name.empty() || std::any_of(cells.begin(), cells.end(),
+                                         [&](const CsvCell& c) { return c.text == name; });
     };
     if (!format.strain_x.empty())
-      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) && has(format.stress_z) && has(format.time);
+      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) &&
+             has(format.stress_z) && has(format.time);
     bool deformation = false, stress = false;
     for (const CsvCell& cell : cells) {
       const ColumnMeaning m = column_meaning(cell.text);
-      deformation = deformation || m.of == ColumnMeaning::Of::deformation, stress = stress || m.of == ColumnMeaning::Of::stress;
+      deformation = deformation || m.of == ColumnMeaning::Of::deformation,
+      stress = stress || m.of == ColumnMeaning::Of::stress;
     }
     return deformation && stress;
   };

@@ -1,13 +1,14 @@
 // A measured test: what was imposed and what was measured, in one system whatever the file says.
 //   first   lambda_x (simple shear: the amount g) of each point;  second  lambda_z, in biaxial tests only
 //   stress_x, stress_z [MPa] in the measure of the test; stress_z may be empty
-// Read from CSV (base/csv_table.hpp) by a format that names kind, columns, measures and units, or by the names of the columns alone
-// (fit/column_names.hpp); what both say must agree. Forces and elongations become stresses and stretches by the specimen's sizes:
+// Read from CSV (base/csv_table.hpp) by a format that names kind, columns, measures and units, or
+// by the names of the columns alone (fit/column_names.hpp); what both say must agree. Forces and
+// elongations become stresses and stretches by the specimen's sizes:
 //   P = F / (width thickness),  lambda = 1 + u / gauge_length
-// A measure that nobody told: deformations that start at 1 are stretches, those that start at 0 engineering strains, others are
-// asked about; what was taken stands in `notes`.
-// Refused, with file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches <= 0, times that go back,
-// fewer than two points.
+// A measure that nobody told: deformations that start at 1 are stretches, those that start at 0
+// engineering strains, others are asked about; what was taken stands in `notes`. Refused, with
+// file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches
+// <= 0, times that go back, fewer than two points.
 #pragma once
 
 #include <map>
@@ -21,7 +22,8 @@
 
 namespace langer {
 
-// What a viscous specimen went through before the points that are compared; times as those, empty: it was at rest.
+// What a viscous specimen went through before the points that are compared; times as those, empty:
+// it was at rest.
 struct Past {
   std::vector<double> first, second, time;
 };
@@ -34,7 +36,8 @@ struct Test {
   double fibre_angle_deg = 0;  // of the specimen, added to the law's
   double weight = 1;           // of its residuals: 1/standard deviation, or relative
   std::vector<double> first, second, stress_x, stress_z;
-  std::vector<double> time;  // [s] of each point, what viscous laws need; empty where it was not measured
+  std::vector<double>
+      time;  // [s] of each point, what viscous laws need; empty where it was not measured
   Past before;
   std::vector<std::string> notes;  // what was taken for granted when it was read
 
@@ -48,33 +51,40 @@ struct KeptPart {
   double time_from = -1e300, time_to = 1e300;  // [s]
   double compare_from = -1e300;                // [s]; points before it become Test::before
   bool leaves_out() const {
-    return strain_from > -1e300 || strain_to < 1e300 || time_from > -1e300 || time_to < 1e300 || compare_from > -1e300;
+    return strain_from > -1e300 || strain_to < 1e300 || time_from > -1e300 || time_to < 1e300 ||
+           compare_from > -1e300;
   }
 };
 
 struct TestFormat {
-  Test like;  // name, kind, shear, angle, weight; measure where neither `stress` nor the column tells
+  Test like;  // name, kind, shear, angle, weight; measure where neither `stress` nor the column
+              // tells
   std::optional<StrainMeasure> strain;
   std::optional<StressMeasure> stress;
   std::optional<StressUnit> stress_unit;  // where the column's name does not tell
   std::optional<StrainUnit> strain_unit;
   std::optional<DecimalSign> decimal;
-  // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or pure shear test with strain_z
-  // has a grid of its own for each axis and becomes two tests
+  // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or
+  // pure shear test with strain_z has a grid of its own for each axis and becomes two tests
   std::string strain_x, strain_z, stress_x, stress_z, time;
   std::map<std::string, std::string> where;  // only rows with these texts in these columns
   std::string split;                         // a column: one test per text in it
   KeptPart part;                             // of its points
   std::optional<double> width, thickness, gauge_length, width_z,
-      gauge_length_z;          // at rest [mm]; z: for force and elongation along z
-  std::optional<double> toe;   // the stretch at which the stress along x first reaches this is the new rest [MPa]
-  bool rest_at_start = false;  // what is read until the specimen first moves is no deformation and no stress
-  bool normalised = false;     // stresses over the largest that is kept; forces then need no sizes
+      gauge_length_z;  // at rest [mm]; z: for force and elongation along z
+  std::optional<double>
+      toe;  // the stretch at which the stress along x first reaches this is the new rest [MPa]
+  bool rest_at_start =
+      false;  // what is read until the specimen first moves is no deformation and no stress
+  bool normalised = false;  // stresses over the largest that is kept; forces then need no sizes
 };
 
-std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format);      // throws Failure(input)
-std::vector<Test> read_tests(const std::string& path, const TestFormat& format);  // throws Failure(input)
-std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name, const TestFormat& format);
+std::vector<Test> tests_of(const CsvTable& table,
+                           const TestFormat& format);  // throws Failure(input)
+std::vector<Test> read_tests(const std::string& path,
+                             const TestFormat& format);  // throws Failure(input)
+std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name,
+                              const TestFormat& format);
 
 double largest_stress(const Test& test);
 // lambda - 1 as it was written: digits beyond those that a stretch holds are rounding

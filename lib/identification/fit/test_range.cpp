@@ -31,8 +31,11 @@ void keep_where(Test& test, const std::function<bool(std::size_t)>& kept) {
 }
 
 // The body at the stretch l0 is the new one at rest: P l is the force over its area, S l^2 too.
-void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches, std::vector<double>& stresses) {
-  const double area = measure == StressMeasure::nominal ? l0 : measure == StressMeasure::second_piola ? l0 * l0 : 1;
+void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches,
+              std::vector<double>& stresses) {
+  const double area = measure == StressMeasure::nominal        ? l0
+                      : measure == StressMeasure::second_piola ? l0 * l0
+                                                               : 1;
   for (double& l : stretches) l /= l0;
   for (double& s : stresses) s *= area;
 }
@@ -46,7 +49,8 @@ void shift_to_toe(Test& test, double toe, const std::string& file) {
   std::size_t k = 0;
   while (k < test.points() && test.stress_x[k] < toe) ++k;
   if (k == test.points())
-    throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe, test.name.empty() ? "the test" : test.name),
+    throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe,
+                            test.name.empty() ? "the test" : test.name),
                 "less");
   const auto at_toe = [&](const std::vector<double>& l) {
     if (k == 0) return l[0];
@@ -67,7 +71,8 @@ void shift_to_start(Test& test) {
   std::size_t n = 1;
   while (n < test.points() && std::abs(test.first[n] - test.first[0]) <= moved) ++n;
   const auto mean = [n](const std::vector<double>& all) {
-    return std::accumulate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), 0.0) / static_cast<double>(n);
+    return std::accumulate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
+           static_cast<double>(n);
   };
   for (auto* stresses : {&test.stress_x, &test.stress_z})
     if (!stresses->empty())
@@ -83,20 +88,24 @@ void shift_to_start(Test& test) {
 
 void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
   keep_where(test, [&](std::size_t i) {
-    const double strain = test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
+    const double strain =
+        test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
     return strain >= from && strain <= to;
   });
 }
 
 void keep_times(Test& test, double from, double to) {
-  if (!test.time.empty()) keep_where(test, [&, times = test.time](std::size_t i) { return times[i] >= from && times[i] <= to; });
+  if (!test.time.empty())
+    keep_where(
+        test, [&, times = test.time](std::size_t i) { return times[i] >= from && times[i] <= to; });
 }
 
 void compare_from(Test& test, double from) {
   std::size_t n = 0;
   while (n < test.time.size() && test.time[n] < from) ++n;
   const auto up_to_n = [&](const std::vector<double>& all) {
-    return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(n, all.size())));
+    return std::vector<double>(all.begin(),
+                               all.begin() + static_cast<std::ptrdiff_t>(std::min(n, all.size())));
   };
   test.before = {up_to_n(test.first), up_to_n(test.second), up_to_n(test.time)};
   if (n > 0) keep_where(test, [n](std::size_t i) { return i >= n; });
@@ -105,7 +114,9 @@ void compare_from(Test& test, double from) {
 void normalise(Test& test, const std::string& file) {
   const double largest = largest_stress(test);
   if (!(largest > 0))
-    throw Failure(Exit::input, {{file, 0, 0}, "normalised", "found no stress but 0", "one above it at least", ""});
+    throw Failure(
+        Exit::input,
+        {{file, 0, 0}, "normalised", "found no stress but 0", "one above it at least", ""});
   for (auto* stresses : {&test.stress_x, &test.stress_z})
     for (double& s : *stresses) s /= largest;
 }

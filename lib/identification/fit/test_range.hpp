@@ -8,12 +8,13 @@
 
 namespace langer {
 
-// The state at which the stress along x first reaches the toe [MPa] is the new one at rest; points before it are left out.
-// Throws Failure(input) where no stress is as large; file: for the message.
+// The state at which the stress along x first reaches the toe [MPa] is the new one at rest; points
+// before it are left out. Throws Failure(input) where no stress is as large; file: for the message.
 void shift_to_toe(Test& test, double toe, const std::string& file);
 
-// The first points are at rest, until the deformation along x has left the first one's by a thousandth of what it covers. Stretches are
-// divided by their mean (amounts of shear lose theirs), stresses lose theirs, which is an offset of the device.
+// The first points are at rest, until the deformation along x has left the first one's by a
+// thousandth of what it covers. Stretches are divided by their mean (amounts of shear lose theirs),
+// stresses lose theirs, which is an offset of the device.
 void shift_to_start(Test& test);
 
 // points whose engineering strain (of `along`; in simple shear the amount) lies in from..to

@@ -14,21 +14,25 @@ namespace {
 
 // what judges a result, and is not asked for here
 SolveConfig without_judgement(SolveConfig config) {
-  config.accuracy.reset(), config.fidelity.reset(), config.estimate.reset(), config.truncation.clear();
-  config.stability = StabilityCheck::off, config.on_unstable = OnUnstable::warn, config.reduce = Reduce::none;
+  config.accuracy.reset(), config.fidelity.reset(), config.estimate.reset(),
+      config.truncation.clear();
+  config.stability = StabilityCheck::off, config.on_unstable = OnUnstable::warn,
+  config.reduce = Reduce::none;
   config.homogeneous = Homogeneous::off;
   return config;
 }
 
 // Increments end where a history has a point: points more on the same straight lines.
 template <class Point, class To>
-std::vector<Point> with_stops(const std::vector<Point>& points, const std::vector<double>& stops, To between) {
+std::vector<Point> with_stops(const std::vector<Point>& points, const std::vector<double>& stops,
+                              To between) {
   std::vector<Point> all;
   Point before{0.0, {}, {}};
   for (const Point& point : points) {
     for (double t : stops)
       if (t > *before.t + 1e-9 && t < *point.t - 1e-9)
-        all.push_back({t, between(before.to, point.to, (t - *before.t) / (*point.t - *before.t)), {}});
+        all.push_back(
+            {t, between(before.to, point.to, (t - *before.t) / (*point.t - *before.t)), {}});
     all.push_back(point);
     before = point;
   }
@@ -37,17 +41,21 @@ std::vector<Point> with_stops(const std::vector<Point>& points, const std::vecto
 
 // where no seconds are told; what moves first decides
 void add_stops(SolveConfig& config, const std::vector<double>& stops) {
-  const auto point_between = [](const std::array<double, 3>& a, const std::array<double, 3>& b, double part) {
+  const auto point_between = [](const std::array<double, 3>& a, const std::array<double, 3>& b,
+                                double part) {
     std::array<double, 3> x{};
     for (std::size_t k = 0; k < 3; ++k) x[k] = a[k] + part * (b[k] - a[k]);
     return x;
   };
   const auto add_to = [&](HistoryConfig& history) {
     if (history.points.empty()) history.points = {{1.0, history.value, {}}};
-    history.points = with_stops(history.points, stops, [](double a, double b, double part) { return a + part * (b - a); });
+    history.points = with_stops(history.points, stops,
+                                [](double a, double b, double part) { return a + part * (b - a); });
     return true;
   };
-  const auto add_if = [&](std::optional<HistoryConfig>& history) { return history && history->moves() && add_to(*history); };
+  const auto add_if = [&](std::optional<HistoryConfig>& history) {
+    return history && history->moves() && add_to(*history);
+  };
   for (auto& [name, contact] : config.contacts) {
     if (contact.motion.empty() && !contact.control) continue;
     if (contact.control)
@@ -63,7 +71,8 @@ void add_stops(SolveConfig& config, const std::vector<double>& stops) {
 }
 
 bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
-  return key.starts_with("contacts.") && std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
+  return key.starts_with("contacts.") &&
+         std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
            return key == "contacts." + contact.first + ".friction";
          });
 }
@@ -71,7 +80,8 @@ bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
 MatX matrix_of(const std::vector<std::vector<double>>& rows, std::size_t columns) {
   MatX m(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i)
-    m.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const VecX>(rows[i].data(), m.cols()).transpose();
+    m.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const VecX>(rows[i].data(), m.cols()).transpose();
   return m;
 }
 
@@ -92,7 +102,8 @@ SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
   config.material = turned(input.law, fibre_angle_);
   if (!config.path.seconds) add_stops(config, stops_);
   for (const auto& [name, mu] : input.friction)
-    if (const auto contact = config.contacts.find(name); contact != config.contacts.end()) contact->second.friction = mu;
+    if (const auto contact = config.contacts.find(name); contact != config.contacts.end())
+      contact->second.friction = mu;
   return config;
 }
 
@@ -100,7 +111,8 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   SolveConfig config = config_at(input);
   std::vector<std::size_t> asked;  // those that this scene has
   for (std::size_t k = 0; k < input.slopes.size(); ++k)
-    if (!is_friction_of_another(input.slopes[k], config)) asked.push_back(k), config.sensitivity.push_back(input.slopes[k]);
+    if (!is_friction_of_another(input.slopes[k], config))
+      asked.push_back(k), config.sensitivity.push_back(input.slopes[k]);
   Run run(*mesh_, config, config.material, where_);
   std::optional<Sensitivity> sensitivity;
   if (!asked.empty()) sensitivity.emplace(run, config, where_);
@@ -111,19 +123,26 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   listener.of_whole = [&](StepRecord& whole, const SolveReport&) {
     found.t.push_back(whole.t);
     rows.emplace_back();
-    for (const Observation& one : observations_) rows.back().push_back(one.value(whole, run.scene.contacts));
+    for (const Observation& one : observations_)
+      rows.back().push_back(one.value(whole, run.scene.contacts));
     for (auto& of_number : slopes) of_number.emplace_back(observations_.size(), 0.0);
     for (std::size_t k = 0; k < asked.size(); ++k)
       for (std::size_t i = 0; i < observations_.size(); ++i)
-        slopes[asked[k]].back()[i] = observations_[i].slope(whole, sensitivity->now()[k], run.scene.contacts);
+        slopes[asked[k]].back()[i] =
+            observations_[i].slope(whole, sensitivity->now()[k], run.scene.contacts);
   };
-  const RunEnd end = run.follow(sensitivity ? sensitivity->along(std::move(listener)) : std::move(listener));
+  const RunEnd end =
+      run.follow(sensitivity ? sensitivity->along(std::move(listener)) : std::move(listener));
   if (end.at == RunEnd::At::signal)
-    throw Failure(exit_code_of(interrupted()), Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
+    throw Failure(exit_code_of(interrupted()),
+                  Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
   found.complete = end.path.complete;
-  if (!found.complete) found.why = fmt::format("no equilibrium behind t = {:.4g} of its path ({})", end.path.t, end.path.why);
+  if (!found.complete)
+    found.why =
+        fmt::format("no equilibrium behind t = {:.4g} of its path ({})", end.path.t, end.path.why);
   found.values = matrix_of(rows, observations_.size());
-  for (const auto& of_number : slopes) found.slopes.push_back(matrix_of(of_number, observations_.size()));
+  for (const auto& of_number : slopes)
+    found.slopes.push_back(matrix_of(of_number, observations_.size()));
   return found;
 }
 
@@ -131,7 +150,8 @@ std::optional<SolveConfig> ForwardRun::on_longer_cells(double factor) const {
   if (!config_.mesh || !has_numbers_of_cells(config_.mesh->geometry)) return std::nullopt;
   SolveConfig longer = config_;
   Geometry& geometry = longer.mesh->geometry;
-  const bool scaled = has_edge_in_contact_radii(geometry) && reference(config_.mesh->cells).second_order();
+  const bool scaled =
+      has_edge_in_contact_radii(geometry) && reference(config_.mesh->cells).second_order();
   scaled ? scale_cells(geometry, factor) : lengthen_cells(geometry, factor);
   if (numbers_of_cells(geometry) == numbers_of_cells(config_.mesh->geometry)) return std::nullopt;
   if (longer.symmetry != SymmetryChoice::none) longer.symmetry = SymmetryChoice::automatic;

@@ -1,4 +1,5 @@
-// A solve config as a function of its material and friction: what is observed of it along its path, in process and without files.
+// A solve config as a function of its material and friction: what is observed of it along its path,
+// in process and without files.
 #pragma once
 
 #include <map>
@@ -20,7 +21,8 @@ struct ForwardPath {
   std::vector<MatX> slopes;  // by parameter, where they were asked for: (t, observations)
 };
 
-// What a run is made with: the law of all bodies that the config gives none, friction by contact (others as in the config).
+// What a run is made with: the law of all bodies that the config gives none, friction by contact
+// (others as in the config).
 struct ForwardInput {
   Material law;
   std::map<std::string, double> friction = {};
@@ -30,8 +32,8 @@ struct ForwardInput {
 class ForwardRun {
  public:
   using Where = std::function<Place(const std::string&)>;
-  // config with its mesh; where: places of its keys. fibre_angle: added to those of the law [deg]. stops: increments end there.
-  // Throws Failure(config) for a mesh that cannot be made.
+  // config with its mesh; where: places of its keys. fibre_angle: added to those of the law [deg].
+  // stops: increments end there. Throws Failure(config) for a mesh that cannot be made.
   ForwardRun(SolveConfig config, Where where, double fibre_angle);
 
   const Mesh& mesh() const { return *mesh_; }
@@ -44,7 +46,8 @@ class ForwardRun {
   // one with the signal's code where one has come.
   ForwardPath solve(const ForwardInput& input) const;
 
-  // the same scene on cells longer by this factor; nothing where they follow from no numbers of the config
+  // the same scene on cells longer by this factor; nothing where they follow from no numbers of the
+  // config
   std::optional<SolveConfig> on_longer_cells(double factor) const;
 
  private:

@@ -8,8 +8,8 @@
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
-#include "results/store/curves_file.hpp"
 #include "core/tensor/dense.hpp"
+#include "results/store/curves_file.hpp"
 
 namespace langer {
 
@@ -35,13 +35,19 @@ std::function<void(const std::string&)> now_and_then(const Voice& voice, const s
 
 }  // namespace
 
-InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where, FitProblem& problem,
-                       const std::vector<std::string>& files, const std::string& journal, bool quotients)
-    : voice_(voice), config_(config), where_(where), problem_(problem), cache_(std::make_shared<RunCache>(journal)) {
-  if (cache_->read_back() > 0) voice_.say("goes on with {} runs that an earlier fit made", cache_->read_back());
-  scenes_ =
-      std::make_shared<SceneTests>(config, where, problem, files, cache_,
-                                   SceneFitOptions{config.jobs, quotients || is_viscous(config.law), now_and_then(voice, "")});
+InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where,
+                       FitProblem& problem, const std::vector<std::string>& files,
+                       const std::string& journal, bool quotients)
+    : voice_(voice),
+      config_(config),
+      where_(where),
+      problem_(problem),
+      cache_(std::make_shared<RunCache>(journal)) {
+  if (cache_->read_back() > 0)
+    voice_.say("goes on with {} runs that an earlier fit made", cache_->read_back());
+  scenes_ = std::make_shared<SceneTests>(
+      config, where, problem, files, cache_,
+      SceneFitOptions{config.jobs, quotients || is_viscous(config.law), now_and_then(voice, "")});
   if (config.draft) draft_ = scenes_->on_longer_cells(draft_factor);
   problem_.further = scenes_;
 }
@@ -52,11 +58,13 @@ FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const Fit
     return fit(problem_, options);
   } catch (const Failure& failure) {
     if (!interrupted()) throw;
-    throw Failure(failure.code(), Error{{},
-                                        "",
-                                        fmt::format("stopped by {}, after {} runs", signal_name(interrupted()), runs()),
-                                        "",
-                                        "the runs are kept, and the next fit of this config goes on with them"});
+    throw Failure(
+        failure.code(),
+        Error{{},
+              "",
+              fmt::format("stopped by {}, after {} runs", signal_name(interrupted()), runs()),
+              "",
+              "the runs are kept, and the next fit of this config goes on with them"});
   }
 }
 
@@ -68,25 +76,33 @@ FitResult InverseFit::search() {
       const FitResult first = level(draft_, options_of(config_, 1e-3));
       if (first.best.converged) {
         begun = true;
-        for (std::size_t i = 0; i < problem_.free.size(); ++i) problem_.free[i].start = first.best.p[static_cast<Eigen::Index>(i)];
-        voice_.say("on cells {:g} times as long: {} runs, chi-square {:.4g}", draft_factor, draft_->runs(), 2 * first.best.cost);
+        for (std::size_t i = 0; i < problem_.free.size(); ++i)
+          problem_.free[i].start = first.best.p[static_cast<Eigen::Index>(i)];
+        voice_.say("on cells {:g} times as long: {} runs, chi-square {:.4g}", draft_factor,
+                   draft_->runs(), 2 * first.best.cost);
       }
     } catch (const Failure& failure) {
       if (interrupted()) throw;
-      voice_.say("cells {:g} times as long are too coarse: {}", draft_factor, failure.errors().front().found);
+      voice_.say("cells {:g} times as long are too coarse: {}", draft_factor,
+                 failure.errors().front().found);
     }
   }
   FitOptions options = options_of(config_, 1e-8);
   if (begun) options.starts = 1;
   FitResult found = level(scenes_, options);
-  for (std::size_t i = 0; i < problem_.free.size(); ++i) problem_.free[i].start = asked.free[i].start;
+  for (std::size_t i = 0; i < problem_.free.size(); ++i)
+    problem_.free[i].start = asked.free[i].start;
   if (found.best.converged) return found;
   const std::string& why = scenes_->last_failure();
-  throw Failure(Exit::not_converged,
-                Error{where_("parameters"), "parameters",
-                      fmt::format("no optimum after {} runs: {}{}; KKT residual {:.2g}, chi-square {:.6g}", runs(), found.best.why,
-                                  why.empty() ? "" : "; a trial had " + why, found.best.kkt, 2 * found.best.cost),
-                      "", "other start values or narrower bounds; shorter increments where scenes have no equilibrium"});
+  throw Failure(
+      Exit::not_converged,
+      Error{
+          where_("parameters"), "parameters",
+          fmt::format("no optimum after {} runs: {}{}; KKT residual {:.2g}, chi-square {:.6g}",
+                      runs(), found.best.why, why.empty() ? "" : "; a trial had " + why,
+                      found.best.kkt, 2 * found.best.cost),
+          "",
+          "other start values or narrower bounds; shorter increments where scenes have no equilibrium"});
 }
 
 std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord& record) {
@@ -97,7 +113,8 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
     record.curves[i].max_error_percent = q.max_error_percent;
   }
   VecX coarse;
-  if (!draft_ || !draft_->model(fit.best.p, coarse)) return {"what the cells make of the forces is not estimated"};
+  if (!draft_ || !draft_->model(fit.best.p, coarse))
+    return {"what the cells make of the forces is not estimated"};
   // values of second order in the length of the cells
   const VecX beyond = (fit.further - coarse) / (draft_factor * draft_factor - 1);
   Eigen::Index at = 0;
@@ -118,25 +135,28 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   std::string words;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const FittedParameter& p = record.parameters[static_cast<std::size_t>(free[k])];
-    words += fmt::format("{}{} by {:.2g}{}", words.empty() ? "" : ", ", p.name, change[static_cast<Eigen::Index>(k)],
-                         p.unit == "-" ? "" : " " + p.unit);
+    words += fmt::format("{}{} by {:.2g}{}", words.empty() ? "" : ", ", p.name,
+                         change[static_cast<Eigen::Index>(k)], p.unit == "-" ? "" : " " + p.unit);
   }
   return {"without the error of the cells the parameters would change, about: " + words};
 }
 
 std::vector<std::string> InverseFit::cost() const {
   const double seconds = scenes_->run_seconds() + (draft_ ? draft_->run_seconds() : 0);
-  return {fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(), scenes_->scenes() > 1 ? "s" : "",
-                      seconds, draft_ ? fmt::format("; {} of them on coarse cells", draft_->runs()) : "")};
+  return {fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(),
+                      scenes_->scenes() > 1 ? "s" : "", seconds,
+                      draft_ ? fmt::format("; {} of them on coarse cells", draft_->runs()) : "")};
 }
 
 std::string parameters_csv(const FitRecord& record) {
   std::string text = "parameter,true,found,standard_error,lower_95,upper_95\n";
-  const auto cell = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
+  const auto cell = [](double x) {
+    return std::isfinite(x) ? fmt::format("{}", x) : std::string();
+  };
   for (const FittedParameter& p : record.parameters) {
     const auto [low, high] = interval_95(p);
-    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(p.name), cell(p.truth), cell(p.value), cell(p.standard_error), cell(low),
-                        cell(high));
+    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(p.name), cell(p.truth), cell(p.value),
+                        cell(p.standard_error), cell(low), cell(high));
   }
   return text;
 }
@@ -153,7 +173,8 @@ std::vector<NamedTable> curve_tables(const FitRecord& record) {
     double largest = 0;
     for (double value : curve.measured) largest = std::max(largest, std::abs(value));
     std::vector<double> error;
-    for (std::size_t i = 0; i < curve.model.size(); ++i) error.push_back(100 * (curve.model[i] - curve.measured[i]) / largest);
+    for (std::size_t i = 0; i < curve.model.size(); ++i)
+      error.push_back(100 * (curve.model[i] - curve.measured[i]) / largest);
     columns.push_back({curve.quantity, curve.unit, curve.measured});
     columns.push_back({"model", curve.unit, curve.model});
     columns.push_back({"error", "percent", error});

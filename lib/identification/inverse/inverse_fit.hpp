@@ -1,4 +1,5 @@
-// A fit whose tests are scenes: searched on coarse cells first, then on those of the configs, and what their cells leave open.
+// A fit whose tests are scenes: searched on coarse cells first, then on those of the configs, and
+// what their cells leave open.
 #pragma once
 
 #include <memory>
@@ -13,13 +14,17 @@ namespace langer {
 class InverseFit {
  public:
   // quotients: derivatives by differences of whole runs, as viscous laws have them anyway.
-  // problem: gets the scenes as further tests. journal: keeps the runs (inverse/run_cache.hpp). files: of items without one.
-  InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where, FitProblem& problem,
-             const std::vector<std::string>& files, const std::string& journal, bool quotients = false);
+  // problem: gets the scenes as further tests. journal: keeps the runs (inverse/run_cache.hpp).
+  // files: of items without one.
+  InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where,
+             FitProblem& problem, const std::vector<std::string>& files, const std::string& journal,
+             bool quotients = false);
 
-  // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code where one has come.
+  // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code
+  // where one has come.
   FitResult search();
-  // the measured and found curves with the errors that their cells make, and what these do to the parameters, in words
+  // the measured and found curves with the errors that their cells make, and what these do to the
+  // parameters, in words
   std::vector<std::string> add_curves(const FitResult& fit, FitRecord& record);
   std::vector<std::string> cost() const;  // of what was solved, in words
   int runs() const { return scenes_->runs() + (draft_ ? draft_->runs() : 0); }

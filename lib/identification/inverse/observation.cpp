@@ -13,20 +13,25 @@ namespace langer {
 
 namespace {
 
-// Bilinear coordinates of a place in a quadrilateral, by Gauss and Newton; in_plan: seen from above. Nothing where it lies outside.
-std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corner, const Vec3& place, bool in_plan,
-                                                double tolerance) {
+// Bilinear coordinates of a place in a quadrilateral, by Gauss and Newton; in_plan: seen from
+// above. Nothing where it lies outside.
+std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corner,
+                                                const Vec3& place, bool in_plan, double tolerance) {
   double a = 0, b = 0;
   Vec3 miss = Vec3::Zero();
   const auto shapes = [&] {
-    return std::array{0.25 * (1 - a) * (1 - b), 0.25 * (1 + a) * (1 - b), 0.25 * (1 + a) * (1 + b), 0.25 * (1 - a) * (1 + b)};
+    return std::array{0.25 * (1 - a) * (1 - b), 0.25 * (1 + a) * (1 - b), 0.25 * (1 + a) * (1 + b),
+                      0.25 * (1 - a) * (1 + b)};
   };
   for (int i = 0; i < 20; ++i) {
     const auto N = shapes();
     Vec3 x = Vec3::Zero(), along_a = Vec3::Zero(), along_b = Vec3::Zero();
-    const std::array<double, 4> Na{-0.25 * (1 - b), 0.25 * (1 - b), 0.25 * (1 + b), -0.25 * (1 + b)};
-    const std::array<double, 4> Nb{-0.25 * (1 - a), -0.25 * (1 + a), 0.25 * (1 + a), 0.25 * (1 - a)};
-    for (std::size_t k = 0; k < 4; ++k) x += N[k] * corner[k], along_a += Na[k] * corner[k], along_b += Nb[k] * corner[k];
+    const std::array<double, 4> Na{-0.25 * (1 - b), 0.25 * (1 - b), 0.25 * (1 + b),
+                                   -0.25 * (1 + b)};
+    const std::array<double, 4> Nb{-0.25 * (1 - a), -0.25 * (1 + a), 0.25 * (1 + a),
+                                   0.25 * (1 - a)};
+    for (std::size_t k = 0; k < 4; ++k)
+      x += N[k] * corner[k], along_a += Na[k] * corner[k], along_b += Nb[k] * corner[k];
     miss = place - x;
     if (in_plan) miss[1] = along_a[1] = along_b[1] = 0;
     Eigen::Matrix<double, 3, 2> A;
@@ -43,7 +48,8 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
 }
 
 // of the indenter named, or of the first
-Vec3 way_of(const std::string& contact, const StepRecord& whole, const std::vector<RigidContact>& contacts) {
+Vec3 way_of(const std::string& contact, const StepRecord& whole,
+            const std::vector<RigidContact>& contacts) {
   for (const RigidContact& one : contacts)
     if (one.name == contact) return indenter_at(one, whole);
   return whole.u_ind;
@@ -51,24 +57,29 @@ Vec3 way_of(const std::string& contact, const StepRecord& whole, const std::vect
 
 }  // namespace
 
-double Observation::value(const StepRecord& whole, const std::vector<RigidContact>& contacts) const {
+double Observation::value(const StepRecord& whole,
+                          const std::vector<RigidContact>& contacts) const {
   if (of == Of::travel) return whole.scalars.at("travel_" + contact);
   if (of != Of::force) return sum(whole);
-  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact), way = way_of(contact, whole, contacts);
+  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact),
+             way = way_of(contact, whole, contacts);
   return way.norm() > 0 ? -force.dot(way.normalized()) : force.norm();
 }
 
-double Observation::slope(const StepRecord& whole, const StepRecord& derivative, const std::vector<RigidContact>& contacts) const {
+double Observation::slope(const StepRecord& whole, const StepRecord& derivative,
+                          const std::vector<RigidContact>& contacts) const {
   if (of == Of::travel) return derivative.scalars.at("travel_" + contact);
   if (of != Of::force) return sum(derivative);
   if (contact.empty()) return force_derivative(whole, derivative);
-  return derivative_against(way_of(contact, whole, contacts), force_on(whole, contact), force_on(derivative, contact));
+  return derivative_against(way_of(contact, whole, contacts), force_on(whole, contact),
+                            force_on(derivative, contact));
 }
 
 double Observation::sum(const StepRecord& whole) const {
   double sum = 0;
   const std::vector<Vec3>& field = of == Of::reaction ? whole.reaction : whole.u;
-  for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * field[static_cast<std::size_t>(nodes[k])][axis];
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sum += weights[k] * field[static_cast<std::size_t>(nodes[k])][axis];
   return sum;
 }
 
@@ -79,7 +90,8 @@ bool find_place(const Mesh& mesh, const Vec3& place, Observation& found) {
     for (const auto& quad : facet_quads(mesh, facet)) {
       std::array<Vec3, 4> corner;
       for (std::size_t k = 0; k < 4; ++k) corner[k] = mesh.X[static_cast<std::size_t>(quad[k])];
-      const auto N = weights_in(corner, in_plan ? Vec3(place[0], 0, place[2]) : place, in_plan, tolerance);
+      const auto N =
+          weights_in(corner, in_plan ? Vec3(place[0], 0, place[2]) : place, in_plan, tolerance);
       if (!N) continue;
       found.nodes.assign(quad.begin(), quad.end()), found.weights.assign(N->begin(), N->end());
       return true;

@@ -19,19 +19,21 @@ namespace langer {
 struct Observation {
   enum class Of { force, reaction, displacement, travel } of = Of::force;
   int axis = 0;
-  std::string contact = "";  // of a force on one of several indenters, empty: on all of them; of a travel
+  std::string contact =
+      "";  // of a force on one of several indenters, empty: on all of them; of a travel
   std::vector<int> nodes = {};
   std::vector<double> weights = {};
 
   // contacts: of the scene
   double value(const StepRecord& whole, const std::vector<RigidContact>& contacts) const;
   // derivative: what inverse/sensitivity.hpp gives
-  double slope(const StepRecord& whole, const StepRecord& derivative, const std::vector<RigidContact>& contacts) const;
+  double slope(const StepRecord& whole, const StepRecord& derivative,
+               const std::vector<RigidContact>& contacts) const;
   double sum(const StepRecord& whole) const;  // over the nodes
 };
 
-// Nodes and weights of a place on the surface: on the top where y is not given (NaN), else on the facet that it lies in.
-// false where there is none.
+// Nodes and weights of a place on the surface: on the top where y is not given (NaN), else on the
+// facet that it lies in. false where there is none.
 bool find_place(const Mesh& mesh, const Vec3& place, Observation& found);
 
 }  // namespace langer

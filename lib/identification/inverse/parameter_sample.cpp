@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
-#include "mechanics/material/parameters.hpp"
 #include "core/tensor/dense.hpp"
+#include "mechanics/material/parameters.hpp"
 
 namespace langer {
 
@@ -22,7 +22,8 @@ std::vector<Eigen::Index> with_variance(const FitRecord& fit) {
 
 VecX drawn(const FitRecord& fit, int number) {
   VecX p(static_cast<Eigen::Index>(fit.parameters.size()));
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) p[static_cast<Eigen::Index>(i)] = fit.parameters[i].value;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    p[static_cast<Eigen::Index>(i)] = fit.parameters[i].value;
   const std::vector<Eigen::Index> open = with_variance(fit);
   Random random(1, static_cast<std::uint64_t>(number));
   VecX z(static_cast<Eigen::Index>(open.size()));
@@ -39,13 +40,17 @@ VecX drawn(const FitRecord& fit, int number) {
 
 std::string why_no_samples(const MaterialFile& file, int number) {
   if (!file.fit) return "no fit";
-  if (file.fit->sets.rows() > 0) return number <= file.fit->sets.rows() ? "" : fmt::format("{} sets", file.fit->sets.rows());
-  return with_variance(*file.fit).empty() ? "a fit that does not tell how well its parameters are known" : "";
+  if (file.fit->sets.rows() > 0)
+    return number <= file.fit->sets.rows() ? "" : fmt::format("{} sets", file.fit->sets.rows());
+  return with_variance(*file.fit).empty()
+             ? "a fit that does not tell how well its parameters are known"
+             : "";
 }
 
 ParameterSample sample_of(const MaterialFile& file, int number) {
   const FitRecord& fit = *file.fit;
-  const VecX p = fit.sets.rows() > 0 ? VecX(fit.sets.row(number - 1).transpose()) : drawn(fit, number);
+  const VecX p =
+      fit.sets.rows() > 0 ? VecX(fit.sets.row(number - 1).transpose()) : drawn(fit, number);
   ParameterSample sample{file.material, {}, ""};
   const std::vector<MaterialParameter> numbers = parameters(sample.law);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
@@ -53,11 +58,13 @@ ParameterSample sample_of(const MaterialFile& file, int number) {
       if (one.name != fit.parameters[i].name) continue;
       *one.value = p[static_cast<Eigen::Index>(i)];
       sample.values.push_back({"parameter_" + one.name, *one.value, one.unit});
-      sample.words += fmt::format("{}{} = {:.5g}{}", sample.words.empty() ? "" : ", ", one.name, *one.value,
-                                  one.unit == std::string("-") ? "" : " " + std::string(one.unit));
+      sample.words +=
+          fmt::format("{}{} = {:.5g}{}", sample.words.empty() ? "" : ", ", one.name, *one.value,
+                      one.unit == std::string("-") ? "" : " " + std::string(one.unit));
     }
   TiedNumbers(sample.law, resolved(fit.ties).ties).follow();
-  sample.words = fmt::format("parameters {} of those that the fit leaves open: {}", number, sample.words);
+  sample.words =
+      fmt::format("parameters {} of those that the fit leaves open: {}", number, sample.words);
   return sample;
 }
 

@@ -11,9 +11,11 @@ namespace langer {
 
 using FindPlace = std::function<Place(const std::string&)>;
 
-[[noreturn]] inline void refuse_scene(const FindPlace& where, const std::string& key, std::string found, std::string expected,
+[[noreturn]] inline void refuse_scene(const FindPlace& where, const std::string& key,
+                                      std::string found, std::string expected,
                                       std::string hint = "") {
-  throw Failure(Exit::config, Error{where(key), key, std::move(found), std::move(expected), std::move(hint)});
+  throw Failure(Exit::config,
+                Error{where(key), key, std::move(found), std::move(expected), std::move(hint)});
 }
 
 }  // namespace langer

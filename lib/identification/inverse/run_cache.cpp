@@ -21,7 +21,8 @@ struct Bytes {
   }
   void put(const MatX& m) {
     put(m.rows()), put(m.cols());
-    text.append(reinterpret_cast<const char*>(m.data()), sizeof(double) * static_cast<std::size_t>(m.size()));
+    text.append(reinterpret_cast<const char*>(m.data()),
+                sizeof(double) * static_cast<std::size_t>(m.size()));
   }
   template <class T>
   T get() {

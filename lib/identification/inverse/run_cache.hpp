@@ -1,5 +1,6 @@
-// Forward runs that were made, by what they were made of: in memory, and in a journal beside the output, from which a fit that was
-// stopped goes on. What a run is made of is its config with all numbers, its observations and where its increments end.
+// Forward runs that were made, by what they were made of: in memory, and in a journal beside the
+// output, from which a fit that was stopped goes on. What a run is made of is its config with all
+// numbers, its observations and where its increments end.
 #pragma once
 
 #include <map>
@@ -15,8 +16,9 @@ namespace langer {
 
 class RunCache {
  public:
-  explicit RunCache(const std::string& journal = "");  // empty: in memory only; throws Failure(input)
-  ~RunCache();                                         // leaves no file without a run
+  explicit RunCache(
+      const std::string& journal = "");  // empty: in memory only; throws Failure(input)
+  ~RunCache();                           // leaves no file without a run
   // Both from several threads at once.
   std::shared_ptr<const ForwardPath> find(const std::string& key) const;
   std::shared_ptr<const ForwardPath> keep(const std::string& key, ForwardPath path);

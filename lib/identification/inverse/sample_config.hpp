@@ -1,4 +1,5 @@
-// Config of sample: which of the sets of parameters that a fit leaves open (inverse/parameter_sample.hpp).
+// Config of sample: which of the sets of parameters that a fit leaves open
+// (inverse/parameter_sample.hpp).
 #pragma once
 
 #include "core/base/fields.hpp"

@@ -28,7 +28,9 @@ struct Setting {
 std::vector<Setting> settings_of(const CandidateChoice& choice) {
   std::vector<Setting> all{{}};
   for (const CandidateValues& one : choice.vary) {
-    const std::string name = one.key.find("to[") != std::string::npos ? one.key : one.key.substr(one.key.find_last_of('.') + 1);
+    const std::string name = one.key.find("to[") != std::string::npos
+                                 ? one.key
+                                 : one.key.substr(one.key.find_last_of('.') + 1);
     std::vector<Setting> longer;
     for (const Setting& before : all)
       for (const double value : one.values) {
@@ -50,7 +52,8 @@ struct Slopes {
 
 class SceneOf {
  public:
-  SceneOf(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const FindPlace& where, std::size_t candidate)
+  SceneOf(const FitConfig& config, const FitProblem& problem, const FitResult& fit,
+          const FindPlace& where, std::size_t candidate)
       : config_(config),
         problem_(problem),
         fit_(fit),
@@ -69,7 +72,8 @@ class SceneOf {
     const Slopes by = slopes_of(scene);
     ForwardInput input{fit_.material, {}, by.keys};
     for (std::size_t i = 0; i < problem_.free.size(); ++i)
-      if (const auto friction = friction_of(i)) input.friction[*friction] = fit_.best.p[static_cast<Eigen::Index>(i)];
+      if (const auto friction = friction_of(i))
+        input.friction[*friction] = fit_.best.p[static_cast<Eigen::Index>(i)];
     const ForwardPath path = run.solve(input);
     why = path.why;
     if (!path.complete) return {};
@@ -78,8 +82,10 @@ class SceneOf {
 
  private:
   std::optional<std::string> friction_of(std::size_t i) const {
-    const auto number = problem_.free[i].of_law() ? std::nullopt : scene_number(config_, problem_.free[i].key);
-    return number && number->of == SceneNumber::Of::friction ? std::optional(number->contact) : std::nullopt;
+    const auto number =
+        problem_.free[i].of_law() ? std::nullopt : scene_number(config_, problem_.free[i].key);
+    return number && number->of == SceneNumber::Of::friction ? std::optional(number->contact)
+                                                             : std::nullopt;
   }
 
   Loaded<SolveConfig> scene(const Setting& setting, double& angle) const {
@@ -95,10 +101,14 @@ class SceneOf {
       set_value(tree, key, number);
     }
     Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
-    if (!loaded.config.mesh) refuse_scene(where_, at_ + "solve", choice_.solve.path + " has no mesh", "the key mesh there");
+    if (!loaded.config.mesh)
+      refuse_scene(where_, at_ + "solve", choice_.solve.path + " has no mesh",
+                   "the key mesh there");
     if (!loaded.config.fibre_angles.empty())
-      refuse_scene(where_, at_ + "solve", choice_.solve.path + " has fibre_angles, which would stand for those of the fit's law",
-                   "the law's own angle, and fibre_angle");
+      refuse_scene(
+          where_, at_ + "solve",
+          choice_.solve.path + " has fibre_angles, which would stand for those of the fit's law",
+          "the law's own angle, and fibre_angle");
     return loaded;
   }
 
@@ -109,14 +119,16 @@ class SceneOf {
       std::vector<std::string> known;
       for (const auto& [name, nodes] : run.mesh().node_sets) known.push_back(name);
       if (found == run.mesh().node_sets.end())
-        refuse_scene(where_, at_ + "on", "the scene has no set \"" + choice_.on + "\"", "one of " + list_words(known));
+        refuse_scene(where_, at_ + "on", "the scene has no set \"" + choice_.on + "\"",
+                     "one of " + list_words(known));
       return found->second;
     };
     for (const SceneQuantity quantity : choice_.measured) {
       Observation one;
       if (quantity == SceneQuantity::force) {
         if (run.config().contacts.empty())
-          refuse_scene(where_, at_ + "measured", "force, of a scene without indenters", "a reaction");
+          refuse_scene(where_, at_ + "measured", "force, of a scene without indenters",
+                       "a reaction");
         if (run.config().contacts.size() > 1) {
           if (!run.config().contacts.count(choice_.on))
             refuse_scene(where_, at_ + "on", "a scene with several indenters", "the name of one");
@@ -126,18 +138,21 @@ class SceneOf {
         continue;
       }
       const std::string word = names(quantity)[static_cast<std::size_t>(quantity)];
-      one.of = quantity >= SceneQuantity::u_x ? Observation::Of::displacement : Observation::Of::reaction;
+      one.of = quantity >= SceneQuantity::u_x ? Observation::Of::displacement
+                                              : Observation::Of::reaction;
       one.axis = word.back() - 'x';
       for (std::size_t i = 0; i < choice_.places.size(); ++i) {
         const auto& [x, z] = choice_.places[i];
         if (!find_place(run.mesh(), {x, std::nan(""), z}, one))
-          refuse_scene(where_, at_ + fmt::format("places[{}]", i), fmt::format("no top of the scene at ({:g}, {:g})", x, z),
-                       "a place on it");
+          refuse_scene(where_, at_ + fmt::format("places[{}]", i),
+                       fmt::format("no top of the scene at ({:g}, {:g})", x, z), "a place on it");
         all.push_back(one);
       }
       if (!choice_.places.empty()) continue;
       one.nodes = set();
-      one.weights.assign(one.nodes.size(), one.of == Observation::Of::reaction ? 1.0 : 1.0 / static_cast<double>(one.nodes.size()));
+      one.weights.assign(one.nodes.size(), one.of == Observation::Of::reaction
+                                               ? 1.0
+                                               : 1.0 / static_cast<double>(one.nodes.size()));
       all.push_back(one);
     }
     return all;
@@ -149,7 +164,8 @@ class SceneOf {
       const FreeParameter& p = problem_.free[i];
       const auto k = static_cast<Eigen::Index>(i);
       const auto friction = friction_of(i);
-      if (p.of_law() || (friction && scene.contacts.count(*friction))) by.keys.push_back(p.key), by.of.push_back({k, 1});
+      if (p.of_law() || (friction && scene.contacts.count(*friction)))
+        by.keys.push_back(p.key), by.of.push_back({k, 1});
       for (const Tie& tie : problem_.ties)
         if (tie.of == p.key) by.keys.push_back(tie.key), by.of.push_back({k, tie.factor});
     }
@@ -159,8 +175,10 @@ class SceneOf {
   // The states of the path count as many values as would be measured.
   MatX weighted(const ForwardPath& path, const Slopes& by) const {
     const Eigen::Index states = path.values.rows(), observations = path.values.cols();
-    const double count = std::sqrt(static_cast<double>(choice_.points) / static_cast<double>(states));
-    const Eigen::Index of_each = choice_.places.empty() ? 1 : static_cast<Eigen::Index>(choice_.places.size());
+    const double count =
+        std::sqrt(static_cast<double>(choice_.points) / static_cast<double>(states));
+    const Eigen::Index of_each =
+        choice_.places.empty() ? 1 : static_cast<Eigen::Index>(choice_.places.size());
     MatX J = MatX::Zero(states * observations, fit_.best.p.size());
     for (Eigen::Index o = 0; o < observations; ++o) {
       const Eigen::Index first = o / of_each * of_each;  // of the places of one quantity
@@ -168,7 +186,8 @@ class SceneOf {
       const double deviation = choice_.standard_deviation.value_or(config_.noise() * largest);
       if (!(deviation > 0)) continue;  // nothing moves there
       for (std::size_t k = 0; k < by.of.size(); ++k)
-        J.block(o * states, by.of[k].first, states, 1) += by.of[k].second * count / deviation * path.slopes[k].col(o);
+        J.block(o * states, by.of[k].first, states, 1) +=
+            by.of[k].second * count / deviation * path.slopes[k].col(o);
     }
     return J;
   }
@@ -192,7 +211,9 @@ std::vector<Wanted> wanted_of(const FitConfig& config) {
   for (std::size_t i = 0; i < config.study->candidates.size(); ++i) {
     const CandidateChoice& choice = config.study->candidates[i];
     if (choice.kind != DataKind::scene) continue;
-    const std::string name = choice.name.empty() ? std::filesystem::path(choice.solve.path).stem().string() : choice.name;
+    const std::string name = choice.name.empty()
+                                 ? std::filesystem::path(choice.solve.path).stem().string()
+                                 : choice.name;
     for (const Setting& setting : settings_of(choice))
       all.push_back({i, setting, setting.words.empty() ? name : name + ", " + setting.words});
   }
@@ -201,7 +222,8 @@ std::vector<Wanted> wanted_of(const FitConfig& config) {
 
 }  // namespace
 
-SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem, const FitResult& fit, const FindPlace& where) {
+SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem,
+                                 const FitResult& fit, const FindPlace& where) {
   SceneCandidates out;
   if (!config.study) return out;
   const std::vector<Wanted> wanted = wanted_of(config);
@@ -212,7 +234,8 @@ SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& prob
       [&](int, int k) {
         const auto i = static_cast<std::size_t>(k);
         try {
-          J[i] = SceneOf(config, problem, fit, where, wanted[i].candidate).slopes(wanted[i].setting, why[i]);
+          J[i] = SceneOf(config, problem, fit, where, wanted[i].candidate)
+                     .slopes(wanted[i].setting, why[i]);
         } catch (const Failure& failure) {
           if (failure.code() != Exit::not_converged || interrupted()) throw;
           why[i] = failure.what();
@@ -225,7 +248,8 @@ SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& prob
       out.without.push_back(fmt::format("no advice on {}: {}", wanted[i].name, why[i]));
       continue;
     }
-    const bool joins = choice.together && i > 0 && wanted[i - 1].candidate == wanted[i].candidate && J[i - 1];
+    const bool joins =
+        choice.together && i > 0 && wanted[i - 1].candidate == wanted[i].candidate && J[i - 1];
     if (!joins) {
       out.candidates.push_back({wanted[i].name, *J[i], 1});
       continue;

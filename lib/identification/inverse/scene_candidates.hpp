@@ -1,5 +1,6 @@
-// Candidates of the advice (fit/advice.hpp) that are scenes: one run of each with the derivatives by the free parameters, at what the fit
-// found. Each value counts with its standard deviation, so that `noise` is 1.
+// Candidates of the advice (fit/advice.hpp) that are scenes: one run of each with the derivatives
+// by the free parameters, at what the fit found. Each value counts with its standard deviation, so
+// that `noise` is 1.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@ struct SceneCandidates {
 };
 
 // of config.study; throws Failure(config) at the key that does not fit the scene
-SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem, const FitResult& fit,
+SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem,
+                                 const FitResult& fit,
                                  const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

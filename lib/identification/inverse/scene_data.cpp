@@ -21,13 +21,16 @@ struct KnownUnit {
   double factor;
 };
 constexpr KnownUnit known_units[]{
-    {"mm", "mm", 1},      {"um", "mm", 1e-3},  {"µm", "mm", 1e-3},    {"cm", "mm", 10},        {"m", "mm", 1e3},
-    {"N", "N", 1},        {"mN", "N", 1e-3},   {"kN", "N", 1e3},      {"gf", "N", 9.80665e-3}, {"MPa", "MPa", 1},
-    {"kPa", "MPa", 1e-3}, {"Pa", "MPa", 1e-6}, {"mbar", "MPa", 1e-4}, {"bar", "MPa", 0.1},     {"mmHg", "MPa", 1.33322387415e-4},
-    {"s", "s", 1},        {"ms", "s", 1e-3},   {"min", "s", 60}};
+    {"mm", "mm", 1},       {"um", "mm", 1e-3},   {"µm", "mm", 1e-3},
+    {"cm", "mm", 10},      {"m", "mm", 1e3},     {"N", "N", 1},
+    {"mN", "N", 1e-3},     {"kN", "N", 1e3},     {"gf", "N", 9.80665e-3},
+    {"MPa", "MPa", 1},     {"kPa", "MPa", 1e-3}, {"Pa", "MPa", 1e-6},
+    {"mbar", "MPa", 1e-4}, {"bar", "MPa", 0.1},  {"mmHg", "MPa", 1.33322387415e-4},
+    {"s", "s", 1},         {"ms", "s", 1e-3},    {"min", "s", 60}};
 
 const KnownUnit* find_unit(std::string text) {
-  std::erase_if(text, [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
+  std::erase_if(text,
+                [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
   for (const KnownUnit& one : known_units)
     if (text == one.word) return &one;
   return nullptr;
@@ -61,24 +64,28 @@ std::vector<std::pair<const char*, const std::string*>> asked(const FitColumns& 
   return all;
 }
 
-[[noreturn]] void refuse(const Place& at, const std::string& key, std::string found, std::string expected, std::string hint = "") {
-  throw Failure(Exit::input, Error{at, key, std::move(found), std::move(expected), std::move(hint)});
+[[noreturn]] void refuse(const Place& at, const std::string& key, std::string found,
+                         std::string expected, std::string hint = "") {
+  throw Failure(Exit::input,
+                Error{at, key, std::move(found), std::move(expected), std::move(hint)});
 }
 
 double factor_of(const SceneColumn& column, const KnownUnit* unit) {
   if (!unit) return 1;
   if (std::string(unit->unit) != column.unit)
-    refuse(column.place, "columns." + column.key, fmt::format("the unit {} of the column \"{}\"", unit->word, column.header),
-           column.unit == "-" ? "no unit"
-                              : fmt::format("one of {}", column.unit == "mm"  ? "length: mm, um, cm, m"
-                                                         : column.unit == "N" ? "force: N, mN, kN"
-                                                         : column.unit == "s" ? "time: s, ms, min"
-                                                                              : "pressure: MPa, kPa, Pa, mbar"));
+    refuse(column.place, "columns." + column.key,
+           fmt::format("the unit {} of the column \"{}\"", unit->word, column.header),
+           column.unit == "-"
+               ? "no unit"
+               : fmt::format("one of {}", column.unit == "mm"  ? "length: mm, um, cm, m"
+                                          : column.unit == "N" ? "force: N, mN, kN"
+                                          : column.unit == "s" ? "time: s, ms, min"
+                                                               : "pressure: MPa, kPa, Pa, mbar"));
   return unit->factor;
 }
 
-std::size_t column_called(const std::vector<std::string>& names, const std::string& wanted, const std::string& key,
-                          const Place& at) {
+std::size_t column_called(const std::vector<std::string>& names, const std::string& wanted,
+                          const std::string& key, const Place& at) {
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string near = nearest(wanted, names);
@@ -109,7 +116,8 @@ SceneData from_table(const FitData& data, const std::string& file) {
   const auto columns = asked(*data.columns);
   CsvReading reading{data.decimal};
   reading.is_header = [&](const std::vector<CsvCell>& cells) {
-    return std::any_of(cells.begin(), cells.end(), [&](const CsvCell& cell) { return cell.text == *columns.front().second; });
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const CsvCell& cell) { return cell.text == *columns.front().second; });
   };
   const CsvTable table = read_table(file, reading);
   std::vector<std::string> names;
@@ -122,17 +130,23 @@ SceneData from_table(const FitData& data, const std::string& file) {
         }))
       rows.push_back(&row);
   SceneData read;
-  if (rows.empty()) refuse(header, "file", "no rows", "a row of numbers at least", data.where.empty() ? "" : "see `where`");
+  if (rows.empty())
+    refuse(header, "file", "no rows", "a row of numbers at least",
+           data.where.empty() ? "" : "see `where`");
   for (const auto& [key, wanted] : columns) {
     const std::size_t at = column_called(names, *wanted, key, header);
-    SceneColumn one{key, *wanted, unit_of_column(key), {}, {file, table.header.line, table.header.cells[at].column}};
+    SceneColumn one{key,
+                    *wanted,
+                    unit_of_column(key),
+                    {},
+                    {file, table.header.line, table.header.cells[at].column}};
     const KnownUnit* below = table.units.empty() ? nullptr : find_unit(table.units[at]);
     const double factor = factor_of(one, below ? below : unit_in_name(*wanted));
     for (const CsvRow* row : rows) {
       const auto number = table.number(row->cells[at]);
       if (!number || !std::isfinite(*number))
-        refuse({file, row->line, row->cells[at].column}, "columns." + std::string(key), "found \"" + row->cells[at].text + "\"",
-               "a number");
+        refuse({file, row->line, row->cells[at].column}, "columns." + std::string(key),
+               "found \"" + row->cells[at].text + "\"", "a number");
       one.values.push_back(factor * *number);
     }
     read.columns.push_back(std::move(one));
@@ -157,7 +171,8 @@ const SceneColumn* SceneData::find(const std::string& key) const {
 }
 
 SceneData read_scene_data(const FitData& data, const std::string& file) {
-  SceneData read = std::filesystem::path(file).extension() == ".h5" ? from_curves(data, file) : from_table(data, file);
+  SceneData read = std::filesystem::path(file).extension() == ".h5" ? from_curves(data, file)
+                                                                    : from_table(data, file);
   read.name = data.name.empty() ? std::filesystem::path(file).stem().string() : data.name;
   return read;
 }

@@ -1,6 +1,7 @@
 // The measured file of a scene: columns as numbers in mm, N, MPa and s, whatever the file says.
 //   CSV (base/csv_table.hpp), or curves.h5 of langer-post
-// Refused, with file, line and column: unknown columns, units of another kind, text where a number should be, no rows.
+// Refused, with file, line and column: unknown columns, units of another kind, text where a number
+// should be, no rows.
 #pragma once
 
 #include <array>

@@ -7,8 +7,8 @@
 
 #include "core/base/in_order.hpp"
 #include "core/base/stopwatch.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "results/store/identity.hpp"
+#include "scene/model/solve_config_io.hpp"
 
 namespace langer {
 
@@ -25,7 +25,8 @@ std::string key_of(const ForwardRun& run, const ForwardInput& input, const std::
 ForwardInput SceneTests::input_at(const VecX& p) const {
   ForwardInput input{with_parameters(law_, p), {}, {}};
   for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (!numbers_[i].contact.empty()) input.friction[numbers_[i].contact] = p[static_cast<Eigen::Index>(i)];
+    if (!numbers_[i].contact.empty())
+      input.friction[numbers_[i].contact] = p[static_cast<Eigen::Index>(i)];
   if (!options_.quotients) input.slopes = slopes_;
   return input;
 }
@@ -51,7 +52,8 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
         try {
           path = forward_[one.scene]->solve(one.input);
         } catch (const Failure& failure) {
-          const bool of_trial = failure.code() == Exit::config || failure.code() == Exit::not_converged;
+          const bool of_trial =
+              failure.code() == Exit::config || failure.code() == Exit::not_converged;
           if (!of_trial || !solvable_[one.scene]) throw;  // a scene that never was, or a signal
           path.why = failure.what();
         }
@@ -79,7 +81,8 @@ bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
 
 double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (const auto& number = numbers_[i].measured; number && number->data == test.data && number->of == of)
+    if (const auto& number = numbers_[i].measured;
+        number && number->data == test.data && number->of == of)
       return p[static_cast<Eigen::Index>(i)];
   const FitData& data = config_.data[test.data];
   return of == SceneNumber::Of::touch_offset   ? data.touch_offset
@@ -87,7 +90,8 @@ double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const 
                                                : data.compliance;
 }
 
-bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p, Read what, VecX& out) const {
+bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
+                      Read what, VecX& out) const {
   const double touch = measured_by(test, SceneNumber::Of::touch_offset, p),
                force = measured_by(test, SceneNumber::Of::force_offset, p),
                compliance = measured_by(test, SceneNumber::Of::compliance, p);
@@ -104,10 +108,11 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
     const PathPlace place = place_on(path.t, test.kinks, *t);
     if (!place.exists) return false;
     for (const SceneCurve& curve : test.curves) {
-      const auto column =
-          static_cast<Eigen::Index>(curve.observation[curve.observation.size() > 1 ? static_cast<std::size_t>(row) : 0]);
+      const auto column = static_cast<Eigen::Index>(
+          curve.observation[curve.observation.size() > 1 ? static_cast<std::size_t>(row) : 0]);
       double sum = 0;
-      for (const auto& [state, weight] : what == Read::rate ? place.rate : place.value) sum += weight * of(state, column);
+      for (const auto& [state, weight] : what == Read::rate ? place.rate : place.value)
+        sum += weight * of(state, column);
       out[curve.first + row] = what == Read::rate ? sum * test.over.rate(piece) : sum;
     }
   }
@@ -123,17 +128,19 @@ bool SceneTests::model(const VecX& p, VecX& values) {
     VecX of_test;
     const ForwardPath& path = *paths[test.run];
     if (!read(test, path, path.values, p, Read::values, of_test)) {
-      failure_ = fmt::format("the path of {} ends before what {} measured, at these offsets", config_.data[test.data].solve.path,
-                             test.name);
+      failure_ = fmt::format("the path of {} ends before what {} measured, at these offsets",
+                             config_.data[test.data].solve.path, test.name);
       return false;
     }
     const double offset = measured_by(test, SceneNumber::Of::force_offset, p);
     for (const SceneCurve& curve : test.curves)
-      if (curve.unit == "N") of_test.segment(curve.first, static_cast<Eigen::Index>(test.s.size())).array() += offset;
+      if (curve.unit == "N")
+        of_test.segment(curve.first, static_cast<Eigen::Index>(test.s.size())).array() += offset;
     values.segment(first_[i], of_test.size()) = of_test;
   }
   if (options_.say)
-    options_.say(fmt::format("run {}: chi-square {:.6g}", runs_, weight_.cwiseProduct(values - measured_).squaredNorm()));
+    options_.say(fmt::format("run {}: chi-square {:.6g}", runs_,
+                             weight_.cwiseProduct(values - measured_).squaredNorm()));
   return true;
 }
 
@@ -168,24 +175,29 @@ bool SceneTests::by_quotients(const VecX& p, const std::vector<Path>& paths, Mat
     if (numbers_[i].measured) continue;
     const FreeParameter& free = law_.free[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const double size =
-        std::max(std::abs(p[k]), 1e-3 * (free.unit == unit::deg || free.lower == free.upper ? 1 : free.upper - free.lower));
-    const double h = (with_friction_ ? 1e-3 : 1e-4) * size * (p[k] + 1e-3 * size <= free.upper ? 1 : -1);
+    const double size = std::max(
+        std::abs(p[k]),
+        1e-3 * (free.unit == unit::deg || free.lower == free.upper ? 1 : free.upper - free.lower));
+    const double h =
+        (with_friction_ ? 1e-3 : 1e-4) * size * (p[k] + 1e-3 * size <= free.upper ? 1 : -1);
     VecX moved = p;
     moved[k] += h;
     steps.push_back({i, moved[k] - p[k]});
-    for (std::size_t scene = 0; scene < forward_.size(); ++scene) wanted.push_back({scene, input_at(moved)});
+    for (std::size_t scene = 0; scene < forward_.size(); ++scene)
+      wanted.push_back({scene, input_at(moved)});
   }
   const std::vector<Path> moved = solved(wanted);
   for (std::size_t step = 0; step < steps.size(); ++step)
     for (std::size_t i = 0; i < tests_.size(); ++i) {
       const SceneTest& test = tests_[i];
-      const ForwardPath &path = *paths[test.run], &other = *moved[step * forward_.size() + test.run];
+      const ForwardPath &path = *paths[test.run],
+                        &other = *moved[step * forward_.size() + test.run];
       VecX here, there;
       if (!other.complete || !read(test, path, path.values, p, Read::values, here) ||
           !read(test, other, other.values, p, Read::values, there))
         return false;
-      J.block(first_[i], static_cast<Eigen::Index>(steps[step].first), here.size(), 1) = (there - here) / steps[step].second;
+      J.block(first_[i], static_cast<Eigen::Index>(steps[step].first), here.size(), 1) =
+          (there - here) / steps[step].second;
     }
   return true;
 }
@@ -196,7 +208,8 @@ void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, Mat
       const SceneTest& test = tests_[k];
       if (!numbers_[i].measured || numbers_[i].measured->data != test.data) continue;
       VecX rate;
-      if (!read(test, *paths[test.run], paths[test.run]->values, p, Read::rate, rate)) continue;  // the model is not there either
+      if (!read(test, *paths[test.run], paths[test.run]->values, p, Read::rate, rate))
+        continue;  // the model is not there either
       auto column = J.block(first_[k], static_cast<Eigen::Index>(i), rate.size(), 1);
       const auto rows = static_cast<Eigen::Index>(test.s.size());
       const double compliance = measured_by(test, SceneNumber::Of::compliance, p),
@@ -213,7 +226,9 @@ void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, Mat
         default:
           for (const SceneCurve& curve : test.curves)
             column.middleRows(curve.first, rows) =
-                -rate.segment(curve.first, rows).cwiseProduct((test.measured.segment(test.force, rows).array() - force).matrix());
+                -rate.segment(curve.first, rows)
+                     .cwiseProduct(
+                         (test.measured.segment(test.force, rows).array() - force).matrix());
       }
     }
 }
@@ -234,8 +249,10 @@ std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
                       {},
                       test.places};
       const auto rows = static_cast<Eigen::Index>(test.s.size());
-      const VecX measured = test.measured.segment(curve.first, rows), model = values.segment(first_[i] + curve.first, rows);
-      one.measured.assign(measured.data(), measured.data() + rows), one.model.assign(model.data(), model.data() + rows);
+      const VecX measured = test.measured.segment(curve.first, rows),
+                 model = values.segment(first_[i] + curve.first, rows);
+      one.measured.assign(measured.data(), measured.data() + rows),
+          one.model.assign(model.data(), model.data() + rows);
       for (Vec3& place : one.places)
         if (std::isnan(place[1])) place[1] = top_[test.run];
       all.push_back(std::move(one));

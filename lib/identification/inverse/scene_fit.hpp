@@ -1,6 +1,7 @@
-// The scenes among the tests of a fit (fit/fit.hpp): their runs, made side by side and each once, and what they say at a set of parameters.
-// The derivative by a number of the law or by friction is that of the runs; that by touch offset, force offset and compliance follows
-// from where on its path a value is read:   s = s_read - touch_offset - compliance (F_read - force_offset)
+// The scenes among the tests of a fit (fit/fit.hpp): their runs, made side by side and each once,
+// and what they say at a set of parameters. The derivative by a number of the law or by friction is
+// that of the runs; that by touch offset, force offset and compliance follows from where on its
+// path a value is read:   s = s_read - touch_offset - compliance (F_read - force_offset)
 #pragma once
 
 #include <functional>
@@ -12,8 +13,8 @@
 #include "identification/fit/fit.hpp"
 #include "identification/inverse/run_cache.hpp"
 #include "identification/inverse/scene_test.hpp"
-#include "results/store/material_file.hpp"
 #include "identification/setup/fit_config.hpp"
+#include "results/store/material_file.hpp"
 
 namespace langer {
 
@@ -26,31 +27,37 @@ struct SceneFitOptions {
 class SceneTests : public FurtherTests {
  public:
   using Where = std::function<Place(const std::string&)>;
-  static constexpr double beyond_path = 0.1;  // part of a path by which trial offsets may lead beyond its end
+  static constexpr double beyond_path =
+      0.1;  // part of a path by which trial offsets may lead beyond its end
   const VecX& measured() const override { return measured_; }
   const VecX& weight() const override { return weight_; }
   const std::vector<Eigen::Index>& curves() const override { return curves_; }
   bool model(const VecX& p, VecX& values) override;
   bool slope(const VecX& p, MatX& J) override;
 
-  // Reads solve configs and files; `files` are those of the items that name none. problem: its law, free numbers and ties.
-  // Throws Failure(config, input) at the key or the line that does not fit.
-  SceneTests(const FitConfig& config, const Where& where, const FitProblem& problem, const std::vector<std::string>& files,
-             std::shared_ptr<RunCache> cache, SceneFitOptions options, double longer = 1);
-  // the same on cells longer by a factor, where they follow from numbers of a config; nullptr where none do
+  // Reads solve configs and files; `files` are those of the items that name none. problem: its law,
+  // free numbers and ties. Throws Failure(config, input) at the key or the line that does not fit.
+  SceneTests(const FitConfig& config, const Where& where, const FitProblem& problem,
+             const std::vector<std::string>& files, std::shared_ptr<RunCache> cache,
+             SceneFitOptions options, double longer = 1);
+  // the same on cells longer by a factor, where they follow from numbers of a config; nullptr where
+  // none do
   std::shared_ptr<SceneTests> on_longer_cells(double factor) const;
 
-  int runs() const { return runs_; }                            // made so far
-  double run_seconds() const { return seconds_; }               // of CPU, in them
-  const std::string& last_failure() const { return failure_; }  // why the scene of a trial set has no end
-  std::vector<FittedCurve> fitted(const VecX& values) const;    // at the values that were found
+  int runs() const { return runs_; }               // made so far
+  double run_seconds() const { return seconds_; }  // of CPU, in them
+  const std::string& last_failure() const {
+    return failure_;
+  }  // why the scene of a trial set has no end
+  std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
   const std::vector<SceneTest>& tests() const { return tests_; }
   std::size_t scenes() const { return forward_.size(); }
 
  private:
-  struct Number {                         // a free parameter as a scene sees it
-    std::string contact;                  // friction
-    std::optional<SceneNumber> measured;  // touch_offset, force_offset, compliance; none of both: of the law
+  struct Number {         // a free parameter as a scene sees it
+    std::string contact;  // friction
+    std::optional<SceneNumber>
+        measured;  // touch_offset, force_offset, compliance; none of both: of the law
   };
   using Path = std::shared_ptr<const ForwardPath>;
   struct Wanted {
@@ -61,9 +68,11 @@ class SceneTests : public FurtherTests {
   std::vector<Path> solved(const std::vector<Wanted>& wanted);
   bool paths_at(const VecX& p, std::vector<Path>& paths);
   double measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const;
-  // of the values of a test: those of `of`, which has a column for each observation, or their rate over s
+  // of the values of a test: those of `of`, which has a column for each observation, or their rate
+  // over s
   enum class Read { values, rate };
-  bool read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p, Read what, VecX& out) const;
+  bool read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
+            Read what, VecX& out) const;
   bool by_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J);
   bool by_runs(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
   void by_measuring(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
@@ -84,7 +93,8 @@ class SceneTests : public FurtherTests {
   std::vector<bool> solvable_;       // which have had an end
   std::vector<double> top_;          // of the mesh of each forward run [mm]
   bool any_longer_ = false, with_friction_ = false;
-  std::vector<std::string> slopes_;  // numbers by which runs are differentiated, and what changes of them each parameter makes
+  std::vector<std::string> slopes_;  // numbers by which runs are differentiated, and what changes
+                                     // of them each parameter makes
   std::vector<std::vector<std::pair<std::size_t, double>>> slope_of_;
   std::vector<SceneTest> tests_;
   std::vector<Eigen::Index> first_;  // of the values of each test

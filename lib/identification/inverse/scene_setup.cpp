@@ -14,25 +14,30 @@ namespace langer {
 namespace {
 
 // the solve config of an item of data with its mesh
-Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item, const SceneTests::Where& where) {
+Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
+                                 const SceneTests::Where& where) {
   const std::string at = fmt::format("data[{}].", item);
   Tree tree = load_yaml(data.solve.path);
   if (!data.mesh.path.empty()) {
     if (tree.find("mesh"))
       throw Failure(Exit::config,
-                    Error{where(at + "mesh"), at + "mesh", "found beside the mesh in " + data.solve.path, "one of the two", ""});
+                    Error{where(at + "mesh"), at + "mesh",
+                          "found beside the mesh in " + data.solve.path, "one of the two", ""});
     set_value(tree, "mesh", load_yaml(data.mesh.path));
   }
   Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
   if (!loaded.config.mesh)
-    throw Failure(Exit::config, Error{where(at + "solve"), at + "solve", data.solve.path + " has no mesh",
-                                      "the key mesh there, or here", "mesh: ../mesh/indentation.yaml"});
+    throw Failure(Exit::config,
+                  Error{where(at + "solve"), at + "solve", data.solve.path + " has no mesh",
+                        "the key mesh there, or here", "mesh: ../mesh/indentation.yaml"});
   return loaded;
 }
 
-// Where increments end: measured places that are no closer than half the largest of them. The travel of an indenter that is pushed begins
-// upright over its force, where no polynomial follows it: there all places.
-std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const FitConfig& config, double largest) {
+// Where increments end: measured places that are no closer than half the largest of them. The
+// travel of an indenter that is pushed begins upright over its force, where no polynomial follows
+// it: there all places.
+std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const FitConfig& config,
+                             double largest) {
   constexpr double apart = 0.499;
   std::map<double, double> places;  // with the room that they need
   std::set<double> kept;
@@ -40,37 +45,46 @@ std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const F
     for (std::size_t row = 0; row < test->s.size(); ++row) {
       const double s = test->s[row];
       std::size_t piece = test->stretch[row];
-      if (const auto t = test->over.find(s - (test->over.key == "u_ind" ? config.data[test->data].touch_offset : 0), piece,
-                                         SceneTests::beyond_path);
+      if (const auto t = test->over.find(
+              s - (test->over.key == "u_ind" ? config.data[test->data].touch_offset : 0), piece,
+              SceneTests::beyond_path);
           t && *t > 0 && *t < 1)
-        places.insert({*t, test->over.key == "force" && *t < 2 * largest ? 1e-3 * largest : apart * largest});
+        places.insert(
+            {*t, test->over.key == "force" && *t < 2 * largest ? 1e-3 * largest : apart * largest});
     }
     kept.insert(test->kinks.begin(), test->kinks.end());
   }
   std::vector<double> stops;
   for (const auto& [t, needed] : places) {
     const auto behind = kept.lower_bound(t);
-    const double room = std::min(behind == kept.end() ? 1 : *behind - t, behind == kept.begin() ? t : t - *std::prev(behind));
+    const double room = std::min(behind == kept.end() ? 1 : *behind - t,
+                                 behind == kept.begin() ? t : t - *std::prev(behind));
     if (room < needed) continue;
     stops.push_back(t), kept.insert(t);
   }
   return stops;
 }
 
-std::string looks_of(const std::vector<Observation>& observations, const std::vector<double>& stops) {
+std::string looks_of(const std::vector<Observation>& observations,
+                     const std::vector<double>& stops) {
   std::string text;
   for (const Observation& one : observations)
-    text += fmt::format("{} {} {} {} {}\n", static_cast<int>(one.of), one.axis, one.contact, fmt::join(one.nodes, ","),
-                        fmt::join(one.weights, ","));
+    text += fmt::format("{} {} {} {} {}\n", static_cast<int>(one.of), one.axis, one.contact,
+                        fmt::join(one.nodes, ","), fmt::join(one.weights, ","));
   return text + fmt::format("{}\n", fmt::join(stops, ","));
 }
 
 }  // namespace
 
 SceneTests::SceneTests(const FitConfig& config, const Where& where, const FitProblem& problem,
-                       const std::vector<std::string>& files, std::shared_ptr<RunCache> cache, SceneFitOptions options,
-                       double longer)
-    : config_(config), where_(where), files_(files), law_(problem), cache_(std::move(cache)), options_(std::move(options)) {
+                       const std::vector<std::string>& files, std::shared_ptr<RunCache> cache,
+                       SceneFitOptions options, double longer)
+    : config_(config),
+      where_(where),
+      files_(files),
+      law_(problem),
+      cache_(std::move(cache)),
+      options_(std::move(options)) {
   law_.tests.clear(), law_.further.reset();
   std::map<std::string, std::size_t> known;
   run_of_.assign(config_.data.size(), 0);
@@ -82,24 +96,29 @@ SceneTests::SceneTests(const FitConfig& config, const Where& where, const FitPro
 }
 
 std::shared_ptr<SceneTests> SceneTests::on_longer_cells(double factor) const {
-  auto longer = std::make_shared<SceneTests>(config_, where_, law_, files_, cache_, options_, factor);
+  auto longer =
+      std::make_shared<SceneTests>(config_, where_, law_, files_, cache_, options_, factor);
   return longer->any_longer_ ? longer : nullptr;
 }
 
 // items of one scene share its runs
-void SceneTests::add_run(std::size_t item, double longer, std::map<std::string, std::size_t>& known) {
+void SceneTests::add_run(std::size_t item, double longer,
+                         std::map<std::string, std::size_t>& known) {
   const FitData& data = config_.data[item];
   const auto [at, is_new] =
-      known.insert({fmt::format("{}\n{}\n{}", data.solve.path, data.mesh.path, data.fibre_angle), forward_.size()});
+      known.insert({fmt::format("{}\n{}\n{}", data.solve.path, data.mesh.path, data.fibre_angle),
+                    forward_.size()});
   run_of_[item] = at->second;
   if (!is_new) return;
   Loaded<SolveConfig> loaded = scene_config(data, item, where_);
   SolveConfig& scene = loaded.config;
   const bool angle_free =
-      std::any_of(law_.free.begin(), law_.free.end(), [](const FreeParameter& p) { return p.key.ends_with("].alpha"); });
+      std::any_of(law_.free.begin(), law_.free.end(),
+                  [](const FreeParameter& p) { return p.key.ends_with("].alpha"); });
   if (!scene.fibre_angles.empty() && (angle_free || data.fibre_angle != 0))
     throw Failure(Exit::config,
-                  Error{loaded.where("fibre_angles"), "fibre_angles", "found, and would stand for the angles of the fit's law",
+                  Error{loaded.where("fibre_angles"), "fibre_angles",
+                        "found, and would stand for the angles of the fit's law",
                         "none: the law's own angle, and fibre_angle of the item of data", ""});
   choose_accuracy(scene, law_.law);
   auto run = std::make_shared<ForwardRun>(scene, loaded.where, data.fibre_angle);
@@ -130,35 +149,44 @@ void SceneTests::add_tests() {
     if (!data.is_scene()) continue;
     const std::string key = fmt::format("data[{}].file", i);
     if (data.file.path.empty() && next >= files_.size())
-      throw Failure(Exit::config, Error{where_(key), key, "missing", "a measured file, or one given by --curves", ""});
+      throw Failure(Exit::config, Error{where_(key), key, "missing",
+                                        "a measured file, or one given by --curves", ""});
     const std::string file = data.file.path.empty() ? files_[next++] : data.file.path;
     const std::size_t run = run_of_[i];
     SceneData read = read_scene_data(data, file);
     if (data.file.path.empty() && data.name.empty()) read.name = fmt::format("scene_{}", i + 1);
-    for (int n = 2; std::any_of(tests_.begin(), tests_.end(), [&](const SceneTest& t) { return t.name == read.name; }); ++n)
-      read.name = fmt::format("{}_{}", read.name.substr(0, read.name.find_last_not_of("_0123456789") + 1), n);
-    tests_.push_back(
-        scene_test(data, i, read, *forward_[run], config_.noise(), offset_free(i) ? beyond_path : 1e-6, where_, observations[run]));
+    for (int n = 2; std::any_of(tests_.begin(), tests_.end(),
+                                [&](const SceneTest& t) { return t.name == read.name; });
+         ++n)
+      read.name = fmt::format(
+          "{}_{}", read.name.substr(0, read.name.find_last_not_of("_0123456789") + 1), n);
+    tests_.push_back(scene_test(data, i, read, *forward_[run], config_.noise(),
+                                offset_free(i) ? beyond_path : 1e-6, where_, observations[run]));
     tests_.back().run = run;
   }
   if (next < files_.size())
-    throw Failure(Exit::config, Error{where_("data"), "data", fmt::format("{} files by --curves", files_.size()),
-                                      fmt::format("{}, one for each scene without a file", next), ""});
+    throw Failure(Exit::config,
+                  Error{where_("data"), "data", fmt::format("{} files by --curves", files_.size()),
+                        fmt::format("{}, one for each scene without a file", next), ""});
   for (std::size_t run = 0; run < forward_.size(); ++run) {
     std::vector<const SceneTest*> of_run;
     for (const SceneTest& test : tests_)
       if (test.run == run) of_run.push_back(&test);
-    const std::vector<double> stops = stops_of(of_run, config_, forward_[run]->config().path.largest_increment());
+    const std::vector<double> stops =
+        stops_of(of_run, config_, forward_[run]->config().path.largest_increment());
     // cells that were lengthened do not stand in the config
-    looks_.push_back(fmt::format("{} nodes\n", forward_[run]->mesh().n_nodes()) + looks_of(observations[run], stops));
+    looks_.push_back(fmt::format("{} nodes\n", forward_[run]->mesh().n_nodes()) +
+                     looks_of(observations[run], stops));
     forward_[run]->observe(observations[run], stops);
   }
   std::vector<double> measured, weight;
   for (const SceneTest& test : tests_) {
     first_.push_back(static_cast<Eigen::Index>(measured.size()));
-    measured.insert(measured.end(), test.measured.data(), test.measured.data() + test.measured.size());
+    measured.insert(measured.end(), test.measured.data(),
+                    test.measured.data() + test.measured.size());
     weight.insert(weight.end(), static_cast<std::size_t>(test.measured.size()), 1 / test.deviation);
-    for (std::size_t k = 0; k < test.curves.size(); ++k) curves_.push_back(static_cast<Eigen::Index>(test.s.size()));
+    for (std::size_t k = 0; k < test.curves.size(); ++k)
+      curves_.push_back(static_cast<Eigen::Index>(test.s.size()));
   }
   measured_ = Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
   weight_ = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
@@ -170,7 +198,8 @@ void SceneTests::add_numbers() {
     const std::string key = fmt::format("parameters[{}].key", i);
     Number one;
     const auto refuse = [&](std::string found, std::string expected) {
-      throw Failure(Exit::config, Error{where_(key), key, std::move(found), std::move(expected), ""});
+      throw Failure(Exit::config,
+                    Error{where_(key), key, std::move(found), std::move(expected), ""});
     };
     if (const auto number = p.of_law() ? std::nullopt : scene_number(config_, p.key)) {
       if (number->of == SceneNumber::Of::friction) {
@@ -180,15 +209,20 @@ void SceneTests::add_numbers() {
           for (const auto& [name, contact] : run->config().contacts) contacts.insert(name);
         if (!contacts.count(one.contact))
           refuse("no scene has a contact \"" + one.contact + "\"",
-                 contacts.empty() ? "none: no scene has an indenter" : fmt::format("one of {}", fmt::join(contacts, ", ")));
+                 contacts.empty() ? "none: no scene has an indenter"
+                                  : fmt::format("one of {}", fmt::join(contacts, ", ")));
         with_friction_ = true;
       } else {
         one.measured = number;
-        const auto test = std::find_if(tests_.begin(), tests_.end(), [&](const SceneTest& t) { return t.data == number->data; });
-        const bool force = std::any_of(test->curves.begin(), test->curves.end(), [](const SceneCurve& c) { return c.unit == "N"; });
+        const auto test = std::find_if(tests_.begin(), tests_.end(),
+                                       [&](const SceneTest& t) { return t.data == number->data; });
+        const bool force = std::any_of(test->curves.begin(), test->curves.end(),
+                                       [](const SceneCurve& c) { return c.unit == "N"; });
         if (number->of != SceneNumber::Of::force_offset && test->over.key != "u_ind")
-          refuse(p.key + " of a test that was not measured over u_ind", "a test over the travel of its indenter");
-        if (number->of != SceneNumber::Of::touch_offset && !force) refuse(p.key + " of a test without force", "a test of a force");
+          refuse(p.key + " of a test that was not measured over u_ind",
+                 "a test over the travel of its indenter");
+        if (number->of != SceneNumber::Of::touch_offset && !force)
+          refuse(p.key + " of a test without force", "a test of a force");
       }
     } else {
       add_slope(p.key, i, 1);

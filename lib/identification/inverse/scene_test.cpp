@@ -15,7 +15,8 @@ namespace langer {
 namespace {
 
 // what is linear between the ends of its pieces
-Abscissa sampled(std::string key, const std::vector<double>& kinks, const std::function<double(double)>& s) {
+Abscissa sampled(std::string key, const std::vector<double>& kinks,
+                 const std::function<double(double)>& s) {
   Abscissa over;
   over.key = std::move(key), over.unit = unit_of_column(over.key);
   for (double t : kinks) over.t.push_back(t), over.s.push_back(s(t));
@@ -31,12 +32,14 @@ std::vector<double> kinks_of(const SolveConfig& scene) {
   }
   for (const LoadConfig& load : scene.loads)
     for (const HistoryConfig& history : load.histories())
-      for (const HistoryPointConfig& point : history.points) t.insert(place(point, scene.path.seconds));
+      for (const HistoryPointConfig& point : history.points)
+        t.insert(place(point, scene.path.seconds));
   return {t.begin(), t.end()};
 }
 
 // the indenter that was measured, or the first
-const std::pair<const std::string, ContactConfig>* indenter_of(const FitData& data, const SolveConfig& scene) {
+const std::pair<const std::string, ContactConfig>* indenter_of(const FitData& data,
+                                                               const SolveConfig& scene) {
   if (scene.contacts.empty()) return nullptr;
   const auto named = scene.contacts.find(data.on);
   return named != scene.contacts.end() ? &*named : &*scene.contacts.begin();
@@ -45,35 +48,46 @@ const std::pair<const std::string, ContactConfig>* indenter_of(const FitData& da
 // a file of an indenter that is pushed gives its travel over the force
 bool gives_travel(const FitData& data, const SolveConfig& scene) {
   const auto* indenter = indenter_of(data, scene);
-  return indenter && indenter->second.control && !data.columns->u_ind.empty() && !data.columns->force.empty();
+  return indenter && indenter->second.control && !data.columns->u_ind.empty() &&
+         !data.columns->force.empty();
 }
 
-std::function<double(double)> pushed_by(const FitData& data, const std::string& at, const SolveConfig& scene,
-                                        const FindPlace& where) {
-  for (const auto& [key, given] :
-       {std::pair("touch_offset", data.touch_offset), {"force_offset", data.force_offset}, {"compliance", data.compliance}})
+std::function<double(double)> pushed_by(const FitData& data, const std::string& at,
+                                        const SolveConfig& scene, const FindPlace& where) {
+  for (const auto& [key, given] : {std::pair("touch_offset", data.touch_offset),
+                                   {"force_offset", data.force_offset},
+                                   {"compliance", data.compliance}})
     if (given != 0)
-      refuse_scene(where, at + key, "a test of an indenter that is pushed", "none: a file whose offsets are taken off");
-  const History history = history_of(indenter_of(data, scene)->second.control->force, scene.path.seconds);
-  return [history](double t) { return history.at(t); };
+      refuse_scene(where, at + key, "a test of an indenter that is pushed",
+                   "none: a file whose offsets are taken off");
+  const History history =
+      history_of(indenter_of(data, scene)->second.control->force, scene.path.seconds);
+  return [history](double t) {
+    return history.at(t);
+  };
 }
 
-std::function<double(double)> travel_of(const FitData& data, const SolveConfig& scene, const std::string& at,
-                                        const FindPlace& where) {
+std::function<double(double)> travel_of(const FitData& data, const SolveConfig& scene,
+                                        const std::string& at, const FindPlace& where) {
   const std::string key = at + "columns.u_ind";
-  if (scene.contacts.empty()) refuse_scene(where, key, "a scene without indenters", "displacement, pressure, time or t");
+  if (scene.contacts.empty())
+    refuse_scene(where, key, "a scene without indenters", "displacement, pressure, time or t");
   const ContactConfig& contact = indenter_of(data, scene)->second;
   if (contact.control || contact.motion.empty())
     refuse_scene(where, key, "an indenter that is pushed: its travel is an answer",
                  "force beside it, or t, or time where the path has seconds");
   std::vector<HistoryPoint<Vec3>> motion;
   for (const WaypointConfig& point : contact.motion)
-    motion.push_back({place(point, scene.path.seconds), Vec3(point.to[0], point.to[1], point.to[2])});
-  return [motion](double t) { return value_at(motion, t).norm(); };
+    motion.push_back(
+        {place(point, scene.path.seconds), Vec3(point.to[0], point.to[1], point.to[2])});
+  return [motion](double t) {
+    return value_at(motion, t).norm();
+  };
 }
 
 // the one history of a set that is moved or pressed
-std::function<double(double)> load_of(const FitData& data, const std::string& at, const SolveConfig& scene, bool pressure,
+std::function<double(double)> load_of(const FitData& data, const std::string& at,
+                                      const SolveConfig& scene, bool pressure,
                                       const FindPlace& where) {
   std::vector<std::string> sets;
   for (const LoadConfig& load : scene.loads) {
@@ -85,34 +99,44 @@ std::function<double(double)> load_of(const FitData& data, const std::string& at
       if (const auto one = load.imposed(axis); one && one->moves()) moving.push_back(*one);
     if (moving.empty()) continue;
     if (moving.size() > 1)
-      refuse_scene(where, at + "moved", data.moved + " moves along several axes", "one that moves along one axis");
+      refuse_scene(where, at + "moved", data.moved + " moves along several axes",
+                   "one that moves along one axis");
     const History history = history_of(moving.front(), scene.path.seconds);
-    return [history](double t) { return history.at(t); };
+    return [history](double t) {
+      return history.at(t);
+    };
   }
-  refuse_scene(where, at + "moved", fmt::format("no {} on \"{}\"", pressure ? "pressure" : "imposed displacement", data.moved),
-               sets.empty() ? "a scene with loads" : "one of " + list_words(sets));
+  refuse_scene(
+      where, at + "moved",
+      fmt::format("no {} on \"{}\"", pressure ? "pressure" : "imposed displacement", data.moved),
+      sets.empty() ? "a scene with loads" : "one of " + list_words(sets));
 }
 
-std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& mesh, const FindPlace& where) {
+std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& mesh,
+                        const FindPlace& where) {
   const auto set = mesh.node_sets.find(data.on);
   if (set != mesh.node_sets.end()) return set->second;
   std::vector<std::string> known;
   for (const auto& [name, nodes] : mesh.node_sets) known.push_back(name);
   const std::string near = nearest(data.on, known);
-  refuse_scene(where, at + "on", "the scene has no set \"" + data.on + "\"", "one of " + list_words(known),
-               near.empty() ? "" : "did you mean \"" + near + "\"?");
+  refuse_scene(where, at + "on", "the scene has no set \"" + data.on + "\"",
+               "one of " + list_words(known), near.empty() ? "" : "did you mean \"" + near + "\"?");
 }
 
-Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene, const FindPlace& where) {
+Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene,
+                     const FindPlace& where) {
   if (scene.contacts.empty())
-    refuse_scene(where, at + "columns.force", "a scene without indenters", "reaction_x, reaction_y or reaction_z of a set `on`");
+    refuse_scene(where, at + "columns.force", "a scene without indenters",
+                 "reaction_x, reaction_y or reaction_z of a set `on`");
   if (data.on.empty() && scene.contacts.size() == 1) return {};
   std::vector<std::string> known;
   for (const auto& [name, contact] : scene.contacts) known.push_back(name);
   if (data.on.empty())
-    refuse_scene(where, at + "columns.force", "a scene with several indenters", "on: one of " + list_words(known));
+    refuse_scene(where, at + "columns.force", "a scene with several indenters",
+                 "on: one of " + list_words(known));
   if (!scene.contacts.count(data.on))
-    refuse_scene(where, at + "on", "the scene has no contact \"" + data.on + "\"", "one of " + list_words(known));
+    refuse_scene(where, at + "on", "the scene has no contact \"" + data.on + "\"",
+                 "one of " + list_words(known));
   Observation one;
   if (scene.contacts.size() > 1) one.contact = data.on;
   return one;
@@ -130,7 +154,8 @@ std::vector<Vec3> places_in(const SceneData& file) {
 std::size_t added(std::vector<Observation>& observations, Observation one) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Observation& o = observations[i];
-    if (o.of == one.of && o.axis == one.axis && o.contact == one.contact && o.nodes == one.nodes && o.weights == one.weights)
+    if (o.of == one.of && o.axis == one.axis && o.contact == one.contact && o.nodes == one.nodes &&
+        o.weights == one.weights)
       return i;
   }
   observations.push_back(std::move(one));
@@ -138,20 +163,24 @@ std::size_t added(std::vector<Observation>& observations, Observation one) {
 }
 
 // one observation, or one of each row
-std::vector<std::size_t> observed(const FitData& data, const std::string& at, const SceneColumn& column, const SceneData& file,
-                                  const std::vector<Vec3>& places, const ForwardRun& run, const FindPlace& where,
-                                  std::vector<Observation>& observations) {
+std::vector<std::size_t> observed(const FitData& data, const std::string& at,
+                                  const SceneColumn& column, const SceneData& file,
+                                  const std::vector<Vec3>& places, const ForwardRun& run,
+                                  const FindPlace& where, std::vector<Observation>& observations) {
   Observation one;
   if (column.key == "u_ind") {
     one.of = Observation::Of::travel, one.contact = indenter_of(data, run.config())->first;
   } else if (column.key == "force") {
     one = force_of(data, at, run.config(), where);
   } else {
-    one.of = column.key.starts_with("u_") ? Observation::Of::displacement : Observation::Of::reaction;
+    one.of =
+        column.key.starts_with("u_") ? Observation::Of::displacement : Observation::Of::reaction;
     one.axis = column.key.back() - 'x';
     if (places.empty()) {
       one.nodes = set_of(data, at, run.mesh(), where);
-      one.weights.assign(one.nodes.size(), one.of == Observation::Of::reaction ? 1.0 : 1.0 / static_cast<double>(one.nodes.size()));
+      one.weights.assign(one.nodes.size(), one.of == Observation::Of::reaction
+                                               ? 1.0
+                                               : 1.0 / static_cast<double>(one.nodes.size()));
     }
   }
   if (places.empty()) return {added(observations, one)};
@@ -159,7 +188,8 @@ std::vector<std::size_t> observed(const FitData& data, const std::string& at, co
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!find_place(run.mesh(), places[i], one)) {
       const Error error{file.rows[i], "columns.x",
-                        fmt::format("no surface of the scene at ({:g}, {:g}, {:g})", places[i][0], places[i][1], places[i][2]),
+                        fmt::format("no surface of the scene at ({:g}, {:g}, {:g})", places[i][0],
+                                    places[i][1], places[i][2]),
                         std::isnan(places[i][1]) ? "a place on its top" : "a place on its surface",
                         "coordinates of the undeformed mesh, in mm"};
       throw Failure(Exit::input, error);
@@ -173,7 +203,8 @@ std::vector<std::size_t> observed(const FitData& data, const std::string& at, co
 double own_travel(const FitData& data, const SceneData& file, std::size_t row, double s) {
   if (!file.find("u_ind")) return s;
   const SceneColumn* force = file.find("force");
-  return s - data.touch_offset - (force ? data.compliance * (force->values[row] - data.force_offset) : 0);
+  return s - data.touch_offset -
+         (force ? data.compliance * (force->values[row] - data.force_offset) : 0);
 }
 
 }  // namespace
@@ -194,8 +225,10 @@ std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double s
   return std::nullopt;
 }
 
-// The cheapest way through rows and stretches: what goes against a stretch costs its length, what is left out at its end half of it.
-std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values, double slack) const {
+// The cheapest way through rows and stretches: what goes against a stretch costs its length, what
+// is left out at its end half of it.
+std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
+                                             double slack) const {
   const std::size_t n = values.size(), pieces = t.size() - 1;
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto has = [&](std::size_t k, double value) {
@@ -212,7 +245,8 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values, 
       for (std::size_t j = k + 1; j-- > 0;) {
         double so_far = i == 0 ? (j == 0 ? left_out : never) : cost[j] + left_out;
         if (i == 0 && k > 0 && j == 0) so_far += 0.5 * std::abs(s[1] - s[0]);
-        if (i > 0 && j == k) so_far += std::max(0.0, (values[i - 1] - values[i]) * (s[k + 1] > s[k] ? 1 : -1));
+        if (i > 0 && j == k)
+          so_far += std::max(0.0, (values[i - 1] - values[i]) * (s[k + 1] > s[k] ? 1 : -1));
         if (i > 0 && j < k) so_far += 0.5 * std::abs(s[j + 1] - values[i - 1]);
         if (so_far < next[k]) next[k] = so_far, from[i][k] = j;
         if (j < k) left_out += 0.5 * std::abs(s[j + 1] - s[j]);
@@ -226,29 +260,36 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values, 
     }
   }
   std::vector<std::size_t> out(n, 0);
-  std::size_t k = n == 0 ? 0 : static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  std::size_t k =
+      n == 0 ? 0
+             : static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   for (std::size_t i = n; i-- > 0; k = from[i][k]) out[i] = k;
   return out;
 }
 
-Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& scene, const FindPlace& where) {
+Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& scene,
+                     const FindPlace& where) {
   const FitColumns& c = *data.columns;
   const std::string at = fmt::format("data[{}].", item);
   const std::vector<double> kinks = kinks_of(scene);
   if (gives_travel(data, scene)) return sampled("force", kinks, pushed_by(data, at, scene, where));
   if (!c.u_ind.empty()) return sampled("u_ind", kinks, travel_of(data, scene, at, where));
-  if (!c.displacement.empty()) return sampled("displacement", kinks, load_of(data, at, scene, false, where));
+  if (!c.displacement.empty())
+    return sampled("displacement", kinks, load_of(data, at, scene, false, where));
   if (!c.pressure.empty()) return sampled("pressure", kinks, load_of(data, at, scene, true, where));
   if (!c.time.empty()) {
     if (!scene.path.seconds)
-      refuse_scene(where, at + "columns.time", "a scene whose path has no seconds", "t, u_ind, displacement or pressure");
-    return sampled("time", kinks, [seconds = *scene.path.seconds](double t) { return seconds * t; });
+      refuse_scene(where, at + "columns.time", "a scene whose path has no seconds",
+                   "t, u_ind, displacement or pressure");
+    return sampled("time", kinks,
+                   [seconds = *scene.path.seconds](double t) { return seconds * t; });
   }
   return sampled("t", kinks, [](double t) { return t; });
 }
 
-SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& file, const ForwardRun& run, double noise,
-                     double slack, const FindPlace& where, std::vector<Observation>& observations) {
+SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& file,
+                     const ForwardRun& run, double noise, double slack, const FindPlace& where,
+                     std::vector<Observation>& observations) {
   const std::string at = fmt::format("data[{}].", item);
   SceneTest test;
   test.name = file.name, test.data = item, test.over = abscissa_of(data, item, run.config(), where);
@@ -256,22 +297,27 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
   const SceneColumn* over = file.find(test.over.key);
   test.s = over ? over->values : std::vector<double>(file.rows.size(), 1);
   std::vector<double> own;
-  for (std::size_t i = 0; i < test.s.size(); ++i) own.push_back(own_travel(data, file, i, test.s[i]));
+  for (std::size_t i = 0; i < test.s.size(); ++i)
+    own.push_back(own_travel(data, file, i, test.s[i]));
   test.stretch = test.over.stretches(own, slack);
   for (std::size_t i = 0; i < test.s.size(); ++i)
     if (test.stretch[i] + 1 == test.over.t.size()) {
       const auto [low, high] = std::minmax_element(test.over.s.begin(), test.over.s.end());
       throw Failure(
           Exit::input,
-          Error{file.rows[i], "columns." + test.over.key, fmt::format("{} {:g} {}", test.over.key, test.s[i], test.over.unit),
-                fmt::format("what the path of the scene reaches, {:g} to {:g} {}, in its order", *low, *high, test.over.unit),
+          Error{file.rows[i], "columns." + test.over.key,
+                fmt::format("{} {:g} {}", test.over.key, test.s[i], test.over.unit),
+                fmt::format("what the path of the scene reaches, {:g} to {:g} {}, in its order",
+                            *low, *high, test.over.unit),
                 "a longer path in " + data.solve.path + ", or rows left out"});
     }
   test.places = places_in(file);
   double largest = 0;
   std::vector<double> measured;
   for (const SceneColumn& column : file.columns) {
-    if (column.key != "force" && !column.key.starts_with("reaction") && !column.key.starts_with("u_")) continue;
+    if (column.key != "force" && !column.key.starts_with("reaction") &&
+        !column.key.starts_with("u_"))
+      continue;
     if (column.key == test.over.key) continue;
     SceneCurve curve{column.key, column.unit, static_cast<Eigen::Index>(measured.size()),
                      observed(data, at, column, file, test.places, run, where, observations)};
@@ -280,8 +326,10 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
     for (double value : column.values) largest = std::max(largest, std::abs(value));
     test.curves.push_back(std::move(curve));
   }
-  if (!(largest > 0)) refuse_scene(where, at + "columns", "nothing but zeros in " + file.name, "a test of something");
-  test.measured = Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
+  if (!(largest > 0))
+    refuse_scene(where, at + "columns", "nothing but zeros in " + file.name, "a test of something");
+  test.measured =
+      Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
   test.deviation = data.standard_deviation.value_or(noise * largest);
   return test;
 }
@@ -289,7 +337,9 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
 PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kinks, double at) {
   PathPlace found;
   const auto n = static_cast<Eigen::Index>(t.size());
-  const auto time = [&](Eigen::Index i) { return i < 0 ? 0 : t[static_cast<std::size_t>(i)]; };
+  const auto time = [&](Eigen::Index i) {
+    return i < 0 ? 0 : t[static_cast<std::size_t>(i)];
+  };
   if (at <= 0) return found;  // at rest
   double begin = 0, end = 1;
   for (double kink : kinks) {

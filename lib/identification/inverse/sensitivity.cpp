@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/model/torque.hpp"
 #include "scene/run/step_forces.hpp"
 #include "scene/run/step_record.hpp"
-#include "scene/model/torque.hpp"
 
 namespace langer {
 
@@ -38,7 +38,8 @@ Vec3 force_on(const StepRecord& record, const std::string& contact) {
 
 double length_derivative(const StepRecord& whole, const SceneParameter& parameter) {
   Vec3 d;
-  for (int k = 0; k < 3; ++k) d[k] = whole.scalars.at(derivative_name(std::string("force_") + "xyz"[k] + "_N", parameter));
+  for (int k = 0; k < 3; ++k)
+    d[k] = whole.scalars.at(derivative_name(std::string("force_") + "xyz"[k] + "_N", parameter));
   const double size = whole.force_ind.norm();
   return size > 0 ? d.dot(whole.force_ind) / size : 0;
 }
@@ -60,13 +61,16 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
 
 RunListener Sensitivity::along(RunListener listener) {
   if (parameters().empty()) return listener;
-  if (last_.t > 0) run_.statics.factorize_accepted();  // the increment after a kept step begins with it, as it would have
+  if (last_.t > 0)
+    run_.statics
+        .factorize_accepted();  // the increment after a kept step begins with it, as it would have
   listener.of_part = [this, also = std::move(listener.of_part)](StepRecord& record) {
     if (also && !also(record)) return false;
     advance(record);
     return true;
   };
-  listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole, const SolveReport& report) {
+  listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole,
+                                                                  const SolveReport& report) {
     now_.clear();
     for (const StepRecord& derivative : of_part_) now_.push_back(of_whole(derivative, whole));
     write(whole);
@@ -77,7 +81,10 @@ RunListener Sensitivity::along(RunListener listener) {
 
 Companion Sensitivity::companion() {
   if (parameters().empty()) return {};
-  return {[this](const StepRecord& whole) { kept(whole); }, [this](RunListener listener) { return along(std::move(listener)); }};
+  return {[this](const StepRecord& whole) { kept(whole); },
+          [this](RunListener listener) {
+            return along(std::move(listener));
+          }};
 }
 
 std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
@@ -85,7 +92,9 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
   for (const auto& [name, value] : last.scalars)
     for (const SceneParameter& p : parameters())
       if (name.starts_with("d_") && name.ends_with("_d_" + p.name))
-        out.push_back({name, name == derivative_name("force_N", p) ? length_derivative(last, p) : value, "-"});
+        out.push_back({name,
+                       name == derivative_name("force_N", p) ? length_derivative(last, p) : value,
+                       "-"});
   return out;
 }
 
@@ -98,7 +107,8 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   energies.assign(out.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!parameters_.of_laws(i)) {
-      for (const RigidContact& contact : scene.contacts) out[i].mu.push_back(contact.name == parameters_.contact(i) ? 1 : 0);
+      for (const RigidContact& contact : scene.contacts)
+        out[i].mu.push_back(contact.name == parameters_.contact(i) ? 1 : 0);
       continue;
     }
     const double h = parameters_.step(i);
@@ -108,7 +118,8 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     };
     const Equilibrium::Forces more = with(h);
     const bool linear = parameters_.linear(i);
-    const Equilibrium::Forces less = linear ? Equilibrium::Forces{body.f_int(), body.W()} : with(-h);
+    const Equilibrium::Forces less =
+        linear ? Equilibrium::Forces{body.f_int(), body.W()} : with(-h);
     const double width = linear ? h : 2 * h;
     out[i].f = (more.f - less.f) / width, energies[i] = (more.W - less.W) / width;
   }
@@ -123,23 +134,28 @@ void Sensitivity::advance(const StepRecord& record) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto found = tangent.derivative(all[i], d_last_[i], d_earlier_[i]);
     if (!found)
-      throw Failure(Exit::not_converged,
-                    Error{{},
-                          "sensitivity",
-                          fmt::format("the tangent at t = {:.6g} is singular: the state has no derivative with respect to {}",
-                                      record.t, parameters()[i].key),
-                          "",
-                          "without the key the path goes on"});
+      throw Failure(
+          Exit::not_converged,
+          Error{
+              {},
+              "sensitivity",
+              fmt::format(
+                  "the tangent at t = {:.6g} is singular: the state has no derivative with respect to {}",
+                  record.t, parameters()[i].key),
+              "",
+              "without the key the path goes on"});
     d.push_back(*found);
   }
   const std::vector<VecX> reactions = tangent.reactions(all, d, &of_movement);
   of_part_.clear();
-  for (std::size_t i = 0; i < d.size(); ++i) of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
+  for (std::size_t i = 0; i < d.size(); ++i)
+    of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
   earlier_ = std::move(last_), last_ = run_.statics.accepted();
   d_earlier_ = std::move(d_last_), d_last_ = std::move(d);
 }
 
-StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const {
+StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d,
+                                const VecX& reactions, double energy) const {
   StepRecord out;
   out.t = record.t, out.u = by_node(d.u), out.reaction = by_node(reactions);
   out.scalars["energy"] = energy;
@@ -149,7 +165,8 @@ StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative&
     contact.r = d.r[k];
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : d.r[k]) force -= r;
-    for (int j = 0; j < 3 && contacts.size() > 1; ++j) out.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = force[j];
+    for (int j = 0; j < 3 && contacts.size() > 1; ++j)
+      out.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = force[j];
     if (contacts[k].control) out.scalars[travel_of(contacts[k])] = d.travel;
     out.force_ind += force;
   }
@@ -161,12 +178,14 @@ StepRecord Sensitivity::of_whole(const StepRecord& derivative, const StepRecord&
   StepRecord out = *run_.reduction.whole(derivative);
   out.u_ind.setZero();
   if (!run_.scene.contacts.empty() && run_.scene.contacts[0].control)
-    out.u_ind = out.scalars.at(travel_of(run_.scene.contacts[0])) * run_.scene.contacts[0].control->along;
+    out.u_ind =
+        out.scalars.at(travel_of(run_.scene.contacts[0])) * run_.scene.contacts[0].control->along;
   return out;
 }
 
-// u' is linear in X, and the forces at the nodes of a mesh that is deformed alike everywhere are P' times the integrals of their
-// gradients:  P' = 1/V sum f'_c X_c^T over the corners of the hexahedron.
+// u' is linear in X, and the forces at the nodes of a mesh that is deformed alike everywhere are P'
+// times the integrals of their gradients:  P' = 1/V sum f'_c X_c^T over the corners of the
+// hexahedron.
 StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& whole) const {
   const Mesh& point = run_.reduction.mesh();
   const Equilibrium& mesh = *run_.reduction.mesh_of_point();
@@ -187,9 +206,11 @@ StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& 
     const auto nodes = mesh.mesh().cell(e);
     for (int g = 0; g < geometry.n_gauss(); ++g)
       for (std::size_t a = 0; a < nodes.size(); ++a)
-        f.segment<3>(3 * nodes[a]) += geometry.w[g] * P * geometry.dN_dX[g].row(static_cast<Eigen::Index>(a)).transpose();
+        f.segment<3>(3 * nodes[a]) +=
+            geometry.w[g] * P * geometry.dN_dX[g].row(static_cast<Eigen::Index>(a)).transpose();
   }
-  for (const Prescribed& p : mesh.dofs().prescribed) out.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
+  for (const Prescribed& p : mesh.dofs().prescribed)
+    out.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
   return out;
 }
 
@@ -198,7 +219,9 @@ void Sensitivity::write(StepRecord& whole) const {
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const SceneParameter& p = parameters()[i];
     const StepRecord& d = now_[i];
-    whole.point_fields[derivative_name("u", p)] = d.u, whole.point_fields[derivative_name("reaction", p)] = d.reaction;
+    whole.point_fields[derivative_name("u", p)] = d.u,
+                                            whole.point_fields[derivative_name("reaction", p)] =
+                                                d.reaction;
     auto& scalars = whole.scalars;
     scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
     if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
@@ -206,14 +229,17 @@ void Sensitivity::write(StepRecord& whole) const {
       scalars[derivative_name(std::string("force_") + "xyz"[k] + "_N", p)] = d.force_ind[k];
     for (const RigidContact& contact : contacts) {
       if (contacts.size() > 1)
-        scalars[derivative_name("force_" + contact.name + "_N", p)] =
-            derivative_against(indenter_at(contact, whole), force_on(whole, contact.name), force_on(d, contact.name));
-      if (contact.control) scalars[derivative_name(travel_of(contact) + "_mm", p)] = d.scalars.at(travel_of(contact));
+        scalars[derivative_name("force_" + contact.name + "_N", p)] = derivative_against(
+            indenter_at(contact, whole), force_on(whole, contact.name), force_on(d, contact.name));
+      if (contact.control)
+        scalars[derivative_name(travel_of(contact) + "_mm", p)] = d.scalars.at(travel_of(contact));
     }
     for (const std::string& set : moved_) {
       Vec3 sum = Vec3::Zero();
-      for (int node : run_.mesh.node_sets.at(set)) sum += d.reaction[static_cast<std::size_t>(node)];
-      for (int k = 0; k < 3; ++k) scalars[derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p)] = sum[k];
+      for (int node : run_.mesh.node_sets.at(set))
+        sum += d.reaction[static_cast<std::size_t>(node)];
+      for (int k = 0; k < 3; ++k)
+        scalars[derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p)] = sum[k];
     }
     for (const auto& [torque, value] : torque_derivatives(whole, d, run_.mesh, run_.scene))
       scalars[derivative_name(torque + "_N_mm", p)] = value;
@@ -233,7 +259,8 @@ void Sensitivity::kept(const StepRecord& whole) {
     StateDerivative& d = d_last_.emplace_back();
     d.u = run_.reduction.reduced(like).u;
     for (const RigidContact& contact : run_.scene.contacts)
-      if (contact.control) d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));
+      if (contact.control)
+        d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));
   }
 }
 

@@ -1,34 +1,40 @@
-// Derivatives of a run with respect to numbers of its scene, increment by increment beside it: `sensitivity` in a config.
-// Direct differentiation of every accepted state (solve/state_tangent.hpp); what a number changes of the internal force where the state
-// stands still is a difference of that force, in which moduli are linear. Derivatives of an increment with friction need those of the
-// two before.
+// Derivatives of a run with respect to numbers of its scene, increment by increment beside it:
+// `sensitivity` in a config. Direct differentiation of every accepted state
+// (solve/state_tangent.hpp); what a number changes of the internal force where the state stands
+// still is a difference of that force, in which moduli are linear. Derivatives of an increment with
+// friction need those of the two before.
 #pragma once
 
 #include <set>
 #include <vector>
 
-#include "scene/model/scene_parameters.hpp"
-#include "mechanics/solve/state_tangent.hpp"
 #include "accuracy/checks/recording.hpp"
+#include "mechanics/solve/state_tangent.hpp"
+#include "scene/model/scene_parameters.hpp"
 
 namespace langer {
 
 class Sensitivity {
  public:
-  // Of the numbers that config.sensitivity names, which was there when the run was made. Refers to the run.
+  // Of the numbers that config.sensitivity names, which was there when the run was made. Refers to
+  // the run.
   Sensitivity(Run& run, const SolveConfig& config, const Run::Where& where);
 
   const std::vector<SceneParameter>& parameters() const { return parameters_.list(); }
-  const std::set<std::string>& moved() const { return moved_; }  // sets whose reactions are differentiated
+  const std::set<std::string>& moved() const {
+    return moved_;
+  }  // sets whose reactions are differentiated
 
-  // `listener`, and the derivatives: made after its of_part, and put into the record of the whole body before its of_whole.
-  // Throws Failure(not_converged) where the tangent of a state is singular.
+  // `listener`, and the derivatives: made after its of_part, and put into the record of the whole
+  // body before its of_whole. Throws Failure(not_converged) where the tangent of a state is
+  // singular.
   RunListener along(RunListener listener);
   // Before a run is resumed: every step that is kept, in order.
   void kept(const StepRecord& whole);
 
-  Companion companion();                                       // of a Recording; empty without the key
-  std::vector<Summary> summary(const StepRecord& last) const;  // at the end of the path; d_force_N_d_... of the force's length
+  Companion companion();  // of a Recording; empty without the key
+  std::vector<Summary> summary(const StepRecord& last)
+      const;  // at the end of the path; d_force_N_d_... of the force's length
 
   // At the increment accepted last, of the whole body, one for each number, per its unit:
   //   u (n) [mm], reaction (n) [N], force_ind, u_ind (under force control), contacts' r, scalars energy, force_<contact>_x|y|z of
@@ -38,9 +44,11 @@ class Sensitivity {
  private:
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
-  StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions, double energy) const;
+  StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions,
+                     double energy) const;
   StepRecord of_whole(const StepRecord& derivative, const StepRecord& whole) const;
-  StepRecord of_mesh(const StepRecord& derivative, const StepRecord& whole) const;  // that a hexahedron stands for
+  StepRecord of_mesh(const StepRecord& derivative,
+                     const StepRecord& whole) const;  // that a hexahedron stands for
   void write(StepRecord& whole) const;
 
   Run& run_;

@@ -29,7 +29,8 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   known.covariance.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      known.covariance(i, j) = file.fit->covariance(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
+      known.covariance(i, j) = file.fit->covariance(kept[static_cast<std::size_t>(i)],
+                                                    kept[static_cast<std::size_t>(j)]);
   const std::vector<Tie> ties = resolved(file.fit->ties).ties;
   std::vector<VecX> rows;
   for (const MaterialParameter& p : numbers) {
@@ -44,20 +45,25 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
     if (!row.isZero(0)) known.keys.push_back(p.key), rows.push_back(row);
   }
   known.follow.resize(static_cast<Eigen::Index>(rows.size()), n);
-  for (std::size_t i = 0; i < rows.size(); ++i) known.follow.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    known.follow.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
   return known;
 }
 
-ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file, const Run::Where& where) {
+ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file,
+                                  const Run::Where& where) {
   if (config.uncertainty.value_or(UncertaintyBy::none) == UncertaintyBy::none) return {};
   const bool holds_a_fit = std::filesystem::path(material_file).extension() == ".h5";
-  const ParameterKnowledge known = holds_a_fit ? knowledge_of(read_material(material_file)) : ParameterKnowledge{};
+  const ParameterKnowledge known =
+      holds_a_fit ? knowledge_of(read_material(material_file)) : ParameterKnowledge{};
   if (known.names.empty())
     throw Failure(Exit::config,
-                  Error{where("uncertainty"), "uncertainty", "linear, without a fit that tells how well its parameters are known",
+                  Error{where("uncertainty"), "uncertainty",
+                        "linear, without a fit that tells how well its parameters are known",
                         "--material with a material.h5 of langer-fit that holds a covariance", ""});
   for (const std::string& key : known.keys)
-    if (auto& list = config.sensitivity; std::find(list.begin(), list.end(), key) == list.end()) list.push_back(key);
+    if (auto& list = config.sensitivity; std::find(list.begin(), list.end(), key) == list.end())
+      list.push_back(key);
   return known;
 }
 
@@ -68,9 +74,12 @@ ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& by_
   out.deviation = std::sqrt(variance);
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    out.parts.push_back({known.names[i], std::sqrt(std::max(0.0, variance - Cg[j] * Cg[j] / known.covariance(j, j)))});
+    out.parts.push_back(
+        {known.names[i],
+         std::sqrt(std::max(0.0, variance - Cg[j] * Cg[j] / known.covariance(j, j)))});
   }
-  std::stable_sort(out.parts.begin(), out.parts.end(), [](const auto& a, const auto& b) { return a.without < b.without; });
+  std::stable_sort(out.parts.begin(), out.parts.end(),
+                   [](const auto& a, const auto& b) { return a.without < b.without; });
   return out;
 }
 
@@ -91,27 +100,36 @@ VecX derivatives(const std::vector<SceneParameter>& numbers, const ParameterKnow
 std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
   std::vector<ForceUncertainty> out;
   if (known_.names.empty()) return out;
-  const auto add = [&](const std::string& name, double value, const std::function<double(const SceneParameter&)>& derivative) {
-    ForceUncertainty& force = out.emplace_back(uncertainty_of(known_, derivatives(sensitivity_.parameters(), known_, derivative)));
+  const auto add = [&](const std::string& name, double value,
+                       const std::function<double(const SceneParameter&)>& derivative) {
+    ForceUncertainty& force = out.emplace_back(
+        uncertainty_of(known_, derivatives(sensitivity_.parameters(), known_, derivative)));
     force.name = name, force.value = value;
   };
   const auto scalar = [&](const std::string& quantity) {
-    return [&whole, quantity](const SceneParameter& p) { return whole.scalars.at(derivative_name(quantity, p)); };
+    return [&whole, quantity](const SceneParameter& p) {
+      return whole.scalars.at(derivative_name(quantity, p));
+    };
   };
   const auto& contacts = run_.scene.contacts;
-  if (!contacts.empty()) add("force", whole.force_ind.norm(), [&](const SceneParameter& p) { return length_derivative(whole, p); });
+  if (!contacts.empty())
+    add("force", whole.force_ind.norm(),
+        [&](const SceneParameter& p) { return length_derivative(whole, p); });
   for (const RigidContact& contact : contacts)
     if (contacts.size() > 1)
-      add("force_" + contact.name, force_on(whole, contact.name).norm(), scalar("force_" + contact.name + "_N"));
+      add("force_" + contact.name, force_on(whole, contact.name).norm(),
+          scalar("force_" + contact.name + "_N"));
   for (const std::string& set : sensitivity_.moved()) {
     Vec3 sum = Vec3::Zero();
-    for (int node : run_.mesh.node_sets.at(set)) sum += whole.reaction[static_cast<std::size_t>(node)];
+    for (int node : run_.mesh.node_sets.at(set))
+      sum += whole.reaction[static_cast<std::size_t>(node)];
     const double size = sum.norm();
     if (size == 0) continue;
     add("reaction_" + set, size, [&](const SceneParameter& p) {
       double along = 0;
       for (int k = 0; k < 3; ++k)
-        along += sum[k] / size * whole.scalars.at(derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p));
+        along += sum[k] / size *
+                 whole.scalars.at(derivative_name("reaction_" + set + "_" + "xyz"[k] + "_N", p));
       return along;
     });
   }
@@ -121,7 +139,8 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
 Companion Uncertainty::beside(Companion sensitivity) const {
   if (known_.names.empty()) return sensitivity;
   return {sensitivity.kept, [this, along = sensitivity.along](RunListener listener) {
-            listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole, const SolveReport& report) {
+            listener.of_whole = [this, also = std::move(listener.of_whole)](
+                                    StepRecord& whole, const SolveReport& report) {
               write(whole);
               if (also) also(whole, report);
             };
@@ -130,31 +149,37 @@ Companion Uncertainty::beside(Companion sensitivity) const {
 }
 
 void Uncertainty::write(StepRecord& whole) const {
-  for (const ForceUncertainty& force : of(whole)) whole.scalars[force.name + "_deviation"] = force.deviation;
+  for (const ForceUncertainty& force : of(whole))
+    whole.scalars[force.name + "_deviation"] = force.deviation;
 }
 
 std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces) {
   std::vector<Summary> out;
   for (const ForceUncertainty& force : forces) {
     out.push_back({force.name + "_deviation", force.deviation, "N"});
-    for (const auto& part : force.parts) out.push_back({force.name + "_deviation_without_" + part.name, part.without, "N"});
+    for (const auto& part : force.parts)
+      out.push_back({force.name + "_deviation_without_" + part.name, part.without, "N"});
   }
   return out;
 }
 
 std::string in_words(const ForceUncertainty& force, std::optional<double> cells) {
-  const auto percent = [&](double part) { return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(force.value), 1e-300)); };
+  const auto percent = [&](double part) {
+    return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(force.value), 1e-300));
+  };
   std::string words = fmt::format("{} {:.4g} N", force.name, force.value);
   if (cells) words += fmt::format(" +- {} (cells)", percent(*cells));
   words += fmt::format(" +- {} (parameters", percent(force.deviation));
   int said = 0;
   for (const auto& part : force.parts)
     if (part.without < 0.9 * force.deviation && said++ < 3)
-      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without), part.name);
+      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without),
+                           part.name);
   return words + ")";
 }
 
-void say_forces(const Voice& voice, const ParameterKnowledge& known, const std::vector<ForceUncertainty>& forces,
+void say_forces(const Voice& voice, const ParameterKnowledge& known,
+                const std::vector<ForceUncertainty>& forces,
                 const std::vector<ErrorEstimate>& errors) {
   for (const ForceUncertainty& force : forces) {
     std::optional<double> cells;

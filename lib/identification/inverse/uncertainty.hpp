@@ -1,8 +1,10 @@
-// What a fit does not know of its parameters, carried into the forces of a run by their derivatives: `uncertainty: linear`.
+// What a fit does not know of its parameters, carried into the forces of a run by their
+// derivatives: `uncertainty: linear`.
 //   variance of a force   g^T C g,   g its derivatives with respect to the parameters, C their covariance in material.h5
 //   without p_j           what is left of it where p_j were known exactly: C conditioned on p_j
-// Numbers that follow others (ties of the fit) count with them. Angles of symmetry, parameters on a bound and those that the tests do
-// not determine have no variance in C: they are left out, and said.
+// Numbers that follow others (ties of the fit) count with them. Angles of symmetry, parameters on a
+// bound and those that the tests do not determine have no variance in C: they are left out, and
+// said.
 #pragma once
 
 #include <optional>
@@ -17,16 +19,19 @@
 namespace langer {
 
 struct ParameterKnowledge {
-  std::vector<std::string> keys;      // of `sensitivity`: the parameters with a variance, and the numbers that follow them
+  std::vector<std::string>
+      keys;  // of `sensitivity`: the parameters with a variance, and the numbers that follow them
   std::vector<std::string> names;     // of those parameters
   MatX follow;                        // (keys, names): d number / d parameter
   MatX covariance;                    // (names, names)
   std::vector<std::string> left_out;  // names
 };
 ParameterKnowledge knowledge_of(const MaterialFile& file);
-// Where config asks for `uncertainty`: of the material's file (empty: there is none). The parameters are those of config.sensitivity then,
-// beside those named there. Throws Failure(config) where the file tells nothing of them.
-ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file, const Run::Where& where);
+// Where config asks for `uncertainty`: of the material's file (empty: there is none). The
+// parameters are those of config.sensitivity then, beside those named there. Throws Failure(config)
+// where the file tells nothing of them.
+ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file,
+                                  const Run::Where& where);
 
 // One force at the end of the path.
 struct ForceUncertainty {
@@ -49,8 +54,10 @@ class Uncertainty {
       : known_(std::move(known)), run_(run), sensitivity_(sensitivity) {}
   // whole: with the derivatives that Sensitivity writes
   std::vector<ForceUncertainty> of(const StepRecord& whole) const;
-  Companion beside(Companion sensitivity) const;  // who writes them, behind it; nobody without parameters
-  void write(StepRecord& whole) const;            // scalars force_deviation, force_<contact>_deviation, reaction_<set>_deviation
+  Companion beside(
+      Companion sensitivity) const;  // who writes them, behind it; nobody without parameters
+  void write(StepRecord& whole)
+      const;  // scalars force_deviation, force_<contact>_deviation, reaction_<set>_deviation
 
  private:
   ParameterKnowledge known_;
@@ -59,9 +66,11 @@ class Uncertainty {
 };
 
 std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces);
-void say_forces(const Voice& voice, const ParameterKnowledge& known, const std::vector<ForceUncertainty>& forces,
+void say_forces(const Voice& voice, const ParameterKnowledge& known,
+                const std::vector<ForceUncertainty>& forces,
                 const std::vector<ErrorEstimate>& errors);
-// "force 9.44 N +- 0.9 % (cells) +- 24 % (parameters; 5.1 % if c1 were known, 8 % if a1 were known)"; cells: [N]
+// "force 9.44 N +- 0.9 % (cells) +- 24 % (parameters; 5.1 % if c1 were known, 8 % if a1 were
+// known)"; cells: [N]
 std::string in_words(const ForceUncertainty& force, std::optional<double> cells);
 
 }  // namespace langer

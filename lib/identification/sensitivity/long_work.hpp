@@ -1,4 +1,5 @@
-// A word now and then to the person who waits: what is done, in tenths, once it has taken longer than two seconds.
+// A word now and then to the person who waits: what is done, in tenths, once it has taken longer
+// than two seconds.
 #pragma once
 
 #include <chrono>
@@ -9,16 +10,19 @@
 
 namespace langer {
 
-inline std::function<void(double)> progress_of(const std::string& stage, const std::string& what, bool quiet) {
+inline std::function<void(double)> progress_of(const std::string& stage, const std::string& what,
+                                               bool quiet) {
   if (quiet) return {};
   const auto start = std::chrono::steady_clock::now();
   int said = 0;
   return [=](double part) mutable {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const int tenths = static_cast<int>(10 * part);
     if (seconds < 2 || tenths <= said || tenths >= 10) return;
     said = tenths;
-    say_line("{}: {} {} %, about {:.0f} s more", stage, what, 10 * tenths, seconds * (1 - part) / part);
+    say_line("{}: {} {} %, about {:.0f} s more", stage, what, 10 * tenths,
+             seconds * (1 - part) / part);
   };
 }
 

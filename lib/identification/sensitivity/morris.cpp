@@ -12,7 +12,8 @@ namespace langer {
 namespace {
 
 // Effects of one trajectory (k, m); empty where a curve is missing.
-MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper, int levels, Random random) {
+MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper, int levels,
+                Random random) {
   const auto k = lower.size();
   const int half = levels / 2;
   const double Delta = half / (levels - 1.);
@@ -22,10 +23,13 @@ MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper
   // each parameter starts in the lower half and goes up, or in the upper half and goes down
   VecX x(k), to(k);
   for (Eigen::Index i = 0; i < k; ++i) {
-    x[i] = static_cast<double>(random.below(static_cast<std::uint64_t>(half))) / (levels - 1.), to[i] = x[i] + Delta;
+    x[i] = static_cast<double>(random.below(static_cast<std::uint64_t>(half))) / (levels - 1.),
+    to[i] = x[i] + Delta;
     if (random.below(2)) std::swap(x[i], to[i]);
   }
-  const auto at = [&](VecX& y) { return phi(lower + x.cwiseProduct(upper - lower), y) && y.allFinite(); };
+  const auto at = [&](VecX& y) {
+    return phi(lower + x.cwiseProduct(upper - lower), y) && y.allFinite();
+  };
   MatX effects;
   VecX before, after;
   if (!at(before)) return {};
@@ -49,8 +53,10 @@ Moments moments(const std::vector<MatX>& all, Pick pick) {
   Moments m;
   const auto n = static_cast<double>(all.size());
   m.mu = m.mu_star = m.sigma = MatX::Zero(all[0].rows(), all[0].cols());
-  for (std::size_t r = 0; r < all.size(); ++r) m.mu += all[pick(r)] / n, m.mu_star += all[pick(r)].cwiseAbs() / n;
-  for (std::size_t r = 0; r < all.size(); ++r) m.sigma += (all[pick(r)] - m.mu).cwiseAbs2() / (n - 1);
+  for (std::size_t r = 0; r < all.size(); ++r)
+    m.mu += all[pick(r)] / n, m.mu_star += all[pick(r)].cwiseAbs() / n;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    m.sigma += (all[pick(r)] - m.mu).cwiseAbs2() / (n - 1);
   m.sigma = m.sigma.cwiseSqrt();
   return m;
 }
@@ -59,15 +65,16 @@ MatX means(const MatX& A, const std::vector<std::vector<int>>& groups) {
   MatX result = MatX::Zero(A.rows(), static_cast<Eigen::Index>(groups.size()));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (int point : groups[g]) result.col(static_cast<Eigen::Index>(g)) += A.col(point);
-    result.col(static_cast<Eigen::Index>(g)) /= static_cast<double>(groups[g].size());  // NaN in an empty group
+    result.col(static_cast<Eigen::Index>(g)) /=
+        static_cast<double>(groups[g].size());  // NaN in an empty group
   }
   return result;
 }
 
 }  // namespace
 
-Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int trajectories, int levels,
-              const SamplingOptions& options) {
+Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int trajectories,
+              int levels, const SamplingOptions& options) {
   Morris result;
   std::vector<MatX> all;
   const int threads = std::max(1, std::min(options.threads, trajectories));
@@ -78,7 +85,8 @@ Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int
       threads, trajectories,
       [&](int worker, int r) {
         const auto w = static_cast<std::size_t>(worker);
-        fresh[w] = trajectory(phi[w], lower, upper, levels, Random(options.seed, static_cast<std::uint64_t>(r)));
+        fresh[w] = trajectory(phi[w], lower, upper, levels,
+                              Random(options.seed, static_cast<std::uint64_t>(r)));
       },
       [&](int worker, int r) {
         MatX& effects = fresh[static_cast<std::size_t>(worker)];
@@ -98,9 +106,11 @@ Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int
     for (std::size_t& p : picked) p = random.below(all.size());
     const Moments one = moments(all, [&](std::size_t r) { return picked[r]; });
     mu.add(one.mu), mu_star.add(one.mu_star), sigma.add(one.sigma);
-    group_mu_star.add(means(one.mu_star, options.groups)), group_sigma.add(means(one.sigma, options.groups));
+    group_mu_star.add(means(one.mu_star, options.groups)),
+        group_sigma.add(means(one.sigma, options.groups));
   }
-  result.mu = mu.around(best.mu), result.mu_star = mu_star.around(best.mu_star), result.sigma = sigma.around(best.sigma);
+  result.mu = mu.around(best.mu), result.mu_star = mu_star.around(best.mu_star),
+  result.sigma = sigma.around(best.sigma);
   result.group_mu_star = group_mu_star.around(means(best.mu_star, options.groups));
   result.group_sigma = group_sigma.around(means(best.sigma, options.groups));
   return result;

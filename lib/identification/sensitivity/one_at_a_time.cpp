@@ -5,7 +5,8 @@
 
 namespace langer {
 
-OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const VecX& lower, const VecX& upper, int n) {
+OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const VecX& lower,
+                         const VecX& upper, int n) {
   OneAtATime result;
   for (Eigen::Index j = 0; j < value.size(); ++j) {
     VecX p = value, before, after;
@@ -47,7 +48,8 @@ MatX zone_means(const MatX& of, const std::vector<double>& x, const std::vector<
     for (std::size_t i = 0; i < x.size(); ++i)
       if (inside(x[i], zones[z])) sum += of.col(static_cast<Eigen::Index>(i)), ++points;
     means.col(static_cast<Eigen::Index>(z)) =
-        points ? VecX(sum / points) : VecX::Constant(of.rows(), std::numeric_limits<double>::quiet_NaN());
+        points ? VecX(sum / points)
+               : VecX::Constant(of.rows(), std::numeric_limits<double>::quiet_NaN());
   }
   return means;
 }

@@ -9,7 +9,8 @@
 
 namespace langer {
 
-Ranking ranking(const SensitivityConfig& config, Material& material, const std::optional<FitRecord>& fit,
+Ranking ranking(const SensitivityConfig& config, Material& material,
+                const std::optional<FitRecord>& fit,
                 const std::function<Place(const std::string&)>& where) {
   const std::vector<MaterialParameter> known = parameters(material);
   std::vector<RankedParameter> asked = config.parameters;
@@ -18,16 +19,19 @@ Ranking ranking(const SensitivityConfig& config, Material& material, const std::
       for (const MaterialParameter& k : known)
         if (k.name == p.name) asked.push_back({k.key, {}, {}, {}});
   std::vector<Error> errors;
-  const auto say = [&](const std::string& key, std::string found, std::string expected, std::string hint = "") {
+  const auto say = [&](const std::string& key, std::string found, std::string expected,
+                       std::string hint = "") {
     errors.push_back({where(key), key, std::move(found), std::move(expected), std::move(hint)});
   };
-  if (asked.empty()) say("parameters", "none, and the material comes from no fit", "numbers to rank, with bounds");
+  if (asked.empty())
+    say("parameters", "none, and the material comes from no fit", "numbers to rank, with bounds");
 
   Ranking ranking;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const RankedParameter& p = asked[i];
     const std::string at = fmt::format("parameters[{}]", i);
-    const auto one = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
+    const auto one =
+        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
     if (one == known.end()) {
       std::vector<std::string> keys;
       for (const MaterialParameter& k : known) keys.push_back(k.key);
@@ -46,13 +50,16 @@ Ranking ranking(const SensitivityConfig& config, Material& material, const std::
     if (p.lower)
       n.lower = *p.lower, n.upper = *p.upper;
     else if (p.around)
-      n.lower = n.value - *p.around * std::abs(n.value), n.upper = n.value + *p.around * std::abs(n.value);
+      n.lower = n.value - *p.around * std::abs(n.value),
+      n.upper = n.value + *p.around * std::abs(n.value);
     else if (fitted)
       n.lower = fitted->lower, n.upper = fitted->upper;
     else
-      say(at, p.key + " has no bounds, and the material comes from no fit of it", "lower and upper, or around");
+      say(at, p.key + " has no bounds, and the material comes from no fit of it",
+          "lower and upper, or around");
     if ((p.lower || p.around || fitted) && !(n.lower < n.upper))
-      say(at, fmt::format("{} = {} leaves no room between the bounds", p.key, n.value), "lower < upper");
+      say(at, fmt::format("{} = {} leaves no room between the bounds", p.key, n.value),
+          "lower < upper");
     if (n.lower < one->range.low || n.upper > one->range.high)
       say(at, fmt::format("bounds {} and {}", n.lower, n.upper),
           fmt::format("within {} and {}, as the law asks", one->range.low, one->range.high));

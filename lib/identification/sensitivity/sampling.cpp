@@ -7,7 +7,8 @@
 
 namespace langer {
 
-std::vector<std::vector<int>> points_in(const std::vector<double>& x, const std::vector<Zone>& zones) {
+std::vector<std::vector<int>> points_in(const std::vector<double>& x,
+                                        const std::vector<Zone>& zones) {
   std::vector<std::vector<int>> groups;
   for (const Zone& zone : zones) {
     groups.emplace_back();

@@ -1,4 +1,5 @@
-// What Morris and Sobol share: models for several threads, points of a group taken together, intervals from resampling.
+// What Morris and Sobol share: models for several threads, points of a group taken together,
+// intervals from resampling.
 //   rows are parameters, columns are points of the curve
 #pragma once
 
@@ -30,7 +31,8 @@ struct SamplingOptions {
 };
 
 // the points between the ends of each zone, as zone_means takes them
-std::vector<std::vector<int>> points_in(const std::vector<double>& x, const std::vector<Zone>& zones);
+std::vector<std::vector<int>> points_in(const std::vector<double>& x,
+                                        const std::vector<Zone>& zones);
 
 // Percentiles 2.5 and 97.5 over resamples, entry by entry; NaN entries are left out.
 class Resamples {

@@ -2,19 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "results/store/matrices.hpp"
 #include "identification/sensitivity/sensitivity_tables.hpp"
+#include "results/store/matrices.hpp"
 
 namespace langer {
 
 namespace {
 
-void write_rates(const h5::Group& group, const std::string& name, const MatX& A, const std::string& units) {
+void write_rates(const h5::Group& group, const std::string& name, const MatX& A,
+                 const std::string& units) {
   write_matrix(group, name, A, "");
   group.annotate(name, "units", units);
 }
 
-void write_estimate(const h5::Group& group, const std::string& name, const Estimate& e, const std::string& unit) {
+void write_estimate(const h5::Group& group, const std::string& name, const Estimate& e,
+                    const std::string& unit) {
   write_matrix(group, name, e.value, unit);
   write_matrix(group, name + "_low", e.low, unit);
   write_matrix(group, name + "_high", e.high, unit);
@@ -36,7 +38,8 @@ void write_sobol(const h5::Group& group, const Sobol& s) {
   group.write<double>("mean", {static_cast<std::size_t>(s.mean.size())},
                       std::span(s.mean.data(), static_cast<std::size_t>(s.mean.size())), "MPa");
   group.write<double>("deviation", {static_cast<std::size_t>(s.deviation.size())},
-                      std::span(s.deviation.data(), static_cast<std::size_t>(s.deviation.size())), "MPa");
+                      std::span(s.deviation.data(), static_cast<std::size_t>(s.deviation.size())),
+                      "MPa");
   group.write_scalar("rows", static_cast<double>(s.rows), "-");
   group.write_scalar("without_curve", static_cast<double>(s.without_curve), "-");
   write_estimate(group.make_group("zones"), "first", s.group_first, "-");
@@ -53,26 +56,33 @@ std::string effect_unit(const std::string& parameter_unit) {
 }
 
 std::vector<Summary> summary_of(const SensitivityRecord& r) {
-  const MatX mu_star = zone_means(r.effects.mu_star, r.strain, r.zones), s = zone_means(r.effects.s, r.strain, r.zones);
+  const MatX mu_star = zone_means(r.effects.mu_star, r.strain, r.zones),
+             s = zone_means(r.effects.s, r.strain, r.zones);
   std::vector<Summary> all;
   for (std::size_t j = 0; j < r.parameters.size(); ++j)
     for (std::size_t z = 0; z < r.zones.size(); ++z) {
       const auto& [name, unit, value, lower, upper] = r.parameters[j];
-      all.push_back({fmt::format("mu_star_{}_zone{}", name, z + 1), row(mu_star, j)[z], effect_unit(unit)});
+      all.push_back(
+          {fmt::format("mu_star_{}_zone{}", name, z + 1), row(mu_star, j)[z], effect_unit(unit)});
       all.push_back({fmt::format("s_{}_zone{}", name, z + 1), row(s, j)[z], effect_unit(unit)});
     }
   const auto add = [&](const char* what, const MatX& A, const char* unit) {
     for (std::size_t j = 0; j < r.parameters.size(); ++j)
       for (std::size_t z = 0; z < r.zones.size(); ++z)
-        all.push_back({fmt::format("{}_{}_zone{}", what, r.parameters[j].name, z + 1), row(A, j)[z], unit});
+        all.push_back(
+            {fmt::format("{}_{}_zone{}", what, r.parameters[j].name, z + 1), row(A, j)[z], unit});
   };
   if (r.morris)
-    add("morris_mu_star", r.morris->group_mu_star.value, "MPa"), add("morris_sigma", r.morris->group_sigma.value, "MPa");
-  if (r.sobol) add("sobol_first", r.sobol->group_first.value, "-"), add("sobol_total", r.sobol->group_total.value, "-");
+    add("morris_mu_star", r.morris->group_mu_star.value, "MPa"),
+        add("morris_sigma", r.morris->group_sigma.value, "MPa");
+  if (r.sobol)
+    add("sobol_first", r.sobol->group_first.value, "-"),
+        add("sobol_total", r.sobol->group_total.value, "-");
   return all;
 }
 
-void write_sensitivity(const std::string& path, const SensitivityRecord& r, const Identity& identity) {
+void write_sensitivity(const std::string& path, const SensitivityRecord& r,
+                       const Identity& identity) {
   h5::File file = h5::File::create(path);
   const h5::Group root = file.root();
   write_identity(root, sensitivity_schema, identity);

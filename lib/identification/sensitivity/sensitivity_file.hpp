@@ -1,4 +1,4 @@
-// sensitivity.h5: effects of parameters on a curve.                                     docs/schema.md
+// sensitivity.h5: effects of parameters on a curve. docs/schema.md
 //   /strain (m)   /curve (m) the stress at the identified values [MPa]
 //   /parameters/<name>/{value, lower, upper}     attribute `order` of /parameters: the rows of what follows
 //   /mu_star, /s, /spread (k, m)                 stress over parameter; units differ by row: attribute `units`
@@ -8,7 +8,8 @@
 //   /sobol/{first, total}[_low, _high] (k, m) [-]   /sobol/zones/... (k, z)   /sobol/{mean, deviation} (m) [MPa]
 //   /summary/<mu_star | s>_<name>_zone<1..z>
 //   /summary/<morris_mu_star | morris_sigma | sobol_first | sobol_total>_<name>_zone<1..z>
-// and sensitivity.csv, sensitivity_zones.csv, sensitivity_morris.csv, sensitivity_sobol.csv beside it (sensitivity_tables.hpp).
+// and sensitivity.csv, sensitivity_zones.csv, sensitivity_morris.csv, sensitivity_sobol.csv beside
+// it (sensitivity_tables.hpp).
 #pragma once
 
 #include <optional>
@@ -38,6 +39,7 @@ struct SensitivityRecord {
 
 std::string effect_unit(const std::string& parameter_unit);  // of a stress over a parameter
 std::vector<Summary> summary_of(const SensitivityRecord& record);
-void write_sensitivity(const std::string& path, const SensitivityRecord& record, const Identity& identity);
+void write_sensitivity(const std::string& path, const SensitivityRecord& record,
+                       const Identity& identity);
 
 }  // namespace langer

@@ -36,7 +36,9 @@ std::string effects_csv(const SensitivityRecord& r) {
 }
 
 std::string zones_csv(const SensitivityRecord& r) {
-  const auto of = [&](const MatX& A) { return zone_means(A, r.strain, r.zones); };
+  const auto of = [&](const MatX& A) {
+    return zone_means(A, r.strain, r.zones);
+  };
   const MatX mu_star = of(r.effects.mu_star), s = of(r.effects.s), spread = of(r.effects.spread);
   const MatX range = over_range(r, mu_star), spread_range = over_range(r, spread);
   std::vector<std::pair<std::string, MatX>> more;
@@ -46,15 +48,19 @@ std::string zones_csv(const SensitivityRecord& r) {
     more.push_back({csv_name(name + "_high", unit), e.high});
   };
   more.push_back({"spread_range_MPa", spread_range});
-  if (r.morris) add("morris_mu_star", "MPa", r.morris->group_mu_star), add("morris_sigma", "MPa", r.morris->group_sigma);
-  if (r.sobol) add("sobol_first", "-", r.sobol->group_first), add("sobol_total", "-", r.sobol->group_total);
+  if (r.morris)
+    add("morris_mu_star", "MPa", r.morris->group_mu_star),
+        add("morris_sigma", "MPa", r.morris->group_sigma);
+  if (r.sobol)
+    add("sobol_first", "-", r.sobol->group_first), add("sobol_total", "-", r.sobol->group_total);
   std::string text = "parameter,zone,strain_from,strain_to,mu_star,s,spread,unit,mu_star_range_MPa";
   for (const auto& [name, A] : more) text += "," + name;
   text += "\n";
   for (std::size_t j = 0; j < r.parameters.size(); ++j)
     for (std::size_t z = 0; z < r.zones.size(); ++z) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(r.parameters[j].name), z + 1, r.zones[z].from, r.zones[z].to,
-                          row(mu_star, j)[z], row(s, j)[z], row(spread, j)[z], csv_cell(effect_unit(r.parameters[j].unit)),
+      text += fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(r.parameters[j].name), z + 1,
+                          r.zones[z].from, r.zones[z].to, row(mu_star, j)[z], row(s, j)[z],
+                          row(spread, j)[z], csv_cell(effect_unit(r.parameters[j].unit)),
                           row(range, j)[z]);
       for (const auto& [name, A] : more) text += fmt::format(",{}", row(A, j)[z]);
       text += "\n";
@@ -64,8 +70,8 @@ std::string zones_csv(const SensitivityRecord& r) {
 
 namespace {
 
-void add_columns(std::vector<Column>& columns, const std::string& what, const std::string& unit, const SensitivityRecord& r,
-                 const Estimate& e) {
+void add_columns(std::vector<Column>& columns, const std::string& what, const std::string& unit,
+                 const SensitivityRecord& r, const Estimate& e) {
   for (std::size_t j = 0; j < r.parameters.size(); ++j) {
     const std::string name = what + "_" + r.parameters[j].name;
     columns.push_back({name, unit, row(e.value, j)});
@@ -90,7 +96,9 @@ std::string sobol_csv(const SensitivityRecord& r) {
   std::vector<Column> columns{
       {"strain", "-", r.strain},
       {"mean", "MPa", {r.sobol->mean.data(), r.sobol->mean.data() + r.sobol->mean.size()}},
-      {"deviation", "MPa", {r.sobol->deviation.data(), r.sobol->deviation.data() + r.sobol->deviation.size()}}};
+      {"deviation",
+       "MPa",
+       {r.sobol->deviation.data(), r.sobol->deviation.data() + r.sobol->deviation.size()}}};
   add_columns(columns, "first", "-", r, r.sobol->first);
   add_columns(columns, "total", "-", r, r.sobol->total);
   return csv(columns);
@@ -103,7 +111,8 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
   const auto ranked = [&](const MatX& A, std::size_t z, auto&& text) {
     std::vector<std::size_t> order(r.parameters.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return row(A, a)[z] > row(A, b)[z]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return row(A, a)[z] > row(A, b)[z]; });
     std::vector<std::string> words;
     for (std::size_t j : order) words.push_back(r.parameters[j].name + " " + text(j));
     return fmt::format("{}", fmt::join(words, ", "));
@@ -114,12 +123,15 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
                       return fmt::format("{:.3g}", row(range, j)[z]);
                     }));
     if (r.morris)
-      lines.push_back(zone + ": Morris mu* (sigma), MPa:             " + ranked(r.morris->group_mu_star.value, z, [&](auto j) {
-                        return fmt::format("{:.3g} ({:.2g})", row(r.morris->group_mu_star.value, j)[z],
+      lines.push_back(zone + ": Morris mu* (sigma), MPa:             " +
+                      ranked(r.morris->group_mu_star.value, z, [&](auto j) {
+                        return fmt::format("{:.3g} ({:.2g})",
+                                           row(r.morris->group_mu_star.value, j)[z],
                                            row(r.morris->group_sigma.value, j)[z]);
                       }));
     if (r.sobol)
-      lines.push_back(zone + ": Sobol total (alone):                 " + ranked(r.sobol->group_total.value, z, [&](auto j) {
+      lines.push_back(zone + ": Sobol total (alone):                 " +
+                      ranked(r.sobol->group_total.value, z, [&](auto j) {
                         return percent(row(r.sobol->group_total.value, j)[z]) + " (" +
                                percent(row(r.sobol->group_first.value, j)[z]) + ")";
                       }));
@@ -130,12 +142,14 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
     std::vector<std::string> words;
     for (std::size_t j = 0; j < r.parameters.size(); ++j) {
       const double sigma = row(r.morris->group_sigma.low, j)[z], seen = row(spread, j)[z];
-      if (sigma > 2 * seen && sigma > 0.05 * r.morris->group_mu_star.value.col(static_cast<Eigen::Index>(z)).maxCoeff())
-        words.push_back(
-            fmt::format("{} (spread {:.2g} MPa one at a time, sigma at least {:.2g})", r.parameters[j].name, seen, sigma));
+      if (sigma > 2 * seen &&
+          sigma > 0.05 * r.morris->group_mu_star.value.col(static_cast<Eigen::Index>(z)).maxCoeff())
+        words.push_back(fmt::format("{} (spread {:.2g} MPa one at a time, sigma at least {:.2g})",
+                                    r.parameters[j].name, seen, sigma));
     }
     if (!words.empty())
-      lines.push_back(fmt::format("interactions that one-at-a-time effects do not see: {}", fmt::join(words, ", ")));
+      lines.push_back(fmt::format("interactions that one-at-a-time effects do not see: {}",
+                                  fmt::join(words, ", ")));
   }
   return lines;
 }

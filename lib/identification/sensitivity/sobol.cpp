@@ -14,7 +14,8 @@ namespace {
 
 constexpr int n_blocks = 64;
 
-// Sums over the rows of a block. Curves are taken less the curve at the middle of the box, which saves digits.
+// Sums over the rows of a block. Curves are taken less the curve at the middle of the box, which
+// saves digits.
 struct Sums {
   double n = 0;
   VecX A, B, AA, BB, BA;  // (m)
@@ -42,18 +43,25 @@ Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
   r.mean = (s.A + s.B) / (2 * n);
   r.variance = ((s.AA + s.BB) / (2 * n) - r.mean.cwiseAbs2()).cwiseMax(0);
   //   mean (y_B - mean)(y_ABi - y_A)
-  const MatX part = ((s.BM.colwise() - s.BA) - ((s.M.colwise() - s.A).array().colwise() * r.mean.array()).matrix()) / n;
+  const MatX part = ((s.BM.colwise() - s.BA) -
+                     ((s.M.colwise() - s.A).array().colwise() * r.mean.array()).matrix()) /
+                    n;
   const MatX rest = s.D / (2 * n);
-  const auto ratio = [](double x, double V) { return V > 0 ? x / V : std::numeric_limits<double>::quiet_NaN(); };
+  const auto ratio = [](double x, double V) {
+    return V > 0 ? x / V : std::numeric_limits<double>::quiet_NaN();
+  };
   const auto m = part.rows(), k = part.cols(), z = static_cast<Eigen::Index>(groups.size());
-  r.first.resize(k, m), r.total.resize(k, m), r.group_first.resize(k, z), r.group_total.resize(k, z);
+  r.first.resize(k, m), r.total.resize(k, m), r.group_first.resize(k, z),
+      r.group_total.resize(k, z);
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < m; ++j) {
-      r.first(i, j) = ratio(part(j, i), r.variance[j]), r.total(i, j) = ratio(rest(j, i), r.variance[j]);
+      r.first(i, j) = ratio(part(j, i), r.variance[j]),
+                 r.total(i, j) = ratio(rest(j, i), r.variance[j]);
     }
     for (Eigen::Index g = 0; g < z; ++g) {
       double first = 0, total = 0, V = 0;
-      for (int j : groups[static_cast<std::size_t>(g)]) first += part(j, i), total += rest(j, i), V += r.variance[j];
+      for (int j : groups[static_cast<std::size_t>(g)])
+        first += part(j, i), total += rest(j, i), V += r.variance[j];
       r.group_first(i, g) = ratio(first, V), r.group_total(i, g) = ratio(total, V);
     }
   }
@@ -67,7 +75,8 @@ VecX independent(Eigen::Index size, Random random) {
   return u;
 }
 
-void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower, const VecX& range, const VecX& u) {
+void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower,
+             const VecX& range, const VecX& u) {
   const auto k = lower.size();
   VecX a = lower + u.head(k).cwiseProduct(range), b = lower + u.tail(k).cwiseProduct(range);
   const auto curve = [&](const VecX& p, VecX& y) {
@@ -90,7 +99,8 @@ void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const V
     return;
   }
   sums.n += 1;
-  sums.A += y_A, sums.B += y_B, sums.AA += y_A.cwiseAbs2(), sums.BB += y_B.cwiseAbs2(), sums.BA += y_B.cwiseProduct(y_A);
+  sums.A += y_A, sums.B += y_B, sums.AA += y_A.cwiseAbs2(), sums.BB += y_B.cwiseAbs2(),
+      sums.BA += y_B.cwiseProduct(y_A);
   sums.M += mixed;
   sums.BM.array() += mixed.array().colwise() * y_B.array();
   sums.D += (mixed.colwise() - y_A).cwiseAbs2();
@@ -98,10 +108,12 @@ void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const V
 
 }  // namespace
 
-Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long n, const SamplingOptions& options) {
+Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long n,
+            const SamplingOptions& options) {
   Sobol result;
   const auto k = lower.size();
-  const bool random_rows = options.sequence == Sequence::random || 2 * k > SobolSequence::most_dimensions;
+  const bool random_rows =
+      options.sequence == Sequence::random || 2 * k > SobolSequence::most_dimensions;
   const int threads = std::max(1, options.threads);
   std::vector<ParametricCurve> phi;
   for (int t = 0; t < threads; ++t) phi.push_back(maker());
@@ -114,11 +126,15 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
       [&](int worker, int block) {
         const long from = n * block / n_blocks, to = n * (block + 1) / n_blocks;
         std::optional<SobolSequence> sequence;
-        if (!random_rows) sequence.emplace(2 * k, Random(options.seed, 1ull << 41), static_cast<std::uint32_t>(from));
+        if (!random_rows)
+          sequence.emplace(2 * k, Random(options.seed, 1ull << 41),
+                           static_cast<std::uint32_t>(from));
         Sums sums(k, middle.size());  // of its own: neighbours in `blocks` would share cache lines
         for (long row = from; row < to; ++row)
           add_row(sums, phi[static_cast<std::size_t>(worker)], middle, lower, upper - lower,
-                  random_rows ? independent(2 * k, Random(options.seed, static_cast<std::uint64_t>(row))) : sequence->next());
+                  random_rows
+                      ? independent(2 * k, Random(options.seed, static_cast<std::uint64_t>(row)))
+                      : sequence->next());
         blocks[static_cast<std::size_t>(block)] = std::move(sums);
       },
       [&](int, int block) {
@@ -126,7 +142,8 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
       });
   Sums all(k, middle.size());
   for (const Sums& s : blocks) all += s;
-  result.rows = static_cast<long>(all.n), result.without_curve = all.missing, result.curves = all.curves;
+  result.rows = static_cast<long>(all.n), result.without_curve = all.missing,
+  result.curves = all.curves;
   if (all.n < 2) return result;
   const Shares best = shares(all, options.groups);
   result.mean = best.mean + middle, result.deviation = best.variance.cwiseSqrt();
@@ -137,10 +154,12 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
     for (int b = 0; b < n_blocks; ++b) sums += blocks[random.below(n_blocks)];
     if (sums.n < 2) continue;
     const Shares one = shares(sums, options.groups);
-    first.add(one.first), total.add(one.total), group_first.add(one.group_first), group_total.add(one.group_total);
+    first.add(one.first), total.add(one.total), group_first.add(one.group_first),
+        group_total.add(one.group_total);
   }
   result.first = first.around(best.first), result.total = total.around(best.total);
-  result.group_first = group_first.around(best.group_first), result.group_total = group_total.around(best.group_total);
+  result.group_first = group_first.around(best.group_first),
+  result.group_total = group_total.around(best.group_total);
   return result;
 }
 

@@ -16,31 +16,41 @@ namespace langer {
 std::vector<Complaint> FitData::complaints() const {
   std::vector<Complaint> all;
   if (strain_from && strain_to && *strain_from >= *strain_to)
-    all.push_back({"strain_to", "found " + number_text(*strain_to), "more than strain_from, " + number_text(*strain_from), ""});
+    all.push_back({"strain_to", "found " + number_text(*strain_to),
+                   "more than strain_from, " + number_text(*strain_from), ""});
   if (time_from && time_to && *time_from >= *time_to)
-    all.push_back({"time_to", "found " + number_text(*time_to), "more than time_from, " + number_text(*time_from), ""});
+    all.push_back({"time_to", "found " + number_text(*time_to),
+                   "more than time_from, " + number_text(*time_from), ""});
   if (weight && standard_deviation)
-    all.push_back({"weight", "beside standard_deviation", "one of the two", "the weight is 1/standard_deviation"});
+    all.push_back({"weight", "beside standard_deviation", "one of the two",
+                   "the weight is 1/standard_deviation"});
   if (is_scene()) {
     complain_of_scene(all);
     return all;
   }
-  if (file.path.empty()) all.push_back({"file", "missing", "the path of a file, relative to this one (measured test, CSV)", ""});
-  if (!solve.path.empty()) all.push_back({"solve", "found in a test that is no scene", "kind: scene", ""});
+  if (file.path.empty())
+    all.push_back(
+        {"file", "missing", "the path of a file, relative to this one (measured test, CSV)", ""});
+  if (!solve.path.empty())
+    all.push_back({"solve", "found in a test that is no scene", "kind: scene", ""});
   if (columns)
     for (const auto& [key, text, says] :
-         {std::tuple("strain_x", &columns->strain_x, "text (deformation along x; in simple shear its amount)"),
-          {"stress_x", &columns->stress_x, "text (stress along x; in simple shear the shear stress)"}})
+         {std::tuple("strain_x", &columns->strain_x,
+                     "text (deformation along x; in simple shear its amount)"),
+          {"stress_x", &columns->stress_x,
+           "text (stress along x; in simple shear the shear stress)"}})
       if (text->empty()) all.push_back({std::string("columns.") + key, "missing", says, ""});
   const bool biaxial = kind == DataKind::biaxial;
   if (!columns && (biaxial || kind == DataKind::simple_shear))
     all.push_back(
-        {"kind", std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
+        {"kind",
+         std::string("found ") + (biaxial ? "biaxial" : "simple_shear") + " without `columns`",
          "the columns of deformation and stress",
          "which column is which, by the names in the file: columns: {strain_x: lambda_x, strain_z: lambda_z, stress_x: P_x_MPa, "
          "stress_z: P_z_MPa}"});
   if (!columns && (!split.empty() || !where.empty()))
-    all.push_back({split.empty() ? "where" : "split", "found without `columns`", "the columns of deformation and stress", ""});
+    all.push_back({split.empty() ? "where" : "split", "found without `columns`",
+                   "the columns of deformation and stress", ""});
   if (columns && biaxial && columns->strain_z.empty())
     all.push_back(
         {"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes",
@@ -51,24 +61,38 @@ std::vector<Complaint> FitData::complaints() const {
     all.push_back({"columns.strain_z", "found in a test without stress along z",
                    "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())
-    all.push_back({"columns.stress_z", "missing beside strain_z", "the stress along z, at the deformations of strain_z", ""});
+    all.push_back({"columns.stress_z", "missing beside strain_z",
+                   "the stress along z, at the deformations of strain_z", ""});
   if (columns && !columns->time.empty()) {
     const std::string whole = "a history, of which no part can be left out";
     if (toe) all.push_back({"toe", "found beside columns.time", "none: " + whole, ""});
-    if (strain_from) all.push_back({"strain_from", "found beside columns.time", "none: " + whole, "time_from begins it later"});
-    if (strain_to) all.push_back({"strain_to", "found beside columns.time", "none: " + whole, "time_to ends it earlier"});
+    if (strain_from)
+      all.push_back({"strain_from", "found beside columns.time", "none: " + whole,
+                     "time_from begins it later"});
+    if (strain_to)
+      all.push_back(
+          {"strain_to", "found beside columns.time", "none: " + whole, "time_to ends it earlier"});
     if (own_grids)
-      all.push_back({"columns.time", "found with a grid of its own for each axis", "both axes at the same instants", ""});
+      all.push_back({"columns.time", "found with a grid of its own for each axis",
+                     "both axes at the same instants", ""});
   } else {
-    for (const auto& [key, given] : {std::pair("time_from", time_from), {"time_to", time_to}, {"compare_from", compare_from}})
-      if (given) all.push_back({key, "found without a column of times", "columns: {time: ...}", ""});
+    for (const auto& [key, given] :
+         {std::pair("time_from", time_from), {"time_to", time_to}, {"compare_from", compare_from}})
+      if (given)
+        all.push_back({key, "found without a column of times", "columns: {time: ...}", ""});
   }
   if (toe && zero_at == ZeroAt::start)
-    all.push_back({"toe", "found beside zero_at: start", "one of the two", "both say what is at rest"});
-  if (toe && kind == DataKind::simple_shear) all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
-  if (toe && own_grids) all.push_back({"toe", "found with a grid of its own for each axis", "no toe: data that start at rest", ""});
-  if (columns && !columns->stress_z.empty() && (kind == DataKind::uniaxial || kind == DataKind::simple_shear))
-    all.push_back({"columns.stress_z", "found in a test without stress along z", "equibiaxial, biaxial or pure_shear", ""});
+    all.push_back(
+        {"toe", "found beside zero_at: start", "one of the two", "both say what is at rest"});
+  if (toe && kind == DataKind::simple_shear)
+    all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
+  if (toe && own_grids)
+    all.push_back({"toe", "found with a grid of its own for each axis",
+                   "no toe: data that start at rest", ""});
+  if (columns && !columns->stress_z.empty() &&
+      (kind == DataKind::uniaxial || kind == DataKind::simple_shear))
+    all.push_back({"columns.stress_z", "found in a test without stress along z",
+                   "equibiaxial, biaxial or pure_shear", ""});
   return all;
 }
 
@@ -80,7 +104,8 @@ void FitConfig::complete(Tree& tree) {
 
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start) {
   const bool of_fibre = parameter.key.starts_with("fibres");
-  const bool power = !of_fibre && parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
+  const bool power =
+      !of_fibre && parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
   Range box{-10, 10, true, true};
   if (parameter.name.starts_with("bulk_modulus"))
     box = {0.2, 2e8, true, true};
@@ -116,20 +141,25 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
 namespace {
 
 // one that is no number of the law
-FreeParameter free_number(const FitConfig& config, const FitParameter& p, const SceneNumber& number) {
+FreeParameter free_number(const FitConfig& config, const FitParameter& p,
+                          const SceneNumber& number) {
   FreeParameter one{p.key, 0, 0, 0, false, "friction", unit::none};
   Range box{0, 2};
-  const FitData* data = number.of == SceneNumber::Of::friction ? nullptr : &config.data[number.data];
+  const FitData* data =
+      number.of == SceneNumber::Of::friction ? nullptr : &config.data[number.data];
   if (!data)
     one.start = 0.3, one.name = "friction_" + number.contact;
   else {
     const std::string behind = config.data.size() > 1 ? "_" + std::to_string(number.data + 1) : "";
     if (number.of == SceneNumber::Of::touch_offset)
-      one.name = "touch_offset" + behind, one.unit = unit::mm, one.start = data->touch_offset, box = {-0.5, 0.5};
+      one.name = "touch_offset" + behind, one.unit = unit::mm, one.start = data->touch_offset,
+      box = {-0.5, 0.5};
     else if (number.of == SceneNumber::Of::force_offset)
-      one.name = "force_offset" + behind, one.unit = unit::N, one.start = data->force_offset, box = {-1, 1};
+      one.name = "force_offset" + behind, one.unit = unit::N, one.start = data->force_offset,
+      box = {-1, 1};
     else
-      one.name = "compliance" + behind, one.unit = "mm/N", one.start = data->compliance, box = {0, 1};
+      one.name = "compliance" + behind, one.unit = "mm/N", one.start = data->compliance,
+      box = {0, 1};
   }
   one.start = p.start.value_or(one.start);
   if (config.bounds == Bounds::custom) box = {0, 0};
@@ -145,7 +175,8 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   std::vector<FreeParameter> free;
   for (const FitParameter& p : config.parameters) {
     FreeParameter one{p.key, p.start.value_or(0), p.lower.value_or(0), p.upper.value_or(0)};
-    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
     if (const auto number = scene_number(config, p.key)) one = free_number(config, p, *number);
     if (found != known.end()) {
       if (!p.start) one.start = *found->value;
@@ -157,7 +188,8 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
           if (k.key == power && *k.value < 0) box = {-10, 0, true, true};
       }
       one.preset = config.bounds == Bounds::admissible && !(box.high <= 0 ? p.upper : p.lower);
-      if (config.bounds != Bounds::custom) one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
+      if (config.bounds != Bounds::custom)
+        one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
     }
     free.push_back(one);
   }
@@ -174,12 +206,15 @@ std::vector<Tie> written_ties(const FitConfig& config) {
   return all;
 }
 
-Complaint unknown(const std::string& at, const std::string& key, const std::vector<MaterialParameter>& known) {
+Complaint unknown(const std::string& at, const std::string& key,
+                  const std::vector<MaterialParameter>& known) {
   std::vector<std::string> keys;
   std::string list;
-  for (const MaterialParameter& k : known) keys.push_back(k.key), list += (list.empty() ? "" : ", ") + k.key;
+  for (const MaterialParameter& k : known)
+    keys.push_back(k.key), list += (list.empty() ? "" : ", ") + k.key;
   const std::string near = nearest(key, keys);
-  return {at, "the law has no number \"" + key + "\"", "one of " + list, near.empty() ? "" : "did you mean \"" + near + "\"?"};
+  return {at, "the law has no number \"" + key + "\"", "one of " + list,
+          near.empty() ? "" : "did you mean \"" + near + "\"?"};
 }
 
 // what is wrong with one tie whose text was understood; `whole` follows chains to their ends
@@ -193,25 +228,34 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
   if (of == known.end()) all.push_back(unknown(at + "follows", tie.of, known));
   if (tied == known.end() || of == known.end()) return;
   if (tie.key == tie.of)
-    return all.push_back({at + "follows", "\"" + tie.key + "\" tied to itself", "another number of the law", ""});
+    return all.push_back(
+        {at + "follows", "\"" + tie.key + "\" tied to itself", "another number of the law", ""});
   const std::vector<FreeParameter> free = free_parameters(config);
-  if (std::any_of(free.begin(), free.end(), [&](const FreeParameter& p) { return p.key == tie.key; }))
-    return all.push_back({at + "key", "\"" + tie.key + "\" is tied and stands among the parameters to find", "one of the two",
-                          "bounds belong to " + tie.of + ", which it follows"});
+  if (std::any_of(free.begin(), free.end(),
+                  [&](const FreeParameter& p) { return p.key == tie.key; }))
+    return all.push_back({at + "key",
+                          "\"" + tie.key + "\" is tied and stands among the parameters to find",
+                          "one of the two", "bounds belong to " + tie.of + ", which it follows"});
   if (tied->unit != of->unit)
-    return all.push_back({at + "follows", fmt::format("{} in {} tied to {} in {}", tie.key, tied->unit, tie.of, of->unit),
-                          "numbers of one unit", ""});
-  const auto root = std::find_if(free.begin(), free.end(), [&](const FreeParameter& p) { return p.key == whole.of; });
+    return all.push_back(
+        {at + "follows",
+         fmt::format("{} in {} tied to {} in {}", tie.key, tied->unit, tie.of, of->unit),
+         "numbers of one unit", ""});
+  const auto root = std::find_if(free.begin(), free.end(),
+                                 [&](const FreeParameter& p) { return p.key == whole.of; });
   const auto source = number(whole.of);
   if (source == known.end()) return;
-  const double from = root == free.end() ? *source->value : root->lower, to = root == free.end() ? from : root->upper;
+  const double from = root == free.end() ? *source->value : root->lower,
+               to = root == free.end() ? from : root->upper;
   for (const double end : {whole.factor * from + whole.offset, whole.factor * to + whole.offset})
-    if (end < tied->range.low || end > tied->range.high || (end == tied->range.low && !tied->range.low_included))
+    if (end < tied->range.low || end > tied->range.high ||
+        (end == tied->range.low && !tied->range.low_included))
       return all.push_back(
           {at + "follows",
            fmt::format("{} would be {} where {} is {}", tie.key, number_text(end), whole.of,
                        number_text(whole.factor != 0 ? (end - whole.offset) / whole.factor : from)),
-           fmt::format("between {} and {}, as the law asks", number_text(tied->range.low), number_text(tied->range.high)),
+           fmt::format("between {} and {}, as the law asks", number_text(tied->range.low),
+                       number_text(tied->range.high)),
            "other bounds of " + whole.of + ", or another factor"});
 }
 
@@ -219,38 +263,48 @@ void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.dilatation == Dilatation::compressible)
     all.push_back({"dilatation", "compressible, and a viscous law", "incompressible", ""});
   for (std::size_t i = 0; i < config.data.size(); ++i)
-    if (const auto& columns = config.data[i].columns; !config.data[i].is_scene() && (!columns || columns->time.empty()))
-      all.push_back({fmt::format("data[{}].columns.time", i), "missing, and the law is viscous", "the column of times in s",
+    if (const auto& columns = config.data[i].columns;
+        !config.data[i].is_scene() && (!columns || columns->time.empty()))
+      all.push_back({fmt::format("data[{}].columns.time", i), "missing, and the law is viscous",
+                     "the column of times in s",
                      "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
 }
 
 // what does not go with whole scenes
 void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.cross_check != SecondAnswer::none)
-    all.push_back({"cross_check", "found in a fit with scenes", "none", "it takes thousands of runs"});
+    all.push_back(
+        {"cross_check", "found in a fit with scenes", "none", "it takes thousands of runs"});
   if (config.dilatation == Dilatation::compressible)
-    all.push_back({"dilatation", "compressible, beside scenes", "incompressible", "scenes count the volume term anyway"});
+    all.push_back({"dilatation", "compressible, beside scenes", "incompressible",
+                   "scenes count the volume term anyway"});
   for (std::size_t i = 0; i < config.data.size(); ++i) {
     const FitData& data = config.data[i];
     if (!data.is_scene() && data.weight)
-      all.push_back(
-          {fmt::format("data[{}].weight", i), "found beside scenes", "standard_deviation: what weighs MPa against N", ""});
+      all.push_back({fmt::format("data[{}].weight", i), "found beside scenes",
+                     "standard_deviation: what weighs MPa against N", ""});
   }
 }
 
-void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
+void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known,
+                         std::vector<Complaint>& all) {
   const std::vector<Tie> written = written_ties(config);
   const ResolvedTies whole = resolved(written);
-  const auto itself = [](const Tie& t) { return t.key == t.of; };
+  const auto itself = [](const Tie& t) {
+    return t.key == t.of;
+  };
   const bool circle = !whole.circle.empty() && std::none_of(written.begin(), written.end(), itself);
   std::set<std::string> seen;
   for (std::size_t i = 0, understood = 0; i < config.ties.size(); ++i) {
     const FitTie& one = config.ties[i];
     const std::string at = fmt::format("ties[{}].", i);
-    if (!seen.insert(one.key).second) all.push_back({at + "key", "\"" + one.key + "\" a second time", "each number once", ""});
+    if (!seen.insert(one.key).second)
+      all.push_back({at + "key", "\"" + one.key + "\" a second time", "each number once", ""});
     if (!parse_tie(one.key, one.follows)) {
-      all.push_back({at + "follows", "found \"" + one.follows + "\"", "a number of the law, with a sign, a factor or an offset",
-                     "such as fibres[0].alpha, -fibres[0].alpha, 0.5 * fibres[0].hgo.c1 or fibres[0].alpha + 90"});
+      all.push_back(
+          {at + "follows", "found \"" + one.follows + "\"",
+           "a number of the law, with a sign, a factor or an offset",
+           "such as fibres[0].alpha, -fibres[0].alpha, 0.5 * fibres[0].hgo.c1 or fibres[0].alpha + 90"});
       continue;
     }
     if (!circle)
@@ -272,13 +326,17 @@ std::vector<Tie> ties_of(const FitConfig& config) {
 std::vector<Complaint> FitConfig::complaints() const {
   std::vector<Complaint> all;
   if (data.empty()) all.push_back({"data", "an empty list", "one test at least", ""});
-  if (parameters.empty()) all.push_back({"parameters", "an empty list", "one number to find at least", ""});
+  if (parameters.empty())
+    all.push_back({"parameters", "an empty list", "one number to find at least", ""});
   if (dilatation == Dilatation::compressible)
     for (std::size_t i = 0; i < data.size(); ++i)
-      if (!data[i].is_scene() &&
-          (data[i].kind != DataKind::uniaxial || data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0))
-        all.push_back({"data[" + std::to_string(i) + "].kind", "a test whose state is solved without change of volume",
-                       "uniaxial tests with held shear and no fibre_angle, or dilatation: incompressible", ""});
+      if (!data[i].is_scene() && (data[i].kind != DataKind::uniaxial ||
+                                  data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0))
+        all.push_back(
+            {"data[" + std::to_string(i) + "].kind",
+             "a test whose state is solved without change of volume",
+             "uniaxial tests with held shear and no fibre_angle, or dilatation: incompressible",
+             ""});
   if (is_viscous(law)) complain_about_time(*this, all);
   Material copy = law;
   const std::vector<MaterialParameter> known = langer::parameters(copy);
@@ -298,26 +356,31 @@ std::vector<Complaint> FitConfig::complaints() const {
             ", contacts.<name>.friction, data[i].touch_offset, data[i].force_offset, data[i].compliance of a scene";
       continue;
     }
-    if (!seen.insert(p.key).second) all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
+    if (!seen.insert(p.key).second)
+      all.push_back({at + "key", "\"" + p.key + "\" a second time", "each number once", ""});
     if (bounds == Bounds::custom && !(p.lower && p.upper)) {
-      all.push_back({at + (p.lower ? "upper" : "lower"), "missing", "a bound", "or bounds: paper, bounds: admissible"});
+      all.push_back({at + (p.lower ? "upper" : "lower"), "missing", "a bound",
+                     "or bounds: paper, bounds: admissible"});
       continue;
     }
     const double lower = free[i].lower, upper = free[i].upper;
-    const bool from_zero = number && (number->of == SceneNumber::Of::friction || number->of == SceneNumber::Of::compliance);
-    const Range range = number ? (from_zero ? at_least(0) : Range{}) : known[static_cast<std::size_t>(found - keys.begin())].range;
+    const bool from_zero = number && (number->of == SceneNumber::Of::friction ||
+                                      number->of == SceneNumber::Of::compliance);
+    const Range range = number ? (from_zero ? at_least(0) : Range{})
+                               : known[static_cast<std::size_t>(found - keys.begin())].range;
     if (!(lower < upper)) {
-      all.push_back(
-          {at + (p.upper ? "upper" : "key"), "found " + number_text(upper), "more than lower, " + number_text(lower), ""});
+      all.push_back({at + (p.upper ? "upper" : "key"), "found " + number_text(upper),
+                     "more than lower, " + number_text(lower), ""});
       continue;
     }
     if (lower < range.low || (lower == range.low && !range.low_included))
       all.push_back({at + "lower", "found " + number_text(lower),
-                     std::string("a number ") + (range.low_included ? ">= " : "> ") + number_text(range.low) + ", as the law asks",
+                     std::string("a number ") + (range.low_included ? ">= " : "> ") +
+                         number_text(range.low) + ", as the law asks",
                      ""});
     if (upper > range.high)
-      all.push_back(
-          {at + "upper", "found " + number_text(upper), "a number <= " + number_text(range.high) + ", as the law asks", ""});
+      all.push_back({at + "upper", "found " + number_text(upper),
+                     "a number <= " + number_text(range.high) + ", as the law asks", ""});
     if (free[i].start < lower || free[i].start > upper)
       all.push_back({at + (p.start ? "start" : "key"), "starts at " + number_text(free[i].start),
                      "a value between " + number_text(lower) + " and " + number_text(upper),
@@ -340,7 +403,8 @@ double greatest_secant(const std::vector<Test>& tests) {
     double most = 0;
     for (std::size_t i = 0; i < test.points(); ++i) most = std::max(most, strain(i));
     for (std::size_t i = 0; i < test.points(); ++i)
-      if (strain(i) > 0 && strain(i) >= 0.1 * most) greatest = std::max(greatest, std::abs(test.stress_x[i]) / strain(i));
+      if (strain(i) > 0 && strain(i) >= 0.1 * most)
+        greatest = std::max(greatest, std::abs(test.stress_x[i]) / strain(i));
   }
   return greatest;
 }
@@ -348,15 +412,18 @@ double greatest_secant(const std::vector<Test>& tests) {
 }  // namespace
 
 FitProblem fit_problem(const FitConfig& config) {
-  FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation, ties_of(config)};
+  FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation,
+                     ties_of(config)};
   if (config.bounds == Bounds::custom) return problem;
   const double secant = 3 * greatest_secant(problem.tests);
   Material law = config.law;
   const std::vector<MaterialParameter> known = parameters(law);
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     FreeParameter& free = problem.free[i];
-    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == free.key; });
-    if (found != known.end() && found->unit == std::string(unit::MPa) && !config.parameters[i].upper && free.upper > 0)
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == free.key; });
+    if (found != known.end() && found->unit == std::string(unit::MPa) &&
+        !config.parameters[i].upper && free.upper > 0)
       free.upper = std::max(free.upper, std::min(secant, found->range.high));
   }
   return problem;

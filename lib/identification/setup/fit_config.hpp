@@ -5,8 +5,9 @@
 //   bounds:     admissible
 //   parameters: [{key: matrix.yeoh.a1}, {key: "fibres[0].alpha", lower: 0, upper: 90}, ...]
 //   ties:       [{key: "fibres[1].alpha", follows: "-fibres[0].alpha"}, ...]
-// A test may be a whole scene, {kind: scene, solve: ../solve/indentation.yaml, file: ..., columns: {u_ind: ..., force: ...}}: then
-// further numbers may be found, contacts.<name>.friction, data[i].touch_offset, data[i].force_offset and data[i].compliance.
+// A test may be a whole scene, {kind: scene, solve: ../solve/indentation.yaml, file: ..., columns:
+// {u_ind: ..., force: ...}}: then further numbers may be found, contacts.<name>.friction,
+// data[i].touch_offset, data[i].force_offset and data[i].compliance.
 #pragma once
 
 #include <map>
@@ -18,38 +19,47 @@
 #include "core/base/input_path.hpp"
 #include "core/config/tree.hpp"
 #include "identification/fit/fit.hpp"
-#include "results/plot/figure_style.hpp"
 #include "identification/statistics/study_config.hpp"
+#include "results/plot/figure_style.hpp"
 
 namespace langer {
 
 struct FitColumns {
   std::string strain_x, strain_z, stress_x, stress_z, time;
-  std::string t, u_ind, displacement, pressure;                          // of a scene: over what
-  std::string force, reaction_x, reaction_y, reaction_z, u_x, u_y, u_z;  // of a scene: what was measured
-  std::string x, y, z;                                                   // of a scene: where
+  std::string t, u_ind, displacement, pressure;  // of a scene: over what
+  std::string force, reaction_x, reaction_y, reaction_z, u_x, u_y,
+      u_z;              // of a scene: what was measured
+  std::string x, y, z;  // of a scene: where
   static void fields(auto& v) {
-    v(&FitColumns::strain_x, "strain_x", unit::none, "deformation along x; in simple shear its amount");
+    v(&FitColumns::strain_x, "strain_x", unit::none,
+      "deformation along x; in simple shear its amount");
     v(&FitColumns::strain_z, "strain_z", unit::none,
       "deformation along z, of a biaxial test; of an equibiaxial or pure shear test where stress_z has a grid of its own");
-    v(&FitColumns::stress_x, "stress_x", unit::none, "stress along x; in simple shear the shear stress");
+    v(&FitColumns::stress_x, "stress_x", unit::none,
+      "stress along x; in simple shear the shear stress");
     v(&FitColumns::stress_z, "stress_z", unit::none, "stress along z, where it was measured");
     v(&FitColumns::time, "time", unit::s,
       "of each point, where the law is viscous: relaxation, ramp and hold, cycles. The specimen is at rest until the first point; of a scene with path.seconds: over which it was measured");
-    v(&FitColumns::u_ind, "u_ind", unit::none, "of a scene: travel of the indenter, over which it was measured");
+    v(&FitColumns::u_ind, "u_ind", unit::none,
+      "of a scene: travel of the indenter, over which it was measured");
     v(&FitColumns::displacement, "displacement", unit::none,
       "of a scene: imposed displacement of the set `moved`, over which it was measured");
-    v(&FitColumns::pressure, "pressure", unit::none, "of a scene: pressure on the set `moved`, over which it was measured");
-    v(&FitColumns::t, "t", unit::none, "of a scene: place on its path, 0 to 1; without any of these all was measured at its end");
-    v(&FitColumns::force, "force", unit::none, "of a scene: force that resists the indenter, or the one that `on` names");
-    v(&FitColumns::reaction_x, "reaction_x", unit::none, "of a scene: force that holds or moves the set `on`, along x");
+    v(&FitColumns::pressure, "pressure", unit::none,
+      "of a scene: pressure on the set `moved`, over which it was measured");
+    v(&FitColumns::t, "t", unit::none,
+      "of a scene: place on its path, 0 to 1; without any of these all was measured at its end");
+    v(&FitColumns::force, "force", unit::none,
+      "of a scene: force that resists the indenter, or the one that `on` names");
+    v(&FitColumns::reaction_x, "reaction_x", unit::none,
+      "of a scene: force that holds or moves the set `on`, along x");
     v(&FitColumns::reaction_y, "reaction_y", unit::none, "the same along y");
     v(&FitColumns::reaction_z, "reaction_z", unit::none, "the same along z");
     v(&FitColumns::u_x, "u_x", unit::none,
       "of a scene: displacement along x of the point or set `on` (mean over its nodes), or at the places of x, y, z");
     v(&FitColumns::u_y, "u_y", unit::none, "the same along y, such as the height of an apex");
     v(&FitColumns::u_z, "u_z", unit::none, "the same along z");
-    v(&FitColumns::x, "x", unit::none, "of a scene: x at rest of each measured place on the surface");
+    v(&FitColumns::x, "x", unit::none,
+      "of a scene: x at rest of each measured place on the surface");
     v(&FitColumns::y, "y", unit::none, "of a scene: y at rest; none: the top");
     v(&FitColumns::z, "z", unit::none, "of a scene: z at rest; none: 0");
   }
@@ -77,7 +87,8 @@ struct FitData {
   std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z, toe;
   ZeroAt zero_at = ZeroAt::reading;
   bool normalised = false;
-  std::optional<double> weight, standard_deviation, strain_from, strain_to, time_from, time_to, compare_from;
+  std::optional<double> weight, standard_deviation, strain_from, strain_to, time_from, time_to,
+      compare_from;
   std::map<std::string, std::string> where;
   std::string split;
   static void fields(auto& v) {
@@ -85,16 +96,19 @@ struct FitData {
       "measured test, CSV; keys of this list may stand in its header between lines `# ---`, or in a YAML file of its name; none: the "
       "next of the files that --curves gives");
     v(&FitData::name, "name", unit::none, "of the test; by default that of the file");
-    v(&FitData::kind, "kind", unit::none, "what the test imposes; scene: what the config `solve` does");
+    v(&FitData::kind, "kind", unit::none,
+      "what the test imposes; scene: what the config `solve` does");
     v(&FitData::solve, "solve", unit::none,
       "config of langer-solve that the test is; its material gives way to the law, bodies under `materials` keep theirs");
     v(&FitData::mesh, "mesh", unit::none, "config of langer-mesh for it, where `solve` has none");
     v(&FitData::on, "on", unit::none,
       "set or point of the scene that was measured; of a force the contact's name, if there are several");
-    v(&FitData::moved, "moved", unit::none, "set of the scene whose imposed displacement or pressure it was measured over");
+    v(&FitData::moved, "moved", unit::none,
+      "set of the scene whose imposed displacement or pressure it was measured over");
     v(&FitData::touch_offset, "touch_offset", unit::mm,
       "of a scene: travel that was read where the scene begins; may be a parameter, data[i].touch_offset");
-    v(&FitData::force_offset, "force_offset", unit::N, "of a scene: force that was read at no force; may be a parameter");
+    v(&FitData::force_offset, "force_offset", unit::N,
+      "of a scene: force that was read at no force; may be a parameter");
     v(&FitData::compliance, "compliance", unit::none,
       "of the machine, in mm/N: of the travel that was read this times the measured force is its own; may be a parameter",
       at_least(0));
@@ -111,31 +125,42 @@ struct FitData {
       "where the column's name does not tell; of a force (N, mN, kN) width and thickness make a nominal stress");
     v(&FitData::strain_unit, "strain_unit", unit::none,
       "where the column's name does not tell, fraction by default; of an elongation (mm, um) gauge_length makes a strain");
-    v(&FitData::decimal, "decimal", unit::none, "sign of decimals where the file leaves it open, as 1,234 does");
-    v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x", positive);
+    v(&FitData::decimal, "decimal", unit::none,
+      "sign of decimals where the file leaves it open, as 1,234 does");
+    v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x",
+      positive);
     v(&FitData::thickness, "thickness", unit::mm, "of the specimen at rest, for forces", positive);
-    v(&FitData::gauge_length, "gauge_length", unit::mm, "length at rest between grips or marks, for elongations along x", positive);
-    v(&FitData::width_z, "width_z", unit::mm, "of the specimen at rest, across a force along z", positive);
-    v(&FitData::gauge_length_z, "gauge_length_z", unit::mm, "length at rest, for elongations along z", positive);
+    v(&FitData::gauge_length, "gauge_length", unit::mm,
+      "length at rest between grips or marks, for elongations along x", positive);
+    v(&FitData::width_z, "width_z", unit::mm, "of the specimen at rest, across a force along z",
+      positive);
+    v(&FitData::gauge_length_z, "gauge_length_z", unit::mm,
+      "length at rest, for elongations along z", positive);
     v(&FitData::toe, "toe", unit::MPa,
       "the state in which the stress along x first reaches this is taken as the one at rest: stretches and nominal stresses are "
       "referred to it, points before it left out",
       positive);
-    v(&FitData::shear, "shear", unit::none, "shear that fibres off the axes cause: held by the grips, or free");
-    v(&FitData::fibre_angle, "fibre_angle", unit::deg, "how the specimen was cut: added to the law's fibre angles");
+    v(&FitData::shear, "shear", unit::none,
+      "shear that fibres off the axes cause: held by the grips, or free");
+    v(&FitData::fibre_angle, "fibre_angle", unit::deg,
+      "how the specimen was cut: added to the law's fibre angles");
     counted_fields(v);
     v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
-    v(&FitData::split, "split", unit::none, "a column: one test for each text in it, such as a protocol");
+    v(&FitData::split, "split", unit::none,
+      "a column: one test for each text in it, such as a protocol");
   }
   // which points count, how much and from where
   static void counted_fields(auto& v) {
-    v(&FitData::weight, "weight", unit::none, "of the residuals beside those of other tests; 1 by default", positive);
+    v(&FitData::weight, "weight", unit::none,
+      "of the residuals beside those of other tests; 1 by default", positive);
     v(&FitData::standard_deviation, "standard_deviation", unit::none,
       "of the measured stress in MPa: the weight is its inverse; beside scenes of every test, of a scene in N or mm: none: study.noise "
       "times its largest value",
       positive);
-    v(&FitData::strain_from, "strain_from", unit::none, "points below this engineering strain along x are left out");
-    v(&FitData::strain_to, "strain_to", unit::none, "points above this engineering strain along x are left out");
+    v(&FitData::strain_from, "strain_from", unit::none,
+      "points below this engineering strain along x are left out");
+    v(&FitData::strain_to, "strain_to", unit::none,
+      "points above this engineering strain along x are left out");
     v(&FitData::time_from, "time_from", unit::s,
       "points before this time are left out; the specimen is at rest at the first one kept");
     v(&FitData::time_to, "time_to", unit::s, "points after this time are left out");
@@ -154,7 +179,8 @@ struct FitData {
 
  private:
   void complain_of_scene(std::vector<Complaint>& all) const;
-  void complain_of_homogeneous_keys(std::vector<Complaint>& all) const;  // that a scene does not read
+  void complain_of_homogeneous_keys(
+      std::vector<Complaint>& all) const;  // that a scene does not read
 };
 
 enum class Bounds { custom, paper, admissible };
@@ -164,18 +190,24 @@ struct FitParameter {
   std::string key;
   std::optional<double> lower, upper, start, truth;
   static void fields(auto& v) {
-    v(&FitParameter::key, "key", unit::none, "path of a number of the law, such as matrix.yeoh.a1", required);
-    v(&FitParameter::lower, "lower", unit::none, "lower bound, in the unit of the number; may be left out unless bounds: custom");
-    v(&FitParameter::upper, "upper", unit::none, "upper bound; may be left out unless bounds: custom");
-    v(&FitParameter::start, "start", unit::none, "where the first search starts; by default the law's own value");
-    v(&FitParameter::truth, "truth", unit::none, "what it is, where data are made up: told beside what is found");
+    v(&FitParameter::key, "key", unit::none, "path of a number of the law, such as matrix.yeoh.a1",
+      required);
+    v(&FitParameter::lower, "lower", unit::none,
+      "lower bound, in the unit of the number; may be left out unless bounds: custom");
+    v(&FitParameter::upper, "upper", unit::none,
+      "upper bound; may be left out unless bounds: custom");
+    v(&FitParameter::start, "start", unit::none,
+      "where the first search starts; by default the law's own value");
+    v(&FitParameter::truth, "truth", unit::none,
+      "what it is, where data are made up: told beside what is found");
   }
 };
 
 struct FitTie {
   std::string key, follows;
   static void fields(auto& v) {
-    v(&FitTie::key, "key", unit::none, "path of a number of the law that is not among `parameters`", required);
+    v(&FitTie::key, "key", unit::none, "path of a number of the law that is not among `parameters`",
+      required);
     v(&FitTie::follows, "follows", unit::none,
       "path of the number that it follows, with a sign, a factor or an offset if need be: -fibres[0].alpha, "
       "0.5 * fibres[0].hgo.c1, fibres[0].alpha + 90",
@@ -202,38 +234,46 @@ struct FitConfig {
   FigureStyle figure_style;
   static void fields(auto& v) {
     v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
-    v(&FitConfig::law, "law", unit::none, "energy terms, fibre angles and the numbers that are not fitted", required);
+    v(&FitConfig::law, "law", unit::none,
+      "energy terms, fibre angles and the numbers that are not fitted", required);
     v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
-    v(&FitConfig::ties, "ties", unit::none, "numbers of the law that follow others, such as those of a second family of fibres");
+    v(&FitConfig::ties, "ties", unit::none,
+      "numbers of the law that follow others, such as those of a second family of fibres");
     v(&FitConfig::bounds, "bounds", unit::none,
       "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable, and a shear "
       "modulus at rest that the tests can tell from 0 (docs/identification.md)");
     v(&FitConfig::dilatation, "dilatation", unit::none,
       "state of the specimen: the volume term left out (incompressible) or counted (uniaxial tests only)");
     v(&FitConfig::starts, "starts", unit::none,
-      "searches: one from the start values, the others from random places in the box; none: 20, with scenes 1", between(1, 100000));
-    v(&FitConfig::jobs, "jobs", unit::none, "scenes that are solved side by side; the results do not depend on it",
-      between(1, 256));
+      "searches: one from the start values, the others from random places in the box; none: 20, with scenes 1",
+      between(1, 100000));
+    v(&FitConfig::jobs, "jobs", unit::none,
+      "scenes that are solved side by side; the results do not depend on it", between(1, 256));
     v(&FitConfig::draft, "draft", unit::none,
       "of scenes: search on cells twice as long first where the mesh follows from numbers of its config, and go on from there");
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
-    v(&FitConfig::cross_check, "cross_check", unit::none, "a cross-check by another method; disagreement is a warning",
-      Formerly{"check"});
-    v(&FitConfig::study, "study", unit::none, "what the data tell about the parameters, and where the law is stable; {} for all");
+    v(&FitConfig::cross_check, "cross_check", unit::none,
+      "a cross-check by another method; disagreement is a warning", Formerly{"check"});
+    v(&FitConfig::study, "study", unit::none,
+      "what the data tell about the parameters, and where the law is stable; {} for all");
     v(&FitConfig::figure_style, "figure_style", unit::none, "how figures are made");
   }
   bool has_scenes() const;
-  double noise() const { return study.value_or(StudyConfig{}).noise; }  // part of the largest value of a test
+  double noise() const {
+    return study.value_or(StudyConfig{}).noise;
+  }  // part of the largest value of a test
   int searches() const { return starts.value_or(has_scenes() ? 1 : 20); }
   std::vector<Complaint> complaints() const;
   static void complete(Tree& tree);  // what the measured files say of themselves
 };
 
-// the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it must be admissible;
-// exponents 0..10, those of fibres (c2) 0..100, angles -90..90, limits of extension up to 200
+// the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it
+// must be admissible; exponents 0..10, those of fibres (c2) 0..100, angles -90..90, limits of
+// extension up to 200
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start);
 
-// the parameters with their bounds and start values; a key that the law lacks stays without (complaints() names it)
+// the parameters with their bounds and start values; a key that the law lacks stays without
+// (complaints() names it)
 std::vector<FreeParameter> free_parameters(const FitConfig& config);
 
 // of a key that names no number of the law but one of a scene; nothing where it names none
@@ -250,8 +290,8 @@ std::vector<Tie> ties_of(const FitConfig& config);
 // reads the files; throws Failure(input). Scenes are left out.
 std::vector<Test> measured_tests(const FitConfig& config);
 
-// all of it; upper bounds of moduli that the config leaves to a preset are three times the greatest secant modulus of the tests, where
-// that is more than 10 MPa
+// all of it; upper bounds of moduli that the config leaves to a preset are three times the greatest
+// secant modulus of the tests, where that is more than 10 MPa
 FitProblem fit_problem(const FitConfig& config);
 
 }  // namespace langer

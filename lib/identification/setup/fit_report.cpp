@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/fit/stiffness_at_rest.hpp"
+#include "identification/statistics/within_bounds.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "results/store/curves_file.hpp"
-#include "identification/statistics/within_bounds.hpp"
 
 namespace langer {
 
@@ -17,7 +18,8 @@ namespace {
 // of 95 %, by Student's factor for the noise that the residuals show (fit/residual_noise.hpp)
 void set_intervals(const FitResult& fit, FitRecord& record) {
   const VecX factors = interval_factors(fit.columns, fit.left_out, fit.noise);
-  const MatX white = covariance(fit.best.J, fit.left_out, white_noise(fit.noise.total(), fit.best.J.rows()));
+  const MatX white =
+      covariance(fit.best.J, fit.left_out, white_noise(fit.noise.total(), fit.best.J.rows()));
   for (std::size_t i = 0; i < record.parameters.size(); ++i) {
     FittedParameter& p = record.parameters[i];
     const auto k = static_cast<Eigen::Index>(i);
@@ -26,13 +28,15 @@ void set_intervals(const FitResult& fit, FitRecord& record) {
   }
 }
 
-// Beside a bound that a parameter rests on: what is on it keeps no standard error, the others get that of fits within the bounds.
+// Beside a bound that a parameter rests on: what is on it keeps no standard error, the others get
+// that of fits within the bounds.
 void set_bounded(const WithinBounds& bounded, FitRecord& record) {
   for (std::size_t i = 0; i < record.parameters.size(); ++i) {
     FittedParameter& p = record.parameters[i];
     const auto k = static_cast<Eigen::Index>(i);
     p.low = bounded.low[i], p.high = bounded.high[i];
-    if (const double variance = bounded.moments(k, k); std::isfinite(variance) && std::isfinite(p.standard_error))
+    if (const double variance = bounded.moments(k, k);
+        std::isfinite(variance) && std::isfinite(p.standard_error))
       p.standard_error = std::sqrt(variance);
   }
   if (bounded.moments.array().isFinite().any()) record.covariance = bounded.moments;
@@ -47,9 +51,11 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     const FreeParameter& p = problem.free[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const auto known = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
-    record.parameters.push_back({p.of_law() ? known->name : p.name, p.of_law() ? known->unit : p.unit, fit.best.p[k], p.lower,
-                                 p.upper, std::sqrt(fit.covariance(k, k))});
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    record.parameters.push_back({p.of_law() ? known->name : p.name,
+                                 p.of_law() ? known->unit : p.unit, fit.best.p[k], p.lower, p.upper,
+                                 std::sqrt(fit.covariance(k, k))});
     record.parameters.back().key = p.key;
   }
   if (fit.columns.size() > 0) set_intervals(fit, record);
@@ -57,7 +63,8 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   if (const auto bounded = within_bounds(problem, fit)) set_bounded(*bounded, record);
   record.cost = fit.best.cost;
   record.kkt_residual = fit.best.kkt;
-  record.mean_error_percent = fit.quality.mean_error_percent, record.max_error_percent = fit.quality.max_error_percent;
+  record.mean_error_percent = fit.quality.mean_error_percent,
+  record.max_error_percent = fit.quality.max_error_percent;
   record.r2 = fit.quality.r2, record.aicc = fit.quality.aicc, record.bic = fit.quality.bic;
   record.residual_correlation = fit.noise.rho, record.effective_values = fit.noise.effective;
   record.ties = problem.ties;
@@ -94,7 +101,8 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
     }
   record.strain_min = low, record.strain_max = high;
   const FittedTest& first = record.tests.front();
-  for (double x : first.first) record.strain.push_back(first.kind == "simple_shear" ? x : engineering_strain(x));
+  for (double x : first.first)
+    record.strain.push_back(first.kind == "simple_shear" ? x : engineering_strain(x));
   record.stress = first.stress_x, record.model = first.model_x;
   return record;
 }
@@ -104,13 +112,15 @@ std::string fit_csv(const FitRecord& record) {
     double largest = 0;
     for (const auto* list : {&t.stress_x, &t.stress_z})
       for (double s : *list) largest = std::max(largest, std::abs(s));
-    return largest > 0 ? 100 * (model - stress) / largest : std::numeric_limits<double>::quiet_NaN();
+    return largest > 0 ? 100 * (model - stress) / largest
+                       : std::numeric_limits<double>::quiet_NaN();
   };
   if (record.tests.empty()) return "";
   const FittedTest& only = record.tests.front();
   if (record.tests.size() == 1 && only.kind == "uniaxial") {
     std::vector<double> e;
-    for (std::size_t i = 0; i < only.first.size(); ++i) e.push_back(error(only.model_x[i], only.stress_x[i], only));
+    for (std::size_t i = 0; i < only.first.size(); ++i)
+      e.push_back(error(only.model_x[i], only.stress_x[i], only));
     return csv({{"strain", "-", record.strain},
                 {only.measure + "_stress", "MPa", only.stress_x},
                 {"model", "MPa", only.model_x},
@@ -155,12 +165,15 @@ bool at_symmetry(const FittedParameter& p) {
 namespace {
 std::string in_words(const FittedCurve& c) {
   double square = 0;
-  for (std::size_t i = 0; i < c.model.size(); ++i) square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
+  for (std::size_t i = 0; i < c.model.size(); ++i)
+    square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
   const double missed = std::sqrt(square / static_cast<double>(c.model.size()));
   return fmt::format(
-      "{:>10}: {} missed by {:.3g} {} (root mean square, {:.2f} standard deviations), {:.3g} % of the largest{}", c.name,
-      c.quantity, missed, c.unit, missed / c.standard_deviation, c.mean_error_percent,
-      std::isnan(c.discretisation_percent) ? "" : fmt::format("; cells may make {:.2g} %", c.discretisation_percent));
+      "{:>10}: {} missed by {:.3g} {} (root mean square, {:.2f} standard deviations), {:.3g} % of the largest{}",
+      c.name, c.quantity, missed, c.unit, missed / c.standard_deviation, c.mean_error_percent,
+      std::isnan(c.discretisation_percent)
+          ? ""
+          : fmt::format("; cells may make {:.2g} %", c.discretisation_percent));
 }
 }  // namespace
 
@@ -168,32 +181,43 @@ std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
   const bool held = std::any_of(record.parameters.begin(), record.parameters.end(), at_symmetry);
   for (const FittedParameter& p : record.parameters) {
-    const bool turns = p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
+    const bool turns =
+        p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
     const std::string known =
-        on_bound ? std::isnan(p.low) ? "on its bound" : fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high)
-        : std::isnan(p.standard_error) && p.unit == unit::deg ? "at an angle of symmetry, or not determined: see its profile"
+        on_bound ? std::isnan(p.low)
+                       ? "on its bound"
+                       : fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high)
+        : std::isnan(p.standard_error) && p.unit == unit::deg
+            ? "at an angle of symmetry, or not determined: see its profile"
         : std::isnan(p.standard_error)
             ? "not determined by this curve"
-            : fmt::format("standard error {:.2g}{}", p.standard_error, held ? " with the angle held: see its profile" : "");
-    lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value, p.unit == "-" ? "" : p.unit, known));
+            : fmt::format("standard error {:.2g}{}", p.standard_error,
+                          held ? " with the angle held: see its profile" : "");
+    lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value,
+                                p.unit == "-" ? "" : p.unit, known));
   }
-  for (const Tie& tie : record.ties) lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
+  for (const Tie& tie : record.ties)
+    lines.push_back(fmt::format("{} = {}", tie.key, tie_text(tie)));
   if (record.tests.size() + record.curves.size() > 1)
     for (const FittedTest& t : record.tests)
-      lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %", t.name, t.r2, t.mean_error_percent,
-                                  t.max_error_percent));
+      lines.push_back(fmt::format("{:>10}: R2 {:.4f}, mean error {:.3g} %, largest {:.3g} %",
+                                  t.name, t.r2, t.mean_error_percent, t.max_error_percent));
   for (const FittedCurve& c : record.curves) lines.push_back(in_words(c));
   std::size_t points = 0;
   for (const FittedTest& t : record.tests) points += t.first.size();
   for (const FittedCurve& c : record.curves) points += c.x.size();
-  const std::string aicc = std::isnan(record.aicc) ? fmt::format("no AICc (the points count as {:.0f}, too few for {} parameters)",
-                                                                 record.effective_values, record.parameters.size())
-                                                   : fmt::format("AICc {:.6g}", record.aicc);
+  const std::string aicc =
+      std::isnan(record.aicc)
+          ? fmt::format("no AICc (the points count as {:.0f}, too few for {} parameters)",
+                        record.effective_values, record.parameters.size())
+          : fmt::format("AICc {:.6g}", record.aicc);
   lines.push_back(fmt::format("R2 {:.6f}, {}, BIC {:.6g}", record.r2, aicc, record.bic));
-  lines.push_back(fmt::format("mean error {:.3g} %, largest {:.3g} % of the largest {}; KKT residual {:.1e}; {} points, {} starts",
-                              record.mean_error_percent, record.max_error_percent, record.curves.empty() ? "stress" : "value",
-                              record.kkt_residual, points, record.starts.rows()));
+  lines.push_back(fmt::format(
+      "mean error {:.3g} %, largest {:.3g} % of the largest {}; KKT residual {:.1e}; {} points, {} starts",
+      record.mean_error_percent, record.max_error_percent,
+      record.curves.empty() ? "stress" : "value", record.kkt_residual, points,
+      record.starts.rows()));
   return lines;
 }
 
@@ -201,43 +225,48 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   std::vector<std::string> lines;
   if (record.at_rest) lines.push_back(in_words(*record.at_rest));
   if (at_rest(material) == AtRest::without_stiffness)
-    lines.push_back(fmt::format("the law has {}: no body of it can be solved; it needs {}", at_rest_in_words(material),
-                                stiffness_at_rest_cure(material)));
+    lines.push_back(fmt::format("the law has {}: no body of it can be solved; it needs {}",
+                                at_rest_in_words(material), stiffness_at_rest_cure(material)));
   for (const MatrixTerm& term : material.matrix)
     if (const double mu = shear_modulus(term); mu < 0)
-      lines.push_back(fmt::format("{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
-                                  std::visit([](const auto& law) { return law.key; }, term), mu));
+      lines.push_back(fmt::format(
+          "{} starts with a negative slope: the shear modulus of this term is {:.4g} MPa at rest",
+          std::visit([](const auto& law) { return law.key; }, term), mu));
   for (const Fibre& fibre : material.fibres)
     if (const auto* hgo = std::get_if<HgoFibre>(&fibre.law); hgo && hgo->c1 < 0)
       lines.push_back(fmt::format(
-          "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only", hgo->c1));
+          "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
+          hgo->c1));
   if (record.residual_correlation > 0) {
     std::size_t values = 0;
     for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
     for (const FittedCurve& c : record.curves) values += c.measured.size();
-    lines.push_back(
-        fmt::format("residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
-                    "errors, intervals and AICc; the law misses the curves, or the device drifts",
-                    record.residual_correlation, values, record.effective_values));
+    lines.push_back(fmt::format(
+        "residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
+        "errors, intervals and AICc; the law misses the curves, or the device drifts",
+        record.residual_correlation, values, record.effective_values));
   }
   const MatX correlations = correlation(record.covariance);
   for (std::size_t i = 0; i < record.parameters.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double r = correlations(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (std::isgreater(std::abs(r), 0.99))  // never NaN, without a trap
-        lines.push_back(fmt::format("{} and {} are correlated by {:.4f}: this curve cannot separate them",
-                                    record.parameters[j].name, record.parameters[i].name, r));
+        lines.push_back(
+            fmt::format("{} and {} are correlated by {:.4f}: this curve cannot separate them",
+                        record.parameters[j].name, record.parameters[i].name, r));
     }
   const std::vector<Vec3> a = fibre_directions(material);
   const double far = 1.5 * record.strain_max;
   for (int i = 0; i <= 200 && far > 0; ++i) {
     const Uniaxial u = uniaxial_incompressible(material, 1 + i * far / 200);
-    const double value = u.converged ? smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value
-                                     : std::numeric_limits<double>::quiet_NaN();
+    const double value = u.converged
+                             ? smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value
+                             : std::numeric_limits<double>::quiet_NaN();
     if (std::isgreaterequal(value, 0)) continue;
-    lines.push_back(fmt::format("{} at strain {:.2g}; the curve ends at {:.2g}",
-                                std::isnan(value) ? "the law has no number" : "strong ellipticity is lost", i * far / 200,
-                                record.strain_max));
+    lines.push_back(
+        fmt::format("{} at strain {:.2g}; the curve ends at {:.2g}",
+                    std::isnan(value) ? "the law has no number" : "strong ellipticity is lost",
+                    i * far / 200, record.strain_max));
     break;
   }
   return lines;

@@ -28,15 +28,21 @@ void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
                                    {"normalised", normalised},
                                    {"shear", shear != OffAxisShear::held},
                                    {"split", !split.empty()}})
-    if (found) all.push_back({key, "found in a scene", "a homogeneous test, or without it", "a scene does not read it"});
+    if (found)
+      all.push_back({key, "found in a scene", "a homogeneous test, or without it",
+                     "a scene does not read it"});
 }
 
 void FitData::complain_of_scene(std::vector<Complaint>& all) const {
-  if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
-  if (weight) all.push_back({"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
+  if (solve.path.empty())
+    all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
+  if (weight)
+    all.push_back(
+        {"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
   complain_of_homogeneous_keys(all);
   if (!columns) {
-    all.push_back({"columns", "missing", "columns of the file", "columns: {u_ind: travel_mm, force: force_N}"});
+    all.push_back({"columns", "missing", "columns of the file",
+                   "columns: {u_ind: travel_mm, force: force_N}"});
     return;
   }
   const FitColumns& c = *columns;
@@ -46,32 +52,46 @@ void FitData::complain_of_scene(std::vector<Complaint>& all) const {
       if (!text->empty()) found.push_back(key);
     return found;
   };
-  for (const std::string& key :
-       named({{"strain_x", &c.strain_x}, {"strain_z", &c.strain_z}, {"stress_x", &c.stress_x}, {"stress_z", &c.stress_z}}))
-    all.push_back(
-        {"columns." + key, "found in a scene", "u_ind, displacement, pressure, time or t, and force, reaction_x or u_x", ""});
-  const std::vector<std::string> over =
-      named({{"t", &c.t}, {"time", &c.time}, {"u_ind", &c.u_ind}, {"displacement", &c.displacement}, {"pressure", &c.pressure}});
-  if (over.size() > 1) all.push_back({"columns." + over[1], "found beside " + over[0], "one of them", ""});
+  for (const std::string& key : named({{"strain_x", &c.strain_x},
+                                       {"strain_z", &c.strain_z},
+                                       {"stress_x", &c.stress_x},
+                                       {"stress_z", &c.stress_z}}))
+    all.push_back({"columns." + key, "found in a scene",
+                   "u_ind, displacement, pressure, time or t, and force, reaction_x or u_x", ""});
+  const std::vector<std::string> over = named({{"t", &c.t},
+                                               {"time", &c.time},
+                                               {"u_ind", &c.u_ind},
+                                               {"displacement", &c.displacement},
+                                               {"pressure", &c.pressure}});
+  if (over.size() > 1)
+    all.push_back({"columns." + over[1], "found beside " + over[0], "one of them", ""});
   if ((!c.displacement.empty() || !c.pressure.empty()) && moved.empty())
-    all.push_back({"moved", "missing", "the set whose displacement or pressure it was measured over", ""});
-  const std::vector<std::string> forces =
-      named({{"force", &c.force}, {"reaction_x", &c.reaction_x}, {"reaction_y", &c.reaction_y}, {"reaction_z", &c.reaction_z}});
+    all.push_back(
+        {"moved", "missing", "the set whose displacement or pressure it was measured over", ""});
+  const std::vector<std::string> forces = named({{"force", &c.force},
+                                                 {"reaction_x", &c.reaction_x},
+                                                 {"reaction_y", &c.reaction_y},
+                                                 {"reaction_z", &c.reaction_z}});
   const std::vector<std::string> ways = named({{"u_x", &c.u_x}, {"u_y", &c.u_y}, {"u_z", &c.u_z}});
   if (forces.empty() && ways.empty())
-    all.push_back({"columns", "nothing that was measured", "force, reaction_x, reaction_y, reaction_z, u_x, u_y or u_z", ""});
+    all.push_back({"columns", "nothing that was measured",
+                   "force, reaction_x, reaction_y, reaction_z, u_x, u_y or u_z", ""});
   if (!forces.empty() && !ways.empty())
-    all.push_back({"columns." + ways[0], "found beside " + forces[0], "forces or displacements",
-                   "an item of data each, with a standard deviation of its own; items of one `solve` share its runs"});
+    all.push_back(
+        {"columns." + ways[0], "found beside " + forces[0], "forces or displacements",
+         "an item of data each, with a standard deviation of its own; items of one `solve` share its runs"});
   const bool at_places = !c.x.empty() || !c.y.empty() || !c.z.empty();
   if (!ways.empty() && at_places == !on.empty())
     all.push_back({at_places ? "on" : "columns." + ways[0],
                    at_places ? "found beside columns of places" : "a displacement of no place",
                    "on: a point or set of the scene, or columns x and z", ""});
-  if (std::any_of(forces.begin(), forces.end(), [](const std::string& f) { return f != "force"; }) && on.empty())
+  if (std::any_of(forces.begin(), forces.end(),
+                  [](const std::string& f) { return f != "force"; }) &&
+      on.empty())
     all.push_back({"on", "missing", "the set whose reaction it is", ""});
   if (compliance != 0 && (c.u_ind.empty() || c.force.empty()))
-    all.push_back({"compliance", "found without u_ind and force", "a test of force over travel", ""});
+    all.push_back(
+        {"compliance", "found without u_ind and force", "a test of force over travel", ""});
 }
 
 bool FitConfig::has_scenes() const {
@@ -81,37 +101,46 @@ bool FitConfig::has_scenes() const {
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key) {
   if (!config.has_scenes()) return std::nullopt;
   const std::string contact = "contacts.", friction = ".friction";
-  if (key.starts_with(contact) && key.ends_with(friction) && key.size() > contact.size() + friction.size())
-    return SceneNumber{SceneNumber::Of::friction, key.substr(contact.size(), key.size() - contact.size() - friction.size())};
+  if (key.starts_with(contact) && key.ends_with(friction) &&
+      key.size() > contact.size() + friction.size())
+    return SceneNumber{SceneNumber::Of::friction,
+                       key.substr(contact.size(), key.size() - contact.size() - friction.size())};
   for (std::size_t i = 0; i < config.data.size(); ++i)
     for (const auto& [word, of] : {std::pair("touch_offset", SceneNumber::Of::touch_offset),
                                    {"force_offset", SceneNumber::Of::force_offset},
                                    {"compliance", SceneNumber::Of::compliance}})
-      if (config.data[i].is_scene() && key == fmt::format("data[{}].{}", i, word)) return SceneNumber{of, "", i};
+      if (config.data[i].is_scene() && key == fmt::format("data[{}].{}", i, word))
+        return SceneNumber{of, "", i};
   return std::nullopt;
 }
 
 std::vector<Complaint> CandidateChoice::complaints() const {
   std::vector<Complaint> all;
   if (kind != DataKind::scene) {
-    for (const auto& [key, found] :
-         {std::pair("solve", !solve.path.empty()), {"vary", !vary.empty()}, {"places", !places.empty()}, {"on", !on.empty()}})
+    for (const auto& [key, found] : {std::pair("solve", !solve.path.empty()),
+                                     {"vary", !vary.empty()},
+                                     {"places", !places.empty()},
+                                     {"on", !on.empty()}})
       if (found) all.push_back({key, "found in a candidate that is no scene", "kind: scene", ""});
     return all;
   }
-  if (solve.path.empty()) all.push_back({"solve", "missing", "config of langer-solve that the test would be", ""});
-  if (measured.empty()) all.push_back({"measured", "an empty list", "force, a reaction or a displacement", ""});
+  if (solve.path.empty())
+    all.push_back({"solve", "missing", "config of langer-solve that the test would be", ""});
+  if (measured.empty())
+    all.push_back({"measured", "an empty list", "force, a reaction or a displacement", ""});
   for (std::size_t i = 0; i < vary.size(); ++i)
-    if (vary[i].values.empty()) all.push_back({fmt::format("vary[{}].values", i), "an empty list", "a value at least", ""});
+    if (vary[i].values.empty())
+      all.push_back({fmt::format("vary[{}].values", i), "an empty list", "a value at least", ""});
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool moves = measured[i] >= SceneQuantity::u_x;
     const std::string word = names(measured[i])[static_cast<std::size_t>(measured[i])];
     if (measured[i] != SceneQuantity::force && on.empty() && !(moves && !places.empty()))
       all.push_back({moves ? "places" : "on", "missing beside " + word,
-                     moves ? "places on the top, or on: a set" : "the set that is held or moved", ""});
+                     moves ? "places on the top, or on: a set" : "the set that is held or moved",
+                     ""});
     if (!moves && !places.empty())
-      all.push_back(
-          {fmt::format("measured[{}]", i), word + " beside places", "displacements, and a candidate of its own for the force", ""});
+      all.push_back({fmt::format("measured[{}]", i), word + " beside places",
+                     "displacements, and a candidate of its own for the force", ""});
   }
   return all;
 }

@@ -15,13 +15,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse(const Place& place, std::string found, std::string expected, std::string hint = "") {
-  throw Failure(Exit::config, Error{place, "", std::move(found), std::move(expected), std::move(hint)});
+[[noreturn]] void refuse(const Place& place, std::string found, std::string expected,
+                         std::string hint = "") {
+  throw Failure(Exit::config,
+                Error{place, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
 bool is_fence(const std::string& line) {
   const std::size_t first = line.find_first_not_of("# \t");
-  return line.starts_with('#') && first != std::string::npos && line.compare(first, 3, "---") == 0 &&
+  return line.starts_with('#') && first != std::string::npos &&
+         line.compare(first, 3, "---") == 0 &&
          line.find_first_not_of("- \t\r", first) == std::string::npos;
 }
 
@@ -31,20 +34,24 @@ bool is_this(const fs::path& path, const Place& place) {
   return fs::equivalent(path, place.file, ec);
 }
 
-// Any config may stand beside a CSV of its name: this one is the CSV's if most of its keys are those of an item of `data`.
+// Any config may stand beside a CSV of its name: this one is the CSV's if most of its keys are
+// those of an item of `data`.
 bool is_sidecar(const Tree& tree) {
   static const std::vector<std::string> known = keys_of<FitData>();
   if (tree.kind != Tree::Kind::map) return false;
   const auto is_known = [&](const Tree::Entry& e) {
-    return std::find(known.begin(), known.end(), e.key) != known.end() && (e.key != "columns" || e.value.kind != Tree::Kind::list);
+    return std::find(known.begin(), known.end(), e.key) != known.end() &&
+           (e.key != "columns" || e.value.kind != Tree::Kind::list);
   };
-  return 2 * std::count_if(tree.map.begin(), tree.map.end(), is_known) > static_cast<std::ptrdiff_t>(tree.map.size());
+  return 2 * std::count_if(tree.map.begin(), tree.map.end(), is_known) >
+         static_cast<std::ptrdiff_t>(tree.map.size());
 }
 
 }  // namespace
 
 Tree csv_header(const std::string& text, const std::string& shown_name) {
-  // every other line is left empty and the # becomes a blank: lines and columns stay those of the file
+  // every other line is left empty and the # becomes a blank: lines and columns stay those of the
+  // file
   std::istringstream in(text);
   std::string yaml;
   int number = 0, opened_at = 0;
@@ -53,7 +60,8 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     const bool comment = line.starts_with('#');
-    if (!open && !comment && line.find_first_not_of(" \t\r") != std::string::npos) return {};  // the table begins
+    if (!open && !comment && line.find_first_not_of(" \t\r") != std::string::npos)
+      return {};  // the table begins
     if (is_fence(line)) {
       closed = open, open = true;
       opened_at = closed ? opened_at : number;
@@ -65,10 +73,13 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
     }
   }
   if (!open) return {};
-  if (!closed) refuse({shown_name, opened_at, 1}, "found a header that does not end", "a second line \"# ---\" before the table");
+  if (!closed)
+    refuse({shown_name, opened_at, 1}, "found a header that does not end",
+           "a second line \"# ---\" before the table");
   const Tree tree = parse_yaml(yaml, shown_name);
   if (tree.kind != Tree::Kind::map)
-    refuse({shown_name, opened_at, 1}, "found " + description(tree) + " between the lines \"# ---\"", "a map of keys");
+    refuse({shown_name, opened_at, 1},
+           "found " + description(tree) + " between the lines \"# ---\"", "a map of keys");
   return tree;
 }
 
@@ -81,16 +92,19 @@ void add_what_the_file_says(Tree& item) {
   if (!in || !(text << in.rdbuf())) return;
   Tree said = csv_header(text.str(), path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
-  const Tree other =
-      beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place) ? load_yaml(beside.string()) : Tree{};
+  const Tree other = beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place)
+                         ? load_yaml(beside.string())
+                         : Tree{};
   if (other.kind != Tree::Kind::null && is_sidecar(other)) {
     if (said.kind == Tree::Kind::map)
-      refuse(said.place, "found a header beside " + beside.string(), "one of the two", "both describe the same test");
+      refuse(said.place, "found a header beside " + beside.string(), "one of the two",
+             "both describe the same test");
     said = other;
   }
   for (const Tree::Entry& entry : said.map) {
     if (entry.key == "file")
-      refuse(entry.value.place, "found the key \"file\"", "kind, columns, stress and so on: this describes a file that is there");
+      refuse(entry.value.place, "found the key \"file\"",
+             "kind, columns, stress and so on: this describes a file that is there");
     if (!item.find(entry.key)) item.map.push_back(entry);
   }
 }

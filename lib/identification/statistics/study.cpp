@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tensor/kinematics.hpp"
 #include "identification/fit/advice.hpp"
 #include "identification/fit/identifiability.hpp"
+#include "identification/statistics/within_bounds.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
-#include "identification/statistics/within_bounds.hpp"
-#include "core/tensor/kinematics.hpp"
 
 namespace langer {
 
@@ -21,13 +21,16 @@ std::string word(E e) {
   return names(e)[static_cast<std::size_t>(e)];
 }
 
-TestKind kind_of(const CandidateChoice& choice) { return static_cast<TestKind>(choice.kind); }  // of one that is no scene
+TestKind kind_of(const CandidateChoice& choice) {
+  return static_cast<TestKind>(choice.kind);
+}  // of one that is no scene
 
-// The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as the largest test, whose weight it
-// has as well, for it is measured by the same device.
+// The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as
+// the largest test, whose weight it has as well, for it is measured by the same device.
 Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, double reach) {
   const Test& largest =
-      *std::max_element(tests.begin(), tests.end(), [](const Test& a, const Test& b) { return a.points() < b.points(); });
+      *std::max_element(tests.begin(), tests.end(),
+                        [](const Test& a, const Test& b) { return a.points() < b.points(); });
   Test t;
   t.kind = kind_of(choice), t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
   for (std::size_t i = 1; i <= largest.points(); ++i) {
@@ -35,28 +38,34 @@ Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, do
     t.first.push_back(kind_of(choice) == TestKind::simple_shear ? x : 1 + x);
     if (kind_of(choice) == TestKind::biaxial) t.second.push_back(1 + x);
     t.stress_x.push_back(0);
-    if (kind_of(choice) == TestKind::equibiaxial || kind_of(choice) == TestKind::biaxial) t.stress_z.push_back(0);
+    if (kind_of(choice) == TestKind::equibiaxial || kind_of(choice) == TestKind::biaxial)
+      t.stress_z.push_back(0);
   }
   return t;
 }
 
-// the largest component of the Cauchy stress in a test, up to the first state that does not exist [MPa]
+// the largest component of the Cauchy stress in a test, up to the first state that does not exist
+// [MPa]
 double largest_cauchy(const Material& material, Test test) {
   const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
   double largest = 0;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    const PlaneState s = plane_state(material, a, test.kind, test.first[i], test.second.empty() ? 1 : test.second[i], test.shear);
+    const PlaneState s = plane_state(material, a, test.kind, test.first[i],
+                                     test.second.empty() ? 1 : test.second[i], test.shear);
     if (!s.converged) break;
     largest = std::max(largest, s.sigma.cwiseAbs().maxCoeff());
   }
   return largest;
 }
 
-// How far a candidate goes: to the largest amount measured so far, but not beyond the stress that the material has borne.
-double reach_of(const CandidateChoice& choice, const Material& material, const std::vector<Test>& tests) {
+// How far a candidate goes: to the largest amount measured so far, but not beyond the stress that
+// the material has borne.
+double reach_of(const CandidateChoice& choice, const Material& material,
+                const std::vector<Test>& tests) {
   double reach = 0, borne = 0;
   for (const Test& one : tests) {
-    for (double x : one.first) reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
+    for (double x : one.first)
+      reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
     borne = std::max(borne, largest_cauchy(material, one));
   }
   const auto stress_at = [&](double amount) {
@@ -79,10 +88,11 @@ double reach_of(const CandidateChoice& choice, const Material& material, const s
   return reach;
 }
 
-// Correlated residuals tell less than as many independent ones. Old tests and new ones alike count with the white noise that
-// would leave the worst known parameter the error that it has.
-std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
-                                    const Identifiability& s, const std::vector<Candidate>& scenes) {
+// Correlated residuals tell less than as many independent ones. Old tests and new ones alike count
+// with the white noise that would leave the worst known parameter the error that it has.
+std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit,
+                                    const StudyConfig& config, const Identifiability& s,
+                                    const std::vector<Candidate>& scenes) {
   // what rests on a bound is not known to be there
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
@@ -90,16 +100,19 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   if (free.empty()) return {};
   const MatX J = fit.best.J(Eigen::all, free);
   const VecX size = s.size(free), told = s.error(free).cwiseQuotient(size);
-  const MatX white = covariance(J, std::vector<bool>(free.size(), false), white_noise(s.noise, J.rows()));
+  const MatX white =
+      covariance(J, std::vector<bool>(free.size(), false), white_noise(s.noise, J.rows()));
   double noise = s.noise;
   Eigen::Index worst = 0;
-  if (told.allFinite() && told.maxCoeff(&worst) > 0) noise *= told[worst] * size[worst] / std::sqrt(white(worst, worst));
+  if (told.allFinite() && told.maxCoeff(&worst) > 0)
+    noise *= told[worst] * size[worst] / std::sqrt(white(worst, worst));
   const MatX known = information(J, size, noise);
   std::vector<Candidate> candidates;
   for (const Candidate& scene : scenes)
     candidates.push_back({scene.name, scene.J(Eigen::all, free), scene.noise * noise / s.noise});
   for (const CandidateChoice& choice : config.candidates) {
-    if (choice.kind == DataKind::scene || problem.tests.empty()) continue;  // without tests it is not known how far one would go
+    if (choice.kind == DataKind::scene || problem.tests.empty())
+      continue;  // without tests it is not known how far one would go
     const double reach = reach_of(choice, fit.material, problem.tests);
     if (!(reach > 0)) continue;
     FitProblem more = problem;
@@ -109,16 +122,21 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     VecX stress;
     MatX J_all;
     // no test where the law has no state
-    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J_all)) continue;
+    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J_all))
+      continue;
     const bool shear = kind_of(choice) == TestKind::simple_shear;
-    candidates.push_back({fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)), choice.fibre_angle,
-                                      shear ? "shear" : "stretch", shear ? reach : 1 + reach),
-                          J_all(Eigen::all, free), noise});
+    candidates.push_back(
+        {fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)),
+                     choice.fibre_angle, shear ? "shear" : "stretch", shear ? reach : 1 + reach),
+         J_all(Eigen::all, free), noise});
   }
   std::vector<AdviceRecord> records;
   for (const Advice& a : advise(known, size, candidates)) {
-    AdviceRecord record{a.name, a.worst, a.gain, std::vector<double>(static_cast<std::size_t>(fit.best.p.size()), std::nan(""))};
-    for (std::size_t j = 0; j < free.size(); ++j) record.relative[static_cast<std::size_t>(free[j])] = a.relative[j];
+    AdviceRecord record{
+        a.name, a.worst, a.gain,
+        std::vector<double>(static_cast<std::size_t>(fit.best.p.size()), std::nan(""))};
+    for (std::size_t j = 0; j < free.size(); ++j)
+      record.relative[static_cast<std::size_t>(free[j])] = a.relative[j];
     records.push_back(record);
   }
   return records;
@@ -139,25 +157,30 @@ LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
   return line;
 }
 
-IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
-                               const ProgressOf& progress, const std::vector<Candidate>& scenes) {
+IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
+                               const StudyConfig& config, const ProgressOf& progress,
+                               const std::vector<Candidate>& scenes) {
   const LeastSquares q = least_squares_problem(problem);
-  const auto say = [&](const char* what) { return progress ? progress(what) : std::function<void(double)>(); };
+  const auto say = [&](const char* what) {
+    return progress ? progress(what) : std::function<void(double)>();
+  };
   const VecX& p = fit.best.p;
   const auto n = p.size();
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
-  const ResidualNoise noise = problem.further ? fit.noise : with_least(fit.noise, config.noise * largest);
+  const ResidualNoise noise =
+      problem.further ? fit.noise : with_least(fit.noise, config.noise * largest);
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
   record.names = parameter_names(problem), record.symmetric = fit.symmetric;
   record.value.assign(p.data(), p.data() + n);
   record.size.assign(s.size.data(), s.size.data() + n);
-  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective, record.error = s.error,
-  record.singular = s.singular;
+  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective,
+  record.error = s.error, record.singular = s.singular;
   record.correlation = s.correlation, record.combination = s.combination;
-  if (const auto bounded = within_bounds(problem, fit); bounded && bounded->moments.array().isFinite().any()) {
+  if (const auto bounded = within_bounds(problem, fit);
+      bounded && bounded->moments.array().isFinite().any()) {
     record.correlation = correlation(bounded->moments);
     for (Eigen::Index i = 0; i < n; ++i)
       if (!std::isnan(record.error[i])) record.error[i] = std::sqrt(bounded->moments(i, i));
@@ -166,16 +189,21 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
   if (config.profiles.value_or(!problem.further)) {
     ProfileOptions options;
     options.factor = factors, options.threads = config.threads, options.progress = say("profiles");
-    for (const Profile& one : profiles([&] { return least_squares_problem(problem); }, p, s.error, s.noise, options))
-      record.profiles.push_back({one.value, one.rise, one.low, one.high, one.low_open, one.high_open});
+    for (const Profile& one :
+         profiles([&] { return least_squares_problem(problem); }, p, s.error, s.noise, options))
+      record.profiles.push_back(
+          {one.value, one.rise, one.low, one.high, one.low_open, one.high_open});
   }
   if (config.bootstrap > 0) {
     BootstrapOptions options;
     options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
     const VecX growth = growth_of_intervals(fit.columns, fit.left_out, noise);
-    options.growth = growth.mean(), options.threads = config.threads, options.progress = say("bootstrap");
+    options.growth = growth.mean(), options.threads = config.threads,
+    options.progress = say("bootstrap");
     if (noise.rho > 0) options.spread = growth / options.growth;
-    const auto maker = [&] { return problem.further ? linearised(q, fit.best) : least_squares_problem(problem); };
+    const auto maker = [&] {
+      return problem.further ? linearised(q, fit.best) : least_squares_problem(problem);
+    };
     const Bootstrap b = bootstrap(maker, p, noise, options);
     record.linearised = problem.further != nullptr;
     record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
@@ -187,26 +215,31 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit, 
 std::string up_to(const PathStability& p, double end) {
   const double loss = std::min(p.slope_loss, p.ellipticity_loss);
   const bool shear = p.path == Path::simple_shear;
-  const auto text = [&](double x) { return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x); };
+  const auto text = [&](double x) {
+    return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x);
+  };
   if (std::isinf(loss) && std::isfinite(p.end))
-    return "stable up to " + text(std::floor(1000 * p.end) / 1000) + ", beyond which the law has no number";
+    return "stable up to " + text(std::floor(1000 * p.end) / 1000) +
+           ", beyond which the law has no number";
   if (std::isinf(loss)) return "stable up to " + text(end) + ", as far as looked";
   // rounded down: stable as far as said
   std::string s = "stable up to " + text(std::floor(1000 * std::max(0., loss)) / 1000);
   if (loss <= 0) s = "unstable from rest on";
   if (p.slope_loss < p.ellipticity_loss) {
     s += ", where the nominal stress starts to fall";
-    if (std::isfinite(p.ellipticity_loss)) s += "; strong ellipticity is lost at " + text(p.ellipticity_loss);
+    if (std::isfinite(p.ellipticity_loss))
+      s += "; strong ellipticity is lost at " + text(p.ellipticity_loss);
   } else
     s += ", where strong ellipticity is lost";
   return s;
 }
 
-StabilityRecord stability_of(const Material& material, const FitProblem& problem, const StudyConfig& config,
-                             const ProgressOf& progress) {
+StabilityRecord stability_of(const Material& material, const FitProblem& problem,
+                             const StudyConfig& config, const ProgressOf& progress) {
   StabilityRecord record;
   StabilityOptions options;
-  options.to = config.stability_to, options.points = 51, options.stretches = 41, options.threads = config.threads;
+  options.to = config.stability_to, options.points = 51, options.stretches = 41,
+  options.threads = config.threads;
   if (progress) options.progress = progress("stability map");
   record.map = stability_map(material, options);
   const Test first = problem.tests.empty() ? Test{} : problem.tests.front();
@@ -219,12 +252,15 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
   for (int i = 0; i <= 200; ++i) fine.push_back(config.stability_to * i / 200);
   const PathStability along = path_stability(turned(material, first.fibre_angle_deg), path, fine);
   const std::string reach =
-      first.first.empty() ? "" : fmt::format("; data reach {:.2f}", *std::max_element(first.first.begin(), first.first.end()));
+      first.first.empty() ? ""
+                          : fmt::format("; data reach {:.2f}",
+                                        *std::max_element(first.first.begin(), first.first.end()));
   const double angle = own + first.fibre_angle_deg;
   const std::string where = material.fibres.empty() ? ""
                             : angle == 0            ? " along the fibre"
-                                                    : fmt::format(" with the fibre at {:g} degrees", angle);
-  record.verdict = fmt::format("{}{}: {}{}", word(path), where, up_to(along, config.stability_to), reach);
+                                         : fmt::format(" with the fibre at {:g} degrees", angle);
+  record.verdict =
+      fmt::format("{}{}: {}{}", word(path), where, up_to(along, config.stability_to), reach);
   return record;
 }
 
@@ -246,17 +282,19 @@ FittedRange fitted_range(const Material& material, const std::vector<Test>& test
   for (const Test& t : tests) {
     const std::vector<Vec3> a = specimen_fibres(material, t.fibre_angle_deg);
     for (std::size_t i = 0; i < t.points(); ++i) {
-      const PlaneState s = plane_state(material, a, t.kind, t.first[i], t.second.empty() ? 1 : t.second[i], t.shear);
+      const PlaneState s =
+          plane_state(material, a, t.kind, t.first[i], t.second.empty() ? 1 : t.second[i], t.shear);
       if (!s.converged) continue;
       range.I1_bar = std::max(range.I1_bar, s.F.squaredNorm());
-      for (std::size_t k = 0; k < a.size(); ++k) range.I4_bar[k] = std::max(range.I4_bar[k], (s.F * a[k]).squaredNorm());
+      for (std::size_t k = 0; k < a.size(); ++k)
+        range.I4_bar[k] = std::max(range.I4_bar[k], (s.F * a[k]).squaredNorm());
     }
   }
   return range;
 }
 
-StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress,
-                  const std::vector<Candidate>& scenes) {
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
+                  const ProgressOf& progress, const std::vector<Candidate>& scenes) {
   StudyRecord record;
   record.identifiability = identify(problem, fit, config, progress, scenes);
   if (config.stability) record.stability = stability_of(fit.material, problem, config, progress);
@@ -269,33 +307,40 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
     const char* of = r.linearised ? " standard deviations" : " MPa";
-    lines.push_back(r.rho > 0
-                        ? fmt::format("with a noise of {:.3g}{}, correlated by {:.3f} from value to value, so that they count as "
-                                      "{:.0f} in all, the data tell:",
-                                      r.noise, of, r.rho, r.effective)
-                        : fmt::format("with a noise of {:.3g}{} the data tell:", r.noise, of));
+    lines.push_back(
+        r.rho > 0
+            ? fmt::format(
+                  "with a noise of {:.3g}{}, correlated by {:.3f} from value to value, so that they count as "
+                  "{:.0f} in all, the data tell:",
+                  r.noise, of, r.rho, r.effective)
+            : fmt::format("with a noise of {:.3g}{} the data tell:", r.noise, of));
     const bool held = std::find(r.symmetric.begin(), r.symmetric.end(), true) != r.symmetric.end();
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      std::string s = r.symmetric[i]           ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
-                      : std::isnan(r.error[k]) ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
-                                               : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %){}", r.names[i], r.error[k],
-                                                             100 * r.error[k] / r.size[i], held ? " with the angle held" : "");
+      std::string s =
+          r.symmetric[i]
+              ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
+          : std::isnan(r.error[k])
+              ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
+              : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %){}", r.names[i], r.error[k],
+                            100 * r.error[k] / r.size[i], held ? " with the angle held" : "");
       if (!r.profiles.empty()) {
         const ProfileRecord& p = r.profiles[i];
-        s += fmt::format(", {}profile {}{:.4g} to {:.4g}{}", held && !r.symmetric[i] ? "as it turns: " : "",
-                         p.low_open ? "[bound] " : "", p.low, p.high, p.high_open ? " [bound]" : "");
+        s += fmt::format(
+            ", {}profile {}{:.4g} to {:.4g}{}", held && !r.symmetric[i] ? "as it turns: " : "",
+            p.low_open ? "[bound] " : "", p.low, p.high, p.high_open ? " [bound]" : "");
       }
       if (r.bootstrap.rows() > 1)
-        s += fmt::format(", {}bootstrap {:.4g} to {:.4g}", r.linearised ? "linearised " : "", r.bootstrap_low[k],
-                         r.bootstrap_high[k]);
+        s += fmt::format(", {}bootstrap {:.4g} to {:.4g}", r.linearised ? "linearised " : "",
+                         r.bootstrap_low[k], r.bootstrap_high[k]);
       lines.push_back(s);
     }
     if (!r.words.empty()) lines.push_back("least identifiable combination: " + r.words);
     for (std::size_t i = 0; i < r.advice.size(); ++i) {
       const AdviceRecord& a = r.advice[i];
-      lines.push_back(fmt::format("{} {}: worst standard error {:.3g} %, information {:+.2f} nats per parameter",
-                                  i == 0 ? "advice: next" : "        else", a.test, 100 * a.worst, a.gain));
+      lines.push_back(fmt::format(
+          "{} {}: worst standard error {:.3g} %, information {:+.2f} nats per parameter",
+          i == 0 ? "advice: next" : "        else", a.test, 100 * a.worst, a.gain));
     }
   }
   if (study.stability) {
@@ -303,14 +348,17 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
     lines.push_back("stability: " + study.stability->verdict);
     for (const PathStability& p : map.paths)
       if (std::isfinite(p.slope_loss) || std::isfinite(p.ellipticity_loss))
-        lines.push_back(
-            fmt::format("stability: {}, fibre at {:g} degrees: {}", word(p.path), p.angle, up_to(p, map.amount.back())));
+        lines.push_back(fmt::format("stability: {}, fibre at {:g} degrees: {}", word(p.path),
+                                    p.angle, up_to(p, map.amount.back())));
     const double end = std::min(map.hencky_end, 1.2);
     lines.push_back(
         std::isinf(map.safe_hencky)
-            ? fmt::format("stability: no loss of strong ellipticity found up to a Hencky norm of {:.3g}{}", end,
-                          end < 1.2 ? ", beyond which the law has no numbers in some states" : "")
-            : fmt::format("stability: strongly elliptic in every state up to a Hencky norm of {:.3g}", map.safe_hencky));
+            ? fmt::format(
+                  "stability: no loss of strong ellipticity found up to a Hencky norm of {:.3g}{}",
+                  end, end < 1.2 ? ", beyond which the law has no numbers in some states" : "")
+            : fmt::format(
+                  "stability: strongly elliptic in every state up to a Hencky norm of {:.3g}",
+                  map.safe_hencky));
   }
   return lines;
 }
@@ -319,12 +367,17 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
   std::vector<TextFile> files;
   if (study.identifiability) {
     const IdentifiabilityRecord& r = *study.identifiability;
-    std::string text = "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
+    std::string text =
+        "parameter,value,standard_error,relative_percent,profile_low,profile_high,bootstrap_low,bootstrap_high\n";
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      text += fmt::format("{},{},{},{},", csv_cell(r.names[i]), r.value[i], r.error[k], 100 * r.error[k] / r.size[i]);
-      text += r.profiles.empty() ? "," : fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
-      text += r.bootstrap.rows() < 2 ? ",,\n" : fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
+      text += fmt::format("{},{},{},{},", csv_cell(r.names[i]), r.value[i], r.error[k],
+                          100 * r.error[k] / r.size[i]);
+      text +=
+          r.profiles.empty() ? "," : fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
+      text += r.bootstrap.rows() < 2
+                  ? ",,\n"
+                  : fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
     }
     files.push_back({"identifiability.csv", text});
     for (std::size_t i = 0; i < r.profiles.size(); ++i) {
@@ -334,7 +387,8 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
         relative.push_back(100 * (r.profiles[i].value[k] - r.value[i]) / r.size[i]);
         rise.push_back(r.profiles[i].rise[k]);
       }
-      files.push_back({"profile_" + r.names[i] + ".csv", csv({{"change", "percent", relative}, {"rise", "-", rise}})});
+      files.push_back({"profile_" + r.names[i] + ".csv",
+                       csv({{"change", "percent", relative}, {"rise", "-", rise}})});
     }
     std::string advice = "test,worst_percent,gain";
     for (const std::string& name : r.names) advice += "," + csv_cell(name + "_percent");
@@ -350,16 +404,19 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
     const StabilityMap& map = study.stability->map;
     std::string text = "path,fibre_angle_deg,slope_loss,ellipticity_loss,end\n";
     for (const PathStability& p : map.paths)
-      text += fmt::format("{},{},{},{},{}\n", word(p.path), p.angle, p.slope_loss, p.ellipticity_loss, p.end);
+      text += fmt::format("{},{},{},{},{}\n", word(p.path), p.angle, p.slope_loss,
+                          p.ellipticity_loss, p.end);
     files.push_back({"stability.csv", text});
     std::vector<double> l1, l2, value;
     for (Eigen::Index row = 0; row < map.plane.rows(); ++row)
       for (Eigen::Index column = 0; column < map.plane.cols(); ++column) {
-        l1.push_back(map.stretch[static_cast<std::size_t>(column)]), l2.push_back(map.stretch[static_cast<std::size_t>(row)]);
+        l1.push_back(map.stretch[static_cast<std::size_t>(column)]),
+            l2.push_back(map.stretch[static_cast<std::size_t>(row)]);
         value.push_back(map.plane(row, column));
       }
-    files.push_back(
-        {"stability_plane.csv", csv({{"stretch_x", "-", l1}, {"stretch_z", "-", l2}, {"smallest_shear_stiffness", "MPa", value}})});
+    files.push_back({"stability_plane.csv", csv({{"stretch_x", "-", l1},
+                                                 {"stretch_z", "-", l2},
+                                                 {"smallest_shear_stiffness", "MPa", value}})});
   }
   return files;
 }

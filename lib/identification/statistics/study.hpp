@@ -1,5 +1,5 @@
-// A fit looked at closely: what its data tell, which test would tell more, where the law is stable; as records, words and
-// tables.
+// A fit looked at closely: what its data tell, which test would tell more, where the law is stable;
+// as records, words and tables.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 #include "identification/fit/advice.hpp"
 #include "identification/fit/fit.hpp"
-#include "results/store/study_record.hpp"
 #include "identification/statistics/study_config.hpp"
+#include "results/store/study_record.hpp"
 
 namespace langer {
 
@@ -19,9 +19,10 @@ using ProgressOf = std::function<std::function<void(double)>(const std::string& 
 std::vector<std::string> parameter_names(const FitProblem& problem);
 
 FittedRange fitted_range(const Material& material, const std::vector<Test>& tests);
-// scenes: candidates of the advice beside those of the config, with the columns of all free parameters (inverse/scene_candidates.hpp)
-StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config, const ProgressOf& progress = {},
-                  const std::vector<Candidate>& scenes = {});
+// scenes: candidates of the advice beside those of the config, with the columns of all free
+// parameters (inverse/scene_candidates.hpp)
+StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyConfig& config,
+                  const ProgressOf& progress = {}, const std::vector<Candidate>& scenes = {});
 
 std::vector<std::string> study_lines(const StudyRecord& study);
 

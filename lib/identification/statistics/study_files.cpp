@@ -7,12 +7,12 @@
 #include <filesystem>
 
 #include "core/hdf5/seal.hpp"
+#include "identification/sensitivity/sensitivity_tables.hpp"
 #include "results/plot/field_map.hpp"
 #include "results/plot/gnuplot.hpp"
 #include "results/plot/heat_map.hpp"
 #include "results/plot/pictures.hpp"
 #include "results/store/curves_file.hpp"
-#include "identification/sensitivity/sensitivity_tables.hpp"
 
 namespace langer {
 
@@ -20,7 +20,8 @@ namespace {
 
 std::vector<std::string> lines_of(const Pictures& pictures) {
   std::vector<std::string> lines;
-  for (const auto& [reason, figures] : pictures.failed()) lines.push_back(fmt::format("not drawn: {} ({})", figures, reason));
+  for (const auto& [reason, figures] : pictures.failed())
+    lines.push_back(fmt::format("not drawn: {} ({})", figures, reason));
   return lines;
 }
 
@@ -40,7 +41,8 @@ void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
   plot.y_most = 4 * threshold;
   plot.x_label = "change of the parameter (%)", plot.y_label = "rise of chi-square";
   for (const std::string& name : r.names)
-    plot.lines.push_back({"profile_" + name + ".csv", csv_name("change", "percent"), "rise", literal(name)});
+    plot.lines.push_back(
+        {"profile_" + name + ".csv", csv_name("change", "percent"), "rise", literal(name)});
   pictures.draw("profiles", plot);
 }
 
@@ -53,11 +55,13 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
   // logarithmic about its size at rest: neither what is soft nor what is stiff ends in one colour
   Eigen::Index rest = 0;
   for (std::size_t i = 0; i < m.stretch.size(); ++i)
-    if (std::abs(m.stretch[i] - 1) < std::abs(m.stretch[static_cast<std::size_t>(rest)] - 1)) rest = static_cast<Eigen::Index>(i);
+    if (std::abs(m.stretch[i] - 1) < std::abs(m.stretch[static_cast<std::size_t>(rest)] - 1))
+      rest = static_cast<Eigen::Index>(i);
   plane.middle = std::max(std::abs(m.plane(rest, rest)), 1e-12);
   plane.limit = plane.middle;
   for (Eigen::Index i = 0; i < m.plane.size(); ++i)
-    if (const double v = std::abs(m.plane.data()[i]); std::isfinite(v)) plane.limit = std::max(plane.limit, v);
+    if (const double v = std::abs(m.plane.data()[i]); std::isfinite(v))
+      plane.limit = std::max(plane.limit, v);
   pictures.draw("stability_plane", heat_map(plane, pictures.look()));
 
   HeatMap losses;
@@ -82,9 +86,10 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
 
 }  // namespace
 
-std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config, const FigureStyle& style,
-                                           const std::string& folder) {
-  for (const TextFile& file : study_tables(study)) write_text_file((std::filesystem::path(folder) / file.name).string(), file.text);
+std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config,
+                                           const FigureStyle& style, const std::string& folder) {
+  for (const TextFile& file : study_tables(study))
+    write_text_file((std::filesystem::path(folder) / file.name).string(), file.text);
   if (!config.figures) return {};
   Pictures pictures(folder, style);
   if (study.identifiability) draw_identifiability(pictures, *study.identifiability);
@@ -92,11 +97,13 @@ std::vector<std::string> write_study_files(const StudyRecord& study, const Study
   return lines_of(pictures);
 }
 
-std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style, const std::string& folder) {
+std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style,
+                                  const std::string& folder) {
   Pictures pictures(folder, style);
   Plot plot;
   plot.x_label = "strain", plot.y_label = "stress (MPa)", plot.title = "measured and fitted";
-  plot.lines = {{"fit.csv", "strain", measured_column, "measured"}, {"fit.csv", "strain", "model_MPa", "model"}};
+  plot.lines = {{"fit.csv", "strain", measured_column, "measured"},
+                {"fit.csv", "strain", "model_MPa", "model"}};
   plot.lines[0].points = true;  // seen where the model lies on it
   pictures.draw("figure_4", plot);
   plot.y_label = "error (% of the largest stress)", plot.title = "model less measured";
@@ -107,20 +114,24 @@ std::vector<std::string> draw_fit(const std::string& measured_column, const Figu
 
 namespace {
 
-// of a field at the end of what it was measured over: measured, found and their difference at their places
+// of a field at the end of what it was measured over: measured, found and their difference at their
+// places
 void draw_field(Pictures& pictures, const FittedCurve& curve) {
-  const double end =
-      *std::max_element(curve.x.begin(), curve.x.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const double end = *std::max_element(
+      curve.x.begin(), curve.x.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   FieldMap map;
-  map.title = fmt::format("{} at {} = {:g} {}", curve.name, curve.x_name, end, curve.x_unit == "-" ? "" : curve.x_unit);
+  map.title = fmt::format("{} at {} = {:g} {}", curve.name, curve.x_name, end,
+                          curve.x_unit == "-" ? "" : curve.x_unit);
   map.x_label = "x (mm)", map.y_label = "z (mm)", map.unit = curve.unit;
-  FieldPanel measured{"measured", {}, 0}, found{"found", {}, 0}, difference{"found less measured", {}, 0};
+  FieldPanel measured{"measured", {}, 0}, found{"found", {}, 0},
+      difference{"found less measured", {}, 0};
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (curve.x[i] != end) continue;
     map.x.push_back(curve.places[i][0]), map.y.push_back(curve.places[i][2]);
     measured.values.push_back(curve.measured[i]), found.values.push_back(curve.model[i]);
     difference.values.push_back(curve.model[i] - curve.measured[i]);
-    measured.limit = std::max({measured.limit, std::abs(curve.measured[i]), std::abs(curve.model[i])});
+    measured.limit =
+        std::max({measured.limit, std::abs(curve.measured[i]), std::abs(curve.model[i])});
     difference.limit = std::max(difference.limit, std::abs(difference.values.back()));
   }
   for (FieldPanel* panel : {&measured, &difference})
@@ -132,20 +143,24 @@ void draw_field(Pictures& pictures, const FittedCurve& curve) {
 
 }  // namespace
 
-std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, const FigureStyle& style, const std::string& folder) {
+std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves,
+                                     const FigureStyle& style, const std::string& folder) {
   Pictures pictures(folder, style);
   for (const FittedCurve& curve : curves) {
     const std::string file = "fit_" + curve.name + ".csv",
                       over = curve.places.empty() ? csv_name(curve.x_name, curve.x_unit) : "x_mm";
     Plot plot;
     plot.title = literal(curve.name) + ": measured and found";
-    plot.x_label = curve.places.empty() ? fmt::format("{} ({})", literal(curve.x_name), curve.x_unit) : "x (mm)";
+    plot.x_label = curve.places.empty()
+                       ? fmt::format("{} ({})", literal(curve.x_name), curve.x_unit)
+                       : "x (mm)";
     plot.y_label = fmt::format("{} ({})", literal(curve.quantity), curve.unit);
     plot.lines = {{file, over, csv_name(curve.quantity, curve.unit), "measured"},
                   {file, over, csv_name("model", curve.unit), "found"}};
     plot.lines[0].points = true, plot.lines[1].points = !curve.places.empty();
     pictures.draw("fit_" + curve.name, plot);
-    plot.title = literal(curve.name) + ": found less measured", plot.y_label = "error (% of the largest)";
+    plot.title = literal(curve.name) + ": found less measured",
+    plot.y_label = "error (% of the largest)";
     plot.lines = {{file, over, "error_percent", "error"}};
     plot.lines[0].points = !curve.places.empty();
     pictures.draw("error_" + curve.name, plot);
@@ -154,32 +169,41 @@ std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves, con
   return lines_of(pictures);
 }
 
-std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const FigureStyle& style, const std::string& folder) {
+std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const FigureStyle& style,
+                                          const std::string& folder) {
   Pictures pictures(folder, style);
   Plot effects;
   effects.title = "one parameter at a time: mean effect over its range";
-  effects.x_label = "strain", effects.y_label = "μ* (MPa)", effects.rows = static_cast<int>(r.strain.size());
+  effects.x_label = "strain", effects.y_label = "μ* (MPa)",
+  effects.rows = static_cast<int>(r.strain.size());
   for (const RankedNumber& p : r.parameters)
-    effects.lines.push_back({"sensitivity.csv", "strain", csv_name("mu_star_range_" + p.name, "MPa"), literal(p.name)});
+    effects.lines.push_back(
+        {"sensitivity.csv", "strain", csv_name("mu_star_range_" + p.name, "MPa"), literal(p.name)});
   pictures.draw("effects", effects);
 
   Bars b;
-  for (const Zone& z : r.zones) b.groups.push_back(fmt::format("strain {:g} to {:g}", z.from, z.to));
+  for (const Zone& z : r.zones)
+    b.groups.push_back(fmt::format("strain {:g} to {:g}", z.from, z.to));
   for (const RankedNumber& p : r.parameters) b.series.push_back(p.name);
   b.title = "effect of each parameter over its range, one at a time", b.y_label = "μ* (MPa)";
   b.values = over_range(r, zone_means(r.effects.mu_star, r.strain, r.zones));
   pictures.draw("effects_by_zone", bars(b, pictures.look()));
-  const auto draw = [&](const std::string& name, const std::string& title, const std::string& unit, const Estimate& e) {
+  const auto draw = [&](const std::string& name, const std::string& title, const std::string& unit,
+                        const Estimate& e) {
     b.title = title, b.y_label = unit, b.values = e.value, b.low = e.low, b.high = e.high;
     pictures.draw(name, bars(b, pictures.look()));
   };
   if (r.morris) {
-    draw("morris_by_zone", "Morris trajectories: μ* with 95 % intervals", "μ* (MPa)", r.morris->group_mu_star);
-    draw("morris_sigma_by_zone", "Morris trajectories: σ, curvature and interaction", "σ (MPa)", r.morris->group_sigma);
+    draw("morris_by_zone", "Morris trajectories: μ* with 95 % intervals", "μ* (MPa)",
+         r.morris->group_mu_star);
+    draw("morris_sigma_by_zone", "Morris trajectories: σ, curvature and interaction", "σ (MPa)",
+         r.morris->group_sigma);
   }
   if (r.sobol) {
-    draw("sobol_by_zone", "Sobol: total share of the variance with 95 % intervals", "share", r.sobol->group_total);
-    draw("sobol_first_by_zone", "Sobol: share of the variance alone", "share", r.sobol->group_first);
+    draw("sobol_by_zone", "Sobol: total share of the variance with 95 % intervals", "share",
+         r.sobol->group_total);
+    draw("sobol_first_by_zone", "Sobol: share of the variance alone", "share",
+         r.sobol->group_first);
   }
   return lines_of(pictures);
 }

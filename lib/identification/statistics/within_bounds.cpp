@@ -5,8 +5,8 @@
 
 #include "core/base/no_number.hpp"
 #include "core/base/random.hpp"
-#include "identification/fit/bounded_linear.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/fit/bounded_linear.hpp"
 
 namespace langer {
 
@@ -15,8 +15,8 @@ namespace {
 constexpr double normal_95 = 1.959963984540054;
 constexpr int draws = 1000;
 
-// J d + r by a triangle with as many rows as columns, and what no d can change; columns of length 1, and held by 1e-8 of that where the
-// data do not feel a combination
+// J d + r by a triangle with as many rows as columns, and what no d can change; columns of length
+// 1, and held by 1e-8 of that where the data do not feel a combination
 struct Reduced {
   MatX A;
   VecX b, size;
@@ -39,7 +39,8 @@ struct Reduced {
   double square(const VecX& z) const { return (A * z - b).squaredNorm(); }
 };
 
-double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eigen::Index of, double half, int side) {
+double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eigen::Index of,
+              double half, int side) {
   const double bound = side < 0 ? lower[of] : upper[of], least = reduced.b.squaredNorm();
   const auto rise = [&](double x) {
     VecX low = lower, high = upper;
@@ -63,7 +64,8 @@ double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eige
 }
 
 // q ~ N(0, covariance), put into the box
-MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper, const MatX& covariance) {
+MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper,
+                const MatX& covariance) {
   const Eigen::Index n = lower.size();
   const MatX root = covariance_root(covariance);
   MatX sum = MatX::Zero(n, n);
@@ -80,8 +82,8 @@ MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper, co
 
 }  // namespace
 
-std::array<double, 2> box_profile(const MatX& J, const VecX& r, const VecX& lower, const VecX& upper, Eigen::Index of,
-                                  double half) {
+std::array<double, 2> box_profile(const MatX& J, const VecX& r, const VecX& lower,
+                                  const VecX& upper, Eigen::Index of, double half) {
   const Reduced reduced(J, r);
   return {end_of(reduced, lower, upper, of, half, -1), end_of(reduced, lower, upper, of, half, 1)};
 }
@@ -111,11 +113,14 @@ std::optional<WithinBounds> within_bounds(const FitProblem& problem, const FitRe
   const Reduced reduced(J, best.r);
   const VecX half = normal_95 * fit.noise.total() * interval_factors(J, none, fit.noise);
   WithinBounds out;
-  out.low.assign(static_cast<std::size_t>(n), nan), out.high = out.low, out.moments = MatX::Constant(n, n, nan);
+  out.low.assign(static_cast<std::size_t>(n), nan), out.high = out.low,
+                                                    out.moments = MatX::Constant(n, n, nan);
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     const Eigen::Index i = in[static_cast<std::size_t>(j)];
-    out.low[static_cast<std::size_t>(i)] = best.p[i] + end_of(reduced, lower, upper, j, half[j], -1);
-    out.high[static_cast<std::size_t>(i)] = best.p[i] + end_of(reduced, lower, upper, j, half[j], 1);
+    out.low[static_cast<std::size_t>(i)] =
+        best.p[i] + end_of(reduced, lower, upper, j, half[j], -1);
+    out.high[static_cast<std::size_t>(i)] =
+        best.p[i] + end_of(reduced, lower, upper, j, half[j], 1);
   }
   const MatX free = covariance(J, none, fit.noise);
   if (!free.allFinite()) return out;

@@ -1,4 +1,5 @@
-// Derivatives of the balance in a direction, and other numbers in its laws: what direct differentiation asks of a body.
+// Derivatives of the balance in a direction, and other numbers in its laws: what direct
+// differentiation asks of a body.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +16,8 @@ void Equilibrium::set_laws(std::vector<Material> materials, Directions direction
   pack_fibres();
 }
 
-Equilibrium::Forces Equilibrium::with_laws(std::vector<Material> materials, Directions directions, const VecX& u) {
+Equilibrium::Forces Equilibrium::with_laws(std::vector<Material> materials, Directions directions,
+                                           const VecX& u) {
   const std::vector<Material> own = materials_;
   const Directions own_directions = directions_;
   const std::vector<double> p = p_, local = local_;
@@ -55,17 +57,21 @@ VecX Equilibrium::beside_K(const VecX& u, const VecX& v, double* W) {
 // S v, S what K() has of the loads.
 VecX Equilibrium::loads_times(const VecX& u, const VecX& v) const {
   VecX out = VecX::Zero(dofs_.n);
-  const auto displacements = [&](int e) { return element_displacements(u, e); };
-  loads_.each(t_loads_, displacements, true, [&](int e, const ElementNodes&, const MatX* stiffness) {
-    if (!stiffness) return;
-    const ElementNodes q = element_displacements(v, e);
-    const auto nodes = moving_.of(e);
-    for (int a = 0; a < n_nodes_; ++a) {
-      Vec3 f = Vec3::Zero();
-      for (int b = 0; b < n_nodes_; ++b) f += stiffness->block<3, 3>(3 * a, 3 * b) * q.row(b).transpose();
-      add_force(out, nodes[a], !tied_.empty() && tied_[e], f);
-    }
-  });
+  const auto displacements = [&](int e) {
+    return element_displacements(u, e);
+  };
+  loads_.each(t_loads_, displacements, true,
+              [&](int e, const ElementNodes&, const MatX* stiffness) {
+                if (!stiffness) return;
+                const ElementNodes q = element_displacements(v, e);
+                const auto nodes = moving_.of(e);
+                for (int a = 0; a < n_nodes_; ++a) {
+                  Vec3 f = Vec3::Zero();
+                  for (int b = 0; b < n_nodes_; ++b)
+                    f += stiffness->block<3, 3>(3 * a, 3 * b) * q.row(b).transpose();
+                  add_force(out, nodes[a], !tied_.empty() && tied_[e], f);
+                }
+              });
   return out;
 }
 
@@ -80,9 +86,11 @@ VecX Equilibrium::local_beside_K(const VecX& u, const VecX& v, double* in_W) {
     for (int k = 0; k < n_p_; ++k) {
       dt[k] = 0;
       for (int a = 0; a < n_nodes_; ++a)
-        dt[k] += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du_[(first + k) * n_dofs_ + 3 * a]));
+        dt[k] += q.row(a).dot(
+            Eigen::Map<const Eigen::RowVector3d>(&dJ_du_[(first + k) * n_dofs_ + 3 * a]));
     }
-    const ModalVolume<double> volume = modal_volume(material(e).volume, n_p_, &J_minus_1_[first], 0, geometry_[e]);
+    const ModalVolume<double> volume =
+        modal_volume(material(e).volume, n_p_, &J_minus_1_[first], 0, geometry_[e]);
     for (int k = 0; k < n_p_; ++k) {
       dp[k] = 0;
       for (int l = 0; l < n_p_; ++l) dp[k] += volume.kappa[k][l] * dt[l];

@@ -8,7 +8,9 @@
 namespace langer {
 
 bool Prescribed::goes_on(double before, double now, double next) const {
-  const auto steady = [&](const History& h) { return h.goes_on(before, now, next); };
+  const auto steady = [&](const History& h) {
+    return h.goes_on(before, now, next);
+  };
   return steady({value, factor}) && (!turn || steady(turn->angle));
 }
 
@@ -20,10 +22,12 @@ Vec3 displacement(const Dofs& dofs, const VecX& u, int node) {
 DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie,
                        const std::vector<HangingNode>& hanging) {
   DofsResult result;
-  std::erase_if(prescribed, [&](const Prescribed& p) { return hanging_at(hanging, p.dof / 3) != nullptr; });
+  std::erase_if(prescribed,
+                [&](const Prescribed& p) { return hanging_at(hanging, p.dof / 3) != nullptr; });
   Dofs& dofs = result.dofs;
   dofs.n = 3 * n_nodes;
-  std::sort(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) { return a.dof < b.dof; });
+  std::sort(prescribed.begin(), prescribed.end(),
+            [](const auto& a, const auto& b) { return a.dof < b.dof; });
   for (const Prescribed& p : prescribed) {
     if (!dofs.prescribed.empty() && dofs.prescribed.back().dof == p.dof) {
       const Prescribed& other = dofs.prescribed.back();

@@ -22,8 +22,9 @@ std::vector<int> cells_of_rank(const std::optional<Division>& division, int n) {
 
 }  // namespace
 
-Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation,
-                         Dofs dofs, int threads, Kernel kernel, std::vector<double> cell_share, std::optional<Division> division)
+Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Directions directions,
+                         Formulation formulation, Dofs dofs, int threads, Kernel kernel,
+                         std::vector<double> cell_share, std::optional<Division> division)
     : mesh_(mesh),
       materials_(std::move(materials)),
       directions_(std::move(directions)),
@@ -68,7 +69,8 @@ Equilibrium::Equilibrium(const Mesh& mesh, std::vector<Material> materials, Dire
   local_.assign(n, 0);
   J_minus_1_ = p_;
   dJ_du_.resize(p_.size() * n_dofs_);
-  if (ViscousPoints::needed(materials_)) viscous_.emplace(materials_, mesh.body, n, mesh.cell().n_gauss);
+  if (ViscousPoints::needed(materials_))
+    viscous_.emplace(materials_, mesh.body, n, mesh.cell().n_gauss);
   f_ = K_du_ = VecX::Zero(dofs_.n);
   K_.assign(pattern_.nnz(), 0);
   begin_increment(0);
@@ -98,7 +100,8 @@ void Equilibrium::pack_fibres() {
     packet_fibres_[b].resize(fibres(blocks_[b].cells[0]).size());
     for (int l = 0; l < Packet::lanes; ++l)
       for (std::size_t k = 0; k < packet_fibres_[b].size(); ++k)
-        for (int i = 0; i < 3; ++i) packet_fibres_[b][k].a[i].set(l, fibres(blocks_[b].cells[l])[k][i]);
+        for (int i = 0; i < 3; ++i)
+          packet_fibres_[b][k].a[i].set(l, fibres(blocks_[b].cells[l])[k][i]);
   }
 }
 
@@ -111,13 +114,15 @@ void Equilibrium::find_beginnings() {
       const int e = block.cells[l];
       if (pattern_.scattered(e)) {
         for (int k = 0; k < pattern_.slots_per_element; ++k)
-          if (const int at = pattern_.slots(e)[k]; at >= 0 && !met[at]) met[at] = 1, cleared_.push_back(at);
+          if (const int at = pattern_.slots(e)[k]; at >= 0 && !met[at])
+            met[at] = 1, cleared_.push_back(at);
         continue;
       }
       for (int k = 0; k < per_element; ++k) {
         const int at = pattern_.blocks(e)[3 * k];
         if (at == Pattern::none) continue;
-        char& first_entry = met[at >= 0 ? at : Pattern::turned(at)];  // no cell meets a part of a block
+        char& first_entry =
+            met[at >= 0 ? at : Pattern::turned(at)];  // no cell meets a part of a block
         begins_[pattern_.number(e) * per_element + k] = !first_entry;
         first_entry = 1;
       }
@@ -147,7 +152,8 @@ void Equilibrium::load(const Block& block, const VecX& u, Packet* q) const {
   }
 }
 
-void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, PacketElement& out) const {
+void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent,
+                          PacketElement& out) const {
   const Material& law = material(block.cells[0]);
   if (kernel_ == Kernel::packets) {
     const std::size_t b = &block - blocks_.data();
@@ -159,9 +165,11 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
       for (int k = 0; k < n_p_; ++k) p[k].set(l, modal_pressure(e, k));
     }
     const bool remembers = viscous_ && viscous_->has(block.cells[0]);
-    const PacketMemory memory = remembers ? PacketMemory{viscous_->amplified(block.cells[0]), packet_H_[b].data()} : PacketMemory{};
-    packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p, with_tangent, out,
-                 remembers ? &memory : nullptr);
+    const PacketMemory memory =
+        remembers ? PacketMemory{viscous_->amplified(block.cells[0]), packet_H_[b].data()}
+                  : PacketMemory{};
+    packet_solid(formulation_, law, local, packet_geometry_[b], packet_fibres_[b].data(), q, p,
+                 with_tangent, out, remembers ? &memory : nullptr);
     return;
   }
   SolidElement one;
@@ -169,9 +177,11 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
     for (int k = 0; k < n_p_; ++k) p[k] = modal_pressure(e, k);
-    const auto memory = viscous_ && viscous_->has(e) ? std::optional(viscous_->memory(e)) : std::nullopt;
-    const bool whole = solid(formulation_, law, local_[e], geometry_[e], fibres(e), element_displacements(u, e), p.data(),
-                             with_tangent, one, memory ? &*memory : nullptr);
+    const auto memory =
+        viscous_ && viscous_->has(e) ? std::optional(viscous_->memory(e)) : std::nullopt;
+    const bool whole =
+        solid(formulation_, law, local_[e], geometry_[e], fibres(e), element_displacements(u, e),
+              p.data(), with_tangent, one, memory ? &*memory : nullptr);
     out.W.set(l, one.W), out.J_min.set(l, one.J_min);
     if (!whole) continue;
     for (int k = 0; k < n_p_; ++k) {
@@ -186,15 +196,19 @@ void Equilibrium::compute(const Block& block, const VecX& u, bool with_tangent, 
 }
 
 void Equilibrium::add_force(VecX& forces, int node, bool tied, const Vec3& force) const {
-  forces.segment<3>(3 * dofs_.node(node)) += tied ? Vec3(dofs_.tie[node].T.transpose() * force) : force;
+  forces.segment<3>(3 * dofs_.node(node)) +=
+      tied ? Vec3(dofs_.tie[node].T.transpose() * force) : force;
 }
 
 // Forces and tangent of a cell with tied nodes, folded onto the nodes that move.
 void Equilibrium::add_tied(int e, const PacketElement& out, int lane, bool with_tangent) {
   const auto nodes = moving_.of(e);
-  const auto entry = [](int i, int j) { return i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j; };  // lower triangle, row by row
+  const auto entry = [](int i, int j) {
+    return i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j;
+  };  // lower triangle, row by row
   for (int a = 0; a < n_nodes_; ++a)
-    add_force(f_, nodes[a], true, Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]));
+    add_force(f_, nodes[a], true,
+              Vec3(out.f[3 * a][lane], out.f[3 * a + 1][lane], out.f[3 * a + 2][lane]));
   if (!with_tangent) return;
   const int* slot = pattern_.slots(e);
   for (int a = 0; a < n_nodes_; ++a)
@@ -229,39 +243,52 @@ int Equilibrium::position(int e, int row, int column) const {
 
 void Equilibrium::add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   f_ext_.setZero();
-  const auto displacements = [&](int e) { return element_displacements(u, e); };
-  loads_.each(t_loads_, displacements, with_tangent, [&](int e, const ElementNodes& force, const MatX* stiffness) {
-    const auto nodes = moving_.of(e);
-    const bool tied = !tied_.empty() && tied_[e];
-    for (int a = 0; a < n_nodes_; ++a) add_force(f_ext_, nodes[a], tied, force.row(a).transpose());
-    if (!stiffness) return;
-    for (int a = 0; a < n_nodes_; ++a)
-      for (int b = 0; b <= a; ++b) {
-        Mat3 K = stiffness->block<3, 3>(3 * a, 3 * b);
-        if (K.isZero(0)) continue;
-        const bool twice = tied && a != b && dofs_.tie[nodes[a]].of == dofs_.tie[nodes[b]].of;  // as in add_tied
-        if (tied) K = dofs_.tie[nodes[a]].T.transpose() * K * dofs_.tie[nodes[b]].T;
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < (a == b ? i + 1 : 3); ++j)
-            if (const int at = position(e, 3 * a + i, 3 * b + j); at >= 0) K_[at] += (twice && i == j ? 2 : 1) * K(i, j);
-      }
-    if (!du_prescribed) return;
-    const ElementNodes du = element_displacements(*du_prescribed, e);
-    if (du.isZero(0)) return;
-    for (int a = 0; a < n_nodes_; ++a) {
-      Vec3 K_du = Vec3::Zero();
-      for (int b = 0; b < n_nodes_; ++b) K_du += stiffness->block<3, 3>(3 * a, 3 * b) * du.row(b).transpose();
-      add_force(K_du_, nodes[a], tied, K_du);
-    }
-  });
+  const auto displacements = [&](int e) {
+    return element_displacements(u, e);
+  };
+  loads_.each(t_loads_, displacements, with_tangent,
+              [&](int e, const ElementNodes& force, const MatX* stiffness) {
+                const auto nodes = moving_.of(e);
+                const bool tied = !tied_.empty() && tied_[e];
+                for (int a = 0; a < n_nodes_; ++a)
+                  add_force(f_ext_, nodes[a], tied, force.row(a).transpose());
+                if (!stiffness) return;
+                for (int a = 0; a < n_nodes_; ++a)
+                  for (int b = 0; b <= a; ++b) {
+                    Mat3 K = stiffness->block<3, 3>(3 * a, 3 * b);
+                    if (K.isZero(0)) continue;
+                    const bool twice =
+                        tied && a != b &&
+                        dofs_.tie[nodes[a]].of == dofs_.tie[nodes[b]].of;  // as in add_tied
+                    if (tied) K = dofs_.tie[nodes[a]].T.transpose() * K * dofs_.tie[nodes[b]].T;
+                    for (int i = 0; i < 3; ++i)
+                      for (int j = 0; j < (a == b ? i + 1 : 3); ++j)
+                        if (const int at = position(e, 3 * a + i, 3 * b + j); at >= 0)
+                          K_[at] += (twice && i == j ? 2 : 1) * K(i, j);
+                  }
+                if (!du_prescribed) return;
+                const ElementNodes du = element_displacements(*du_prescribed, e);
+                if (du.isZero(0)) return;
+                for (int a = 0; a < n_nodes_; ++a) {
+                  Vec3 K_du = Vec3::Zero();
+                  for (int b = 0; b < n_nodes_; ++b)
+                    K_du += stiffness->block<3, 3>(3 * a, 3 * b) * du.row(b).transpose();
+                  add_force(K_du_, nodes[a], tied, K_du);
+                }
+              });
 }
 
 VecX Equilibrium::skew_pressures(const VecX& u, const VecX& du) const {
   VecX out = VecX::Zero(dofs_.n);
-  const auto at = [this](const VecX& values) { return [this, &values](int e) { return element_displacements(values, e); }; };
+  const auto at = [this](const VecX& values) {
+    return [this, &values](int e) {
+      return element_displacements(values, e);
+    };
+  };
   loads_.each_skew(t_loads_, at(u), at(du), [&](int e, const ElementNodes& change) {
     const auto nodes = moving_.of(e);
-    for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], !tied_.empty() && tied_[e], change.row(a).transpose());
+    for (int a = 0; a < n_nodes_; ++a)
+      add_force(out, nodes[a], !tied_.empty() && tied_[e], change.row(a).transpose());
   });
   return out;
 }
@@ -287,16 +314,21 @@ void Equilibrium::add_stiffness(int e, const PacketElement& out, int lane) {
     for (int b = 0; b <= a; ++b, at += 3, ++begins) {
       if (at[0] == Pattern::none) continue;
       if (a == b)
-        for (int j = 0; j < 3; ++j) column(at[j], *begins, 3 - j, [&](int i) { return row[i + j][3 * b + j][lane]; });
+        for (int j = 0; j < 3; ++j)
+          column(at[j], *begins, 3 - j, [&](int i) { return row[i + j][3 * b + j][lane]; });
       else if (at[0] >= 0)
-        for (int j = 0; j < 3; ++j) column(at[j], *begins, 3, [&](int i) { return row[i][3 * b + j][lane]; });
+        for (int j = 0; j < 3; ++j)
+          column(at[j], *begins, 3, [&](int i) { return row[i][3 * b + j][lane]; });
       else
-        for (int i = 0; i < 3; ++i) column(Pattern::turned(at[i]), *begins, 3, [&](int j) { return row[i][3 * b + j][lane]; });
+        for (int i = 0; i < 3; ++i)
+          column(Pattern::turned(at[i]), *begins, 3,
+                 [&](int j) { return row[i][3 * b + j][lane]; });
     }
   }
 }
 
-void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u, bool with_tangent, const VecX* du_prescribed) {
+void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& u,
+                      bool with_tangent, const VecX* du_prescribed) {
   const double kappa = bulk_modulus(block.cells[0]);
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
@@ -316,13 +348,17 @@ void Equilibrium::add(const Block& block, const PacketElement& out, const VecX& 
       for (int a = 0; a < n_nodes_ && tied; ++a) {
         Vec3 sum = Vec3::Zero();  // over the nodes before it that move with the same dofs
         for (int b = 0; b <= a; ++b)
-          if (dofs_.node(nodes[b]) == dofs_.node(nodes[a])) sum += dofs_.tie[nodes[b]].T.transpose() * Vec3(dJ + 3 * b);
+          if (dofs_.node(nodes[b]) == dofs_.node(nodes[a]))
+            sum += dofs_.tie[nodes[b]].T.transpose() * Vec3(dJ + 3 * b);
         slope = std::max(slope, sum.lpNorm<Eigen::Infinity>());
       }
     }
-    for (int a : nodes) moved = std::max(moved, u.segment<3>(3 * dofs_.node(a)).lpNorm<Eigen::Infinity>());
-    // rounding of u reaches the pressure through the dilatation's gradient, and the force through it once more
-    const double floor = std::numeric_limits<double>::epsilon() * kappa * moved * slope * slope * geometry_[e].V;
+    for (int a : nodes)
+      moved = std::max(moved, u.segment<3>(3 * dofs_.node(a)).lpNorm<Eigen::Infinity>());
+    // rounding of u reaches the pressure through the dilatation's gradient, and the force through
+    // it once more
+    const double floor =
+        std::numeric_limits<double>::epsilon() * kappa * moved * slope * slope * geometry_[e].V;
     floor_ += floor * floor;
     if (!with_tangent) continue;
     if (!tied) add_stiffness(e, out, l);
@@ -358,13 +394,19 @@ bool Equilibrium::assemble(const VecX& u, bool with_tangent, const VecX* du_pres
   if (with_tangent)
     for (int position : cleared_) K_[position] = 0;
   W_ = 0, J_min_ = std::numeric_limits<double>::infinity(), floor_ = 0;
-  std::vector<PacketElement> out(static_cast<std::size_t>(chunk) * threads_, PacketElement(n_nodes_, n_p_));
-  const auto first = [chunk](int c) { return c * chunk; };
-  const auto last = [n, chunk](int c) { return std::min(n, (c + 1) * chunk); };
+  std::vector<PacketElement> out(static_cast<std::size_t>(chunk) * threads_,
+                                 PacketElement(n_nodes_, n_p_));
+  const auto first = [chunk](int c) {
+    return c * chunk;
+  };
+  const auto last = [n, chunk](int c) {
+    return std::min(n, (c + 1) * chunk);
+  };
   in_order(
       threads_, n_chunks,
       [&](int worker, int c) {
-        for (int b = first(c); b < last(c); ++b) compute(blocks_[b], u, with_tangent, out[worker * chunk + b - first(c)]);
+        for (int b = first(c); b < last(c); ++b)
+          compute(blocks_[b], u, with_tangent, out[worker * chunk + b - first(c)]);
       },
       [&](int worker, int c) {
         for (int b = first(c); b < last(c); ++b) {
@@ -387,7 +429,8 @@ double Equilibrium::smallest_J(const VecX& u) const {
     Packet q[most_dofs], J_minus_1[most_gauss];
     load(blocks_[b], u, q);
     packet_dilatations(packet_geometry_[b], q, J_minus_1);
-    for (int g = 0; g < packet_geometry_[b].n_gauss; ++g) J_min = std::min(J_min, 1 + smallest(J_minus_1[g]));
+    for (int g = 0; g < packet_geometry_[b].n_gauss; ++g)
+      J_min = std::min(J_min, 1 + smallest(J_minus_1[g]));
   }
   return division_ ? division_->ranks->smallest(J_min) : J_min;
 }

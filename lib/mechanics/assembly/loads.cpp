@@ -11,17 +11,20 @@ Loads::Loads(const Mesh& mesh, std::vector<SurfaceLoad> loads, std::vector<doubl
     : mesh_(&mesh), loads_(std::move(loads)), cell_share_(std::move(cell_share)) {}
 
 bool Loads::follow() const {
-  return std::any_of(loads_.begin(), loads_.end(), [](const SurfaceLoad& load) { return load.pressure != 0; });
+  return std::any_of(loads_.begin(), loads_.end(),
+                     [](const SurfaceLoad& load) { return load.pressure != 0; });
 }
 
 bool Loads::moves(double t0, double t) const {
-  return std::any_of(loads_.begin(), loads_.end(),
-                     [&](const SurfaceLoad& load) { return factor_at(load.factor, t0) != factor_at(load.factor, t); });
+  return std::any_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
+    return factor_at(load.factor, t0) != factor_at(load.factor, t);
+  });
 }
 
 bool Loads::goes_on(double before, double now, double next) const {
   return std::all_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
-    const double f = factor_at(load.factor, now), rate = (factor_at(load.factor, next) - f) / (next - now),
+    const double f = factor_at(load.factor, now),
+                 rate = (factor_at(load.factor, next) - f) / (next - now),
                  last = (f - factor_at(load.factor, before)) / (now - before);
     return std::abs(rate - last) <= 1e-6 * std::max(std::abs(rate), std::abs(last));
   });
@@ -42,13 +45,15 @@ void Loads::each(double t, const Displacements& u, bool with_stiffness, const On
       const ElementNodes x = X + u(facet.cell);
       const ElementNodes force = share * load.pressure * follower_pressure(cell, facet.local, x);
       MatX stiffness;
-      if (with_stiffness) stiffness = -share * load.pressure * follower_stiffness(cell, facet.local, x);
+      if (with_stiffness)
+        stiffness = -share * load.pressure * follower_stiffness(cell, facet.local, x);
       on(facet.cell, force, with_stiffness ? &stiffness : nullptr);
     }
   }
 }
 
-void Loads::each_skew(double t, const Displacements& u, const Displacements& du, const OnRim& on) const {
+void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
+                      const OnRim& on) const {
   const ReferenceCell& cell = mesh_->cell();
   for (const SurfaceLoad& load : loads_) {
     const double pressure = load.pressure * factor_at(load.factor, t);
@@ -61,7 +66,8 @@ void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
       ElementNodes change = follower_pressure_change(cell, facet.local, x, dx);
       for (int a : cell.facet[facet.local])
         for (int b : cell.facet[facet.local])
-          change.row(a) -= (symmetric.block<3, 3>(3 * a, 3 * b) * dx.row(b).transpose()).transpose();
+          change.row(a) -=
+              (symmetric.block<3, 3>(3 * a, 3 * b) * dx.row(b).transpose()).transpose();
       on(facet.cell, pressure * (cell_share_.empty() ? 1 : cell_share_[facet.cell]) * change);
     }
   }

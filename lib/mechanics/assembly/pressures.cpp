@@ -13,14 +13,16 @@ double Equilibrium::modal_pressure(int e, int k) const {
 }
 
 void Equilibrium::pressures_of(int e, const double* J_minus_1, double* p) const {
-  pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, J_minus_1, p);
+  pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_,
+            J_minus_1, p);
 }
 
 VecX Equilibrium::turned_dilatations() const {
   VecX out = VecX::Zero(dofs_.n);
   std::vector<double> now(n_p_);
   for (int e = 0; e < mesh_.n_cells(); ++e) {
-    // what a linear pressure leaves to `local` follows the predicted dilatation, else it is the same in both
+    // what a linear pressure leaves to `local` follows the predicted dilatation, else it is the
+    // same in both
     const double share = linear_pressure(material(e).volume) ? 1 - local_[e] / bulk_modulus(e) : 1;
     pressures_of(e, &J_minus_1_[static_cast<std::size_t>(e) * n_p_], now.data());
     const auto nodes = moving_.of(e);
@@ -29,7 +31,8 @@ VecX Equilibrium::turned_dilatations() const {
       const std::size_t at = static_cast<std::size_t>(e) * n_p_ + k;
       const double *b = &dJ_du_[at * n_dofs_], *b0 = &dJ_du_kept_[at * n_dofs_];
       const double w = geometry_[e].V * share * (now[k] - p_[at]);
-      for (int a = 0; a < n_nodes_; ++a) add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
+      for (int a = 0; a < n_nodes_; ++a)
+        add_force(out, nodes[a], tied, w * (Vec3(b + 3 * a) - Vec3(b0 + 3 * a)));
     }
   }
   return out;
@@ -44,10 +47,11 @@ void Equilibrium::predict_pressures(const VecX& du, double step, bool kept) {
     for (int k = 0; k < n_p_; ++k) {
       change[k] = 0;
       for (int a = 0; a < n_nodes_; ++a)
-        change[k] += q.row(a).dot(Eigen::Map<const Eigen::RowVector3d>(&dJ_du[(first + k) * n_dofs_ + 3 * a]));
+        change[k] += q.row(a).dot(
+            Eigen::Map<const Eigen::RowVector3d>(&dJ_du[(first + k) * n_dofs_ + 3 * a]));
     }
-    predicted_pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e], n_p_, &J_minus_1_[first],
-                        change.data(), p.data());
+    predicted_pressures(material(e).volume, formulation_ != Formulation::displacement, geometry_[e],
+                        n_p_, &J_minus_1_[first], change.data(), p.data());
     for (int k = 0; k < n_p_; ++k) p_[first + k] += step * (p[k] - p_[first + k]);
   }
   follow_pressures();
@@ -79,7 +83,8 @@ Equilibrium::VolumetricPart Equilibrium::volumetric_part() const {
   VolumetricPart part{dJ_du_, VecX::Zero(n), VecX::Zero(n), VecX::Zero(n)};
   for (int e : own_) {
     const ModalVolume<double> volume =
-        modal_volume(material(e).volume, n_p_, &J_minus_1_[static_cast<std::size_t>(e)], local_[e], geometry_[e]);
+        modal_volume(material(e).volume, n_p_, &J_minus_1_[static_cast<std::size_t>(e)], local_[e],
+                     geometry_[e]);
     part.V[e] = geometry_[e].V, part.kappa[e] = volume.kappa[0][0];
     part.missing[e] = volume.p[0] - p_[static_cast<std::size_t>(e)];
     if (tied_.empty() || !tied_[e]) continue;
@@ -91,7 +96,8 @@ Equilibrium::VolumetricPart Equilibrium::volumetric_part() const {
   }
   if (!division_) return part;
   division_->ranks->sum(part.b.data(), part.b.size());  // 0 in the cells of others
-  for (VecX* of_cells : {&part.V, &part.kappa, &part.missing}) division_->ranks->sum(of_cells->data(), of_cells->size());
+  for (VecX* of_cells : {&part.V, &part.kappa, &part.missing})
+    division_->ranks->sum(of_cells->data(), of_cells->size());
   return part;
 }
 
@@ -104,15 +110,18 @@ std::vector<int> Equilibrium::cell_dofs() const {
   return dofs;
 }
 
-// What four dilatation modes leave of J - 1 within a cell is opposed by a modulus of its own, kappa_l: the largest compressive pressure
-// of the modes in the cell, kappa at most (docs/theory.md, Volume). Less, and a compressed cell folds within itself; more, and it locks.
-// It follows the pressures p that the tangent uses, not kappa t at the u assembled: near incompressibility those are meaningless
-// until the increment is nearly solved. Residual and tangent thus have the same kappa_l, which lags one correction behind; where p =
-// kappa t, at every converged state, it is a function of u alone, and the body has no memory.
+// What four dilatation modes leave of J - 1 within a cell is opposed by a modulus of its own,
+// kappa_l: the largest compressive pressure of the modes in the cell, kappa at most
+// (docs/theory.md, Volume). Less, and a compressed cell folds within itself; more, and it locks. It
+// follows the pressures p that the tangent uses, not kappa t at the u assembled: near
+// incompressibility those are meaningless until the increment is nearly solved. Residual and
+// tangent thus have the same kappa_l, which lags one correction behind; where p = kappa t, at every
+// converged state, it is a function of u alone, and the body has no memory.
 void Equilibrium::follow_pressures() {
   if (formulation_ != Formulation::linear_dilatation) return;
   for (int e = 0; e < mesh_.n_cells(); ++e)
-    local_[e] = std::min(local_modulus(geometry_[e], &p_[static_cast<std::size_t>(e) * n_p_]), bulk_modulus(e));
+    local_[e] = std::min(local_modulus(geometry_[e], &p_[static_cast<std::size_t>(e) * n_p_]),
+                         bulk_modulus(e));
 }
 
 }  // namespace langer

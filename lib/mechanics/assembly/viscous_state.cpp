@@ -22,7 +22,8 @@ void Equilibrium::begin_increment(double seconds) {
 
 double Equilibrium::end_increment(const VecX& u) {
   if (!viscous_) return 0;
-  for (int e = 0; e < mesh_.n_cells(); ++e) viscous_->end(e, material(e), geometry_[e], fibres(e), element_displacements(u, e));
+  for (int e = 0; e < mesh_.n_cells(); ++e)
+    viscous_->end(e, material(e), geometry_[e], fibres(e), element_displacements(u, e));
   return viscous_->error();
 }
 
@@ -36,7 +37,8 @@ void Equilibrium::accept_increment(const VecX& u0, const VecX& u) {
 double Equilibrium::viscous_work() const {
   double sum = 0;
   for (int e = 0; viscous_ && e < mesh_.n_cells(); ++e)
-    for (int g = 0; viscous_->has(e) && g < geometry_[e].n_gauss(); ++g) sum += geometry_[e].w[g] * viscous_->work(e, g);
+    for (int g = 0; viscous_->has(e) && g < geometry_[e].n_gauss(); ++g)
+      sum += geometry_[e].w[g] * viscous_->work(e, g);
   return sum;
 }
 

@@ -13,7 +13,8 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   for (const Vec3& X : mesh.X) centre += X / mesh.n_nodes();
   double size = 0;
   for (const Vec3& X : mesh.X) size = std::max(size, (X - centre).norm());
-  // what each rigid motion (translation, turn about the centre times the body's size) asks of the prescribed dofs
+  // what each rigid motion (translation, turn about the centre times the body's size) asks of the
+  // prescribed dofs
   using Mat66 = Eigen::Matrix<double, 6, 6>;
   Mat66 M = Mat66::Zero();
   for (const Prescribed& p : dofs.prescribed) {
@@ -31,29 +32,39 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
     const auto motions = [&](int node) {
       Eigen::Matrix<double, 3, 6> u;
       u << Mat3::Identity(), Mat3::Zero();
-      for (int j = 0; j < 3; ++j) u.col(3 + j) = Vec3::Unit(j).cross((mesh.X[static_cast<std::size_t>(node)] - centre) / size);
+      for (int j = 0; j < 3; ++j)
+        u.col(3 + j) =
+            Vec3::Unit(j).cross((mesh.X[static_cast<std::size_t>(node)] - centre) / size);
       return u;
     };
-    const Eigen::Matrix<double, 3, 6> rows = motions(static_cast<int>(i)) - image.T * motions(image.of);
+    const Eigen::Matrix<double, 3, 6> rows =
+        motions(static_cast<int>(i)) - image.T * motions(image.of);
     M += rows.transpose() * rows;
   }
-  const auto count = [](const auto& e) { return static_cast<int>((e.array() < 1e-12 * std::max(1.0, e.maxCoeff())).count()); };
+  const auto count = [](const auto& e) {
+    return static_cast<int>((e.array() < 1e-12 * std::max(1.0, e.maxCoeff())).count());
+  };
   const Eigen::SelfAdjointEigenSolver<Mat66> all(M);
   const int free = count(all.eigenvalues());
   if (free == 0) return "";
   const Mat3 translations = M.topLeftCorner<3, 3>();
   const int moves = count(Eigen::SelfAdjointEigenSolver<Mat3>(translations).eigenvalues());
   if (free > 1)
-    return fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)", free, moves, free - moves);
-  const Vec3 t = all.eigenvectors().col(0).head<3>(), w = all.eigenvectors().col(0).tail<3>() / size;
+    return fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)",
+                       free, moves, free - moves);
+  const Vec3 t = all.eigenvectors().col(0).head<3>(),
+             w = all.eigenvectors().col(0).tail<3>() / size;
   const auto text = [](Vec3 x) {
     for (double& c : x) c = std::abs(c) < 1e-9 ? 0 : c;
     return fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2]);
   };
-  const auto upright = [](Vec3 x) { return Vec3(x.normalized() * (x.sum() < 0 ? -1 : 1)); };
-  if (moves == 1) return fmt::format("the supports leave the body free to move along {}", text(upright(t)));
-  return fmt::format("the supports leave the body free to turn about the axis {} through {} mm", text(upright(w)),
-                     text(centre + w.cross(t) / w.squaredNorm()));
+  const auto upright = [](Vec3 x) {
+    return Vec3(x.normalized() * (x.sum() < 0 ? -1 : 1));
+  };
+  if (moves == 1)
+    return fmt::format("the supports leave the body free to move along {}", text(upright(t)));
+  return fmt::format("the supports leave the body free to turn about the axis {} through {} mm",
+                     text(upright(w)), text(centre + w.cross(t) / w.squaredNorm()));
 }
 
 }  // namespace langer

@@ -1,11 +1,11 @@
-// The contact law of one candidate as the root of a function, for Newton's method.                       [AC91]
+// The contact law of one candidate as the root of a function, for Newton's method. [AC91]
 //   F_n = r_n - max(0, A),  A = r_n - rho x_n;   F_t = r_t - projection of s = r_t - rho x_t on the disc of radius mu A
 //   r, x  reaction [N] and relative position [mm], both (n, t1, t2);   rho > 0 [N/mm]
 // Semismooth: each of the three states has a derivative of its own.
 #pragma once
 
-#include "mechanics/contact/coulomb_cone.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/contact/coulomb_cone.hpp"
 
 namespace langer {
 
@@ -32,13 +32,15 @@ class AlartCurnier {
 
   // Change of F where r changes by dr and rho x by rho_dx, column by column.
   template <int n>
-  Eigen::Matrix<double, 3, n> change(const Eigen::Matrix<double, 3, n>& dr, const Eigen::Matrix<double, 3, n>& rho_dx) const {
+  Eigen::Matrix<double, 3, n> change(const Eigen::Matrix<double, 3, n>& dr,
+                                     const Eigen::Matrix<double, 3, n>& rho_dx) const {
     if (status == ContactStatus::open) return dr;
     Eigen::Matrix<double, 3, n> dF = rho_dx;
     if (status == ContactStatus::slip)
-      dF.template bottomRows<2>() = dr.template bottomRows<2>() -
-                                    mu_ * direction_ * (dr.template topRows<1>() - rho_dx.template topRows<1>()) -
-                                    turn_ * (dr.template bottomRows<2>() - rho_dx.template bottomRows<2>());
+      dF.template bottomRows<2>() =
+          dr.template bottomRows<2>() -
+          mu_ * direction_ * (dr.template topRows<1>() - rho_dx.template topRows<1>()) -
+          turn_ * (dr.template bottomRows<2>() - rho_dx.template bottomRows<2>());
     return dF;
   }
 

@@ -14,8 +14,11 @@ std::vector<Complaint> Aperture::complaints() const {
 ShapePoint Aperture::at(const Vec3& x) const {
   const Vec3 a = direction(into);
   auto [along, rho, outward] = about({vec(face), a}, x);
-  if (rho == 0) outward = cross(a, Vec3::Unit(std::abs(a[0]) < 0.5 ? 0 : 1)).normalized();  // the whole wall is as near
-  const double side = radius + edge - rho, end = edge - along;                              // before the core sideways and endways
+  if (rho == 0)
+    outward = cross(a, Vec3::Unit(std::abs(a[0]) < 0.5 ? 0 : 1))
+                  .normalized();  // the whole wall is as near
+  const double side = radius + edge - rho,
+               end = edge - along;  // before the core sideways and endways
   return round_edged({a, outward, rho, Wall::faces_axis}, side, end, edge);
 }
 

@@ -23,8 +23,8 @@ Mat3 contact_frame(const Vec3& n) {
   return frame;
 }
 
-LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0, const Vec3& c, const Vec3& c0,
-                            const Vec3& r) {
+LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0,
+                            const Vec3& c, const Vec3& c0, const Vec3& r) {
   LinearisedContact out;
   const ShapePoint shape = shape_at(contact.shape, x - c);
   out.frame = contact_frame(shape.normal);
@@ -46,11 +46,13 @@ LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Ve
 Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
   const Vec3 axis = n_old.cross(n_new);
   const double cosine = n_old.dot(n_new);
-  if (cosine <= -0.5) return r;  // a leap across the indenter: no meaningful rotation, the next iteration decides
+  if (cosine <= -0.5)
+    return r;  // a leap across the indenter: no meaningful rotation, the next iteration decides
   return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
 }
 
-double torque(const RigidContact& contact, const std::function<Vec3(int node)>& x, const Vec3& c, const std::vector<Vec3>& r) {
+double torque(const RigidContact& contact, const std::function<Vec3(int node)>& x, const Vec3& c,
+              const std::vector<Vec3>& r) {
   const Line& axis = contact.rotation.value().axis;
   double sum = 0;
   for (std::size_t i = 0; i < r.size(); ++i)
@@ -58,8 +60,9 @@ double torque(const RigidContact& contact, const std::function<Vec3(int node)>& 
   return sum;
 }
 
-ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u, const VecX& u0, const Vec3& c,
-                             const Vec3& c0, const std::vector<Vec3>& r, double motion) {
+ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3>& X, const VecX& u,
+                             const VecX& u0, const Vec3& c, const Vec3& c0,
+                             const std::vector<Vec3>& r, double motion) {
   ContactDefect defect;
   double largest = 0, moved = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -68,7 +71,8 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     motion = std::max(motion, (u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0)).norm());
     moved = std::max(moved, u.segment<3>(3 * node).norm());
   }
-  // where the indenter rests, all movement of the increment is rounding of displacements that are there: no scale for slip
+  // where the indenter rests, all movement of the increment is rounding of displacements that are
+  // there: no scale for slip
   motion = std::max(motion, 1e-2 * moved);
   const double tiny = std::numeric_limits<double>::min();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -86,14 +90,18 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const Vec3& n = shape.normal;
     const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
     const Vec3 x_t = v - v.dot(n) * n;
-    // a sphere of 1e5 mm knows its gap to 1e-11 mm: what is below the rounding of the positions is no gap
-    const double curved = shape.curvature.norm(), far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
+    // a sphere of 1e5 mm knows its gap to 1e-11 mm: what is below the rounding of the positions is
+    // no gap
+    const double curved = shape.curvature.norm(),
+                 far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
     const double seen = std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far ? g : 0;
     const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
     // frictionless: only the normal part does work against the law
-    const double power = contact.mu > 0 ? r[i].dot(x_t) + r_n * (seen + contact.mu * slip) : r_n * seen;
-    defect.complementarity = std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
+    const double power =
+        contact.mu > 0 ? r[i].dot(x_t) + r_n * (seen + contact.mu * slip) : r_n * seen;
+    defect.complementarity =
+        std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
     const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
     defect.status.push_back(sticks ? ContactStatus::stick : ContactStatus::slip);
     ++(sticks ? defect.stick : defect.slip);

@@ -1,4 +1,5 @@
-// Projection of a trial reaction on Coulomb's cone K_mu.                               [A23] eq. 27, [dSF98]
+// Projection of a trial reaction on Coulomb's cone K_mu.                               [A23] eq.
+// 27, [dSF98]
 //   tau  trial reaction in the contact frame (n, t1, t2) [N]
 //   mu   friction coefficient, mu >= 0
 // Returns the closest admissible reaction and its state (open, stick, slip).
@@ -25,7 +26,8 @@ inline ConeProjection project_on_cone(const Vec3& tau, double mu) {
   if (tau_t <= mu * tau[0]) return {tau, ContactStatus::stick};
   // r = tau - s (t - mu n),  s = (|tau_t| - mu tau_n) / (1 + mu^2),  t = tau_t / |tau_t|
   const double s = (tau_t - mu * tau[0]) / (1 + mu * mu);
-  const double r_t = mu * (tau[0] + mu * s);  // = |tau_t| - s, written so that r lies on the cone to rounding
+  const double r_t =
+      mu * (tau[0] + mu * s);  // = |tau_t| - s, written so that r lies on the cone to rounding
   return {Vec3(tau[0] + mu * s, r_t * tau[1] / tau_t, r_t * tau[2] / tau_t), ContactStatus::slip};
 }
 

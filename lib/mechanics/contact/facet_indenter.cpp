@@ -21,14 +21,16 @@ struct OnTriangle {
 // Nearest point of a triangle by its Voronoi regions.
 OnTriangle nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
   const Vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
+  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx),
+               d6 = ac.dot(cx);
   if (d1 <= 0 && d2 <= 0) return {a, 2, {}};
   if (d3 >= 0 && d4 <= d3) return {b, 2, {}};
   if (d6 >= 0 && d5 <= d6) return {c, 2, {}};
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return {a + d1 / (d1 - d3) * ab, 1, ab.normalized()};
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, 1, ac.normalized()};
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 1, (c - b).normalized()};
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 1, (c - b).normalized()};
   const double sum = va + vb + vc;
   return {a + vb / sum * ab + vc / sum * ac, 0, {}};
 }
@@ -39,16 +41,18 @@ double squared_distance_to_box(const Vec3& low, const Vec3& high, const Vec3& x)
 
 }  // namespace
 
-TriangleTree::TriangleTree(Triangles triangles) : t_(std::move(triangles)), order_(t_.corners.size()) {
+TriangleTree::TriangleTree(Triangles triangles)
+    : t_(std::move(triangles)), order_(t_.corners.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   build(0, static_cast<int>(order_.size()));
 }
 
 int TriangleTree::build(int first, int last) {
-  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity()), first,
-          last};
+  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
+          Vec3::Constant(-std::numeric_limits<double>::infinity()), first, last};
   for (int i = first; i < last; ++i)
-    for (int p : t_.corners[order_[i]]) box.low = box.low.cwiseMin(t_.points[p]), box.high = box.high.cwiseMax(t_.points[p]);
+    for (int p : t_.corners[order_[i]])
+      box.low = box.low.cwiseMin(t_.points[p]), box.high = box.high.cwiseMax(t_.points[p]);
   const int index = static_cast<int>(boxes_.size());
   boxes_.push_back(box);
   if (last - first <= 4) return index;
@@ -59,8 +63,9 @@ int TriangleTree::build(int first, int last) {
     return t_.points[c[0]][axis] + t_.points[c[1]][axis] + t_.points[c[2]][axis];
   };
   const int middle = (first + last) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                   [&](int a, int b) { return centre(a) < centre(b) || (centre(a) == centre(b) && a < b); });
+  std::nth_element(
+      order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+      [&](int a, int b) { return centre(a) < centre(b) || (centre(a) == centre(b) && a < b); });
   const int left = build(first, middle), right = build(middle, last);
   boxes_[index].left = left, boxes_[index].right = right;
   return index;
@@ -76,9 +81,11 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
     open.pop_back();
     if (squared_distance_to_box(box.low, box.high, x) > best * (1 + 1e-12)) continue;
     if (box.left >= 0) {
-      const bool left_first = squared_distance_to_box(boxes_[box.left].low, boxes_[box.left].high, x) <
-                              squared_distance_to_box(boxes_[box.right].low, boxes_[box.right].high, x);
-      open.push_back(left_first ? box.right : box.left), open.push_back(left_first ? box.left : box.right);
+      const bool left_first =
+          squared_distance_to_box(boxes_[box.left].low, boxes_[box.left].high, x) <
+          squared_distance_to_box(boxes_[box.right].low, boxes_[box.right].high, x);
+      open.push_back(left_first ? box.right : box.left),
+          open.push_back(left_first ? box.left : box.right);
       continue;
     }
     for (int i = box.first; i < box.last; ++i) {
@@ -87,12 +94,14 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
       const OnTriangle on = nearest_on(p0, p1, p2, x);
       const double distance = (x - on.point).squaredNorm();
       const Vec3 normal = (p1 - p0).cross(p2 - p0).normalized();
-      // triangles that share the nearest point: the one whose plane x stands off most decides inside or outside
+      // triangles that share the nearest point: the one whose plane x stands off most decides
+      // inside or outside
       const double stands_off = std::abs((x - on.point).dot(normal));
       const bool same = distance <= best * (1 + 1e-10);
       if (distance < best * (1 - 1e-10) || (same && stands_off > steepest)) {
         best = std::min(best, distance), steepest = stands_off;
-        out = {on.point, (x - on.point).dot(normal) >= 0 ? 1.0 : -1.0, on.feature, on.feature == 0 ? normal : on.direction};
+        out = {on.point, (x - on.point).dot(normal) >= 0 ? 1.0 : -1.0, on.feature,
+               on.feature == 0 ? normal : on.direction};
       }
     }
   }
@@ -104,13 +113,15 @@ ShapePoint Facets::at(const Vec3& x) const {
   const Vec3 away = near.sign * (x - near.point);
   const double distance = away.norm();
   ShapePoint p;
-  if (distance < 1e-12) return {-rounding, near.feature == 0 ? near.direction : Vec3(Vec3::UnitY()), Mat3::Zero()};
+  if (distance < 1e-12)
+    return {-rounding, near.feature == 0 ? near.direction : Vec3(Vec3::UnitY()), Mat3::Zero()};
   p.normal = away / distance;
   p.gap = near.sign * distance - rounding;
   if (near.feature == 2)
     p.curvature = tangent_projection(p.normal) / (near.sign * distance);
   else if (near.feature == 1)
-    p.curvature = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) / (near.sign * distance);
+    p.curvature = (tangent_projection(p.normal) - near.direction * near.direction.transpose()) /
+                  (near.sign * distance);
   return p;
 }
 
@@ -130,8 +141,8 @@ Vec3 twice_the_area(const Triangles& t, const std::array<int, 3>& c) {
   return (t.points[c[1]] - t.points[c[0]]).cross(t.points[c[2]] - t.points[c[0]]);
 }
 
-// for each box of a grid, so many along the longest side, the mean of the points in it; triangles that this leaves without area, or
-// turned over, are gone
+// for each box of a grid, so many along the longest side, the mean of the points in it; triangles
+// that this leaves without area, or turned over, are gone
 Triangles coarser(const Triangles& t, int boxes) {
   Eigen::AlignedBox3d all;
   for (const Vec3& x : t.points) all.extend(x);
@@ -142,7 +153,9 @@ Triangles coarser(const Triangles& t, int boxes) {
   std::vector<int> place, count;
   for (const Vec3& x : t.points) {
     std::array<int, 3> box;
-    for (int k = 0; k < 3; ++k) box[static_cast<std::size_t>(k)] = static_cast<int>(std::floor((x[k] - all.min()[k]) / length));
+    for (int k = 0; k < 3; ++k)
+      box[static_cast<std::size_t>(k)] =
+          static_cast<int>(std::floor((x[k] - all.min()[k]) / length));
     const auto [entry, is_new] = point_of.try_emplace(box, static_cast<int>(out.points.size()));
     if (is_new) out.points.push_back(Vec3::Zero()), count.push_back(0);
     place.push_back(entry->second);
@@ -154,7 +167,9 @@ Triangles coarser(const Triangles& t, int boxes) {
     const std::array<int, 3> moved{place[c[0]], place[c[1]], place[c[2]]};
     auto key = moved;
     std::sort(key.begin(), key.end());
-    if (key[0] == key[1] || key[1] == key[2] || !(twice_the_area(out, moved).dot(twice_the_area(t, c)) > 0)) continue;
+    if (key[0] == key[1] || key[1] == key[2] ||
+        !(twice_the_area(out, moved).dot(twice_the_area(t, c)) > 0))
+      continue;
     if (known.insert(key).second) out.corners.push_back(moved);
   }
   return out;
@@ -168,14 +183,17 @@ Outline swollen(const Triangles& t, double by) {
     for (int p : c) normal[static_cast<std::size_t>(p)] += twice_the_area(t, c);
     out.faces.push_back({c[0], c[1], c[2]});
   }
-  for (std::size_t p = 0; p < t.points.size(); ++p) out.points.push_back(t.points[p] + by * normal[p].stableNormalized());
+  for (std::size_t p = 0; p < t.points.size(); ++p)
+    out.points.push_back(t.points[p] + by * normal[p].stableNormalized());
   return out;
 }
 
-// Triangles moved out by the rounding, between them strips along edges and polygons at corners, all with their corners on the surface.
+// Triangles moved out by the rounding, between them strips along edges and polygons at corners, all
+// with their corners on the surface.
 Outline with_rounded_edges(const Triangles& t, double rounding) {
   Outline out;
-  std::map<std::array<int, 2>, std::array<int, 2>> ends_of;  // of a side, as its triangle goes round: the moved ends
+  std::map<std::array<int, 2>, std::array<int, 2>>
+      ends_of;  // of a side, as its triangle goes round: the moved ends
   std::vector<std::vector<int>> at_corner(t.points.size());
   for (const auto& c : t.corners) {
     const Vec3 n = twice_the_area(t, c).normalized();
@@ -187,7 +205,8 @@ Outline with_rounded_edges(const Triangles& t, double rounding) {
     out.faces.push_back({first, first + 1, first + 2});
   }
   for (const auto& [side, ends] : ends_of)
-    if (const auto other = ends_of.find({side[1], side[0]}); side[0] < side[1] && other != ends_of.end())
+    if (const auto other = ends_of.find({side[1], side[0]});
+        side[0] < side[1] && other != ends_of.end())
       out.faces.push_back({ends[1], ends[0], other->second[1], other->second[0]});
   for (std::size_t p = 0; p < t.points.size(); ++p) {
     std::vector<int>& moved = at_corner[p];
@@ -195,7 +214,9 @@ Outline with_rounded_edges(const Triangles& t, double rounding) {
     for (int i : moved) out_of += out.points[i] - t.points[p];
     if (moved.size() < 3 || out_of.norm() < 1e-9 * rounding) continue;
     const Vec3 a = out_of.unitOrthogonal(), b = out_of.normalized().cross(a);
-    const auto angle = [&](int i) { return std::atan2(b.dot(out.points[i] - t.points[p]), a.dot(out.points[i] - t.points[p])); };
+    const auto angle = [&](int i) {
+      return std::atan2(b.dot(out.points[i] - t.points[p]), a.dot(out.points[i] - t.points[p]));
+    };
     std::sort(moved.begin(), moved.end(), [&](int i, int j) { return angle(i) < angle(j); });
     out.faces.push_back(moved);
   }

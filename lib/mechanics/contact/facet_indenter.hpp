@@ -1,4 +1,5 @@
-// A rigid surface of triangles, thickened by a rounding radius so that its normal is continuous over edges and corners.
+// A rigid surface of triangles, thickened by a rounding radius so that its normal is continuous
+// over edges and corners.
 //   gap = distance to the triangles - rounding;  faces are flat, edges and corners are parts of cylinders and spheres
 // The triangles come from a file (lib/meshing/read_surface.hpp) and must point outwards.
 #pragma once
@@ -18,8 +19,9 @@ class TriangleTree {
  public:
   explicit TriangleTree(Triangles triangles);
   struct Nearest {
-    Vec3 point;      // on the triangles
-    double sign;     // +1 outside, -1 inside (by the normals of the triangles around the nearest point)
+    Vec3 point;  // on the triangles
+    double
+        sign;  // +1 outside, -1 inside (by the normals of the triangles around the nearest point)
     int feature;     // 0 face, 1 edge, 2 corner
     Vec3 direction;  // of the edge, or normal of the face
   };
@@ -46,13 +48,18 @@ struct Facets {
   std::shared_ptr<const TriangleTree> tree;  // filled when the scene is made
   static void fields(auto& v) {
     v(&Facets::file, "file", unit::none, "STL file of the surface, normals outwards", required);
-    v(&Facets::rounding, "rounding", unit::mm, "what the surface is thickened by; radius of its edges", required, positive);
-    v(&Facets::scale, "scale", unit::none, "factor that makes the file's lengths millimetres", positive);
+    v(&Facets::rounding, "rounding", unit::mm,
+      "what the surface is thickened by; radius of its edges", required, positive);
+    v(&Facets::scale, "scale", unit::none, "factor that makes the file's lengths millimetres",
+      positive);
     v(&Facets::move, "move", unit::mm, "added to the file's positions after scaling");
   }
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Facets&, const Isometry&) const { return false; }  // triangles are not compared
-  Outline outline(const Shown& shown) const;  // of many triangles a coarser picture: as many as one of a sphere has, about
+  bool becomes(const Facets&, const Isometry&) const {
+    return false;
+  }  // triangles are not compared
+  Outline outline(const Shown& shown)
+      const;  // of many triangles a coarser picture: as many as one of a sphere has, about
   double half_width() const;
   std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }
   std::optional<Line> axis() const { return std::nullopt; }

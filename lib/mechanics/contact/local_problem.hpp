@@ -1,15 +1,17 @@
-// The discrete frictional contact problem on k contacts, condensed to their own unknowns.   [A23] eqs 22-27, [dSF98]
+// The discrete frictional contact problem on k contacts, condensed to their own unknowns.   [A23]
+// eqs 22-27, [dSF98]
 //   x = W r + q,   per contact (n, t1, t2):   r in K_mu,   x_t + (x_n + mu |x_t|) n  in the dual cone, orthogonal to r
 //   W   (3k, 3k) compliance [mm/N], positive semidefinite, may be slightly unsymmetric (curved indenter)
 //   q   (3k) relative position without reaction [mm];  r (3k) reactions [N], start value in and answer out
-// Block Gauss-Seidel with the cone projection and one rho per contact; when it slows down, semismooth Newton steps
-// (Alart-Curnier form) finish, and proximal points where W is singular. None is trusted: the answer is judged by the natural map.
+// Block Gauss-Seidel with the cone projection and one rho per contact; when it slows down,
+// semismooth Newton steps (Alart-Curnier form) finish, and proximal points where W is singular.
+// None is trusted: the answer is judged by the natural map.
 #pragma once
 
 #include <vector>
 
-#include "mechanics/contact/coulomb_cone.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/contact/coulomb_cone.hpp"
 
 namespace langer {
 
@@ -23,7 +25,8 @@ struct LocalProblem {
 struct LocalReport {
   int sweeps = 0;        // Gauss-Seidel
   int newton_steps = 0;  // semismooth Newton
-  double residual = 0;   // natural map, relative to the largest reaction (or to rho |q| without reaction)
+  double residual =
+      0;  // natural map, relative to the largest reaction (or to rho |q| without reaction)
   bool converged = false;
   std::vector<ContactStatus> status;
 };

@@ -17,8 +17,8 @@ std::vector<std::array<double, 2>> half_circle(double radius, int parts) {
   return profile;
 }
 
-Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
-                 bool closed) {
+Outline revolved(const Vec3& origin, const Vec3& axis,
+                 const std::vector<std::array<double, 2>>& profile, int sectors, bool closed) {
   int least = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(axis[k]) < std::abs(axis[least])) least = k;
@@ -67,8 +67,8 @@ Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double at) {
 }
 
 // the part of a polygon on one side; where it is cut, `from` and `to` are the ends of the new side
-std::vector<Vec3> clipped(const std::vector<Vec3>& face, int axis, double at, double side, std::vector<Vec3>& from,
-                          std::vector<Vec3>& to) {
+std::vector<Vec3> clipped(const std::vector<Vec3>& face, int axis, double at, double side,
+                          std::vector<Vec3>& from, std::vector<Vec3>& to) {
   std::vector<Vec3> kept;
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Vec3 &a = face[k], &b = face[(k + 1) % face.size()];
@@ -83,12 +83,14 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& face, int axis, double at, do
 
 void add_face(Outline& out, const std::vector<Vec3>& corners) {
   std::vector<int>& face = out.faces.emplace_back();
-  for (const Vec3& x : corners) face.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
+  for (const Vec3& x : corners)
+    face.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
 }
 
 void add_line(Outline& out, const std::vector<Vec3>& corners) {
   std::vector<int>& line = out.lines.emplace_back();
-  for (const Vec3& x : corners) line.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
+  for (const Vec3& x : corners)
+    line.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
 }
 
 }  // namespace
@@ -96,7 +98,8 @@ void add_line(Outline& out, const std::vector<Vec3>& corners) {
 namespace {
 
 // Follows the sides of a cut from one of them on.
-std::vector<Vec3> chain_from(std::map<Key, Vec3>::iterator link, std::map<Key, Vec3>& next, const Vec3& begin) {
+std::vector<Vec3> chain_from(std::map<Key, Vec3>::iterator link, std::map<Key, Vec3>& next,
+                             const Vec3& begin) {
   std::vector<Vec3> chain{begin};
   for (; link != next.end(); link = next.find(key(chain.back()))) {
     chain.push_back(link->second);
@@ -116,7 +119,8 @@ bool is_closed(const std::vector<Vec3>& chain) {
 
 OpenedOutline cut_open(const Outline& outline, int axis, double at, double side) {
   OpenedOutline out;
-  std::map<Key, Vec3> next;  // along the border of the cap, which goes against the new sides of the faces
+  std::map<Key, Vec3>
+      next;  // along the border of the cap, which goes against the new sides of the faces
   for (const auto& face : outline.faces) {
     std::vector<Vec3> corners, from, to;
     for (int p : face) corners.push_back(outline.points[p]);
@@ -124,10 +128,12 @@ OpenedOutline cut_open(const Outline& outline, int axis, double at, double side)
     if (kept.size() > 2) add_face(out.kept, kept);
     for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
       if (to[k] != from[k])
-        next[key(to[k])] = from[k];  // else the plane goes through a corner, or the face is a strip without width
+        next[key(to[k])] =
+            from[k];  // else the plane goes through a corner, or the face is a strip without width
   }
   std::map<Key, Vec3> begins;  // of open lines: nothing leads there
-  for (const auto& [from, to] : next) begins.emplace(from, Vec3(std::get<0>(from), std::get<1>(from), std::get<2>(from)));
+  for (const auto& [from, to] : next)
+    begins.emplace(from, Vec3(std::get<0>(from), std::get<1>(from), std::get<2>(from)));
   for (const auto& [from, to] : next) begins.erase(key(to));
   for (const auto& [from, begin] : begins) {
     const std::vector<Vec3> chain = chain_from(next.find(from), next, begin);
@@ -142,7 +148,9 @@ OpenedOutline cut_open(const Outline& outline, int axis, double at, double side)
   }
   for (const auto& line : outline.lines) {
     std::vector<int>& copy = out.kept.lines.emplace_back();
-    for (int p : line) copy.push_back(static_cast<int>(out.kept.points.size())), out.kept.points.push_back(outline.points[p]);
+    for (int p : line)
+      copy.push_back(static_cast<int>(out.kept.points.size())),
+          out.kept.points.push_back(outline.points[p]);
   }
   return out;
 }

@@ -1,4 +1,5 @@
-// The surface of a rigid shape as polygons, for pictures: its corners lie on the surface of gap 0 (of very many triangles nearly).
+// The surface of a rigid shape as polygons, for pictures: its corners lie on the surface of gap 0
+// (of very many triangles nearly).
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@ namespace langer {
 struct Outline {
   std::vector<Vec3> points;             // [mm]
   std::vector<std::vector<int>> faces;  // counter-clockwise seen from outside
-  std::vector<std::vector<int>> lines;  // drawn whatever side is seen: of a plane, which has no other side
+  std::vector<std::vector<int>>
+      lines;  // drawn whatever side is seen: of a plane, which has no other side
 };
 
 // What is shown: shapes without an end are drawn as far as that.
@@ -21,16 +23,18 @@ struct Shown {
   int parts = 48;   // of half a turn
 };
 
-// A surface of revolution: along and radius of its profile's corners [mm], from where the axis comes from; an end off the axis is closed if
-// `closed`.
-Outline revolved(const Vec3& origin, const Vec3& axis, const std::vector<std::array<double, 2>>& profile, int sectors,
+// A surface of revolution: along and radius of its profile's corners [mm], from where the axis
+// comes from; an end off the axis is closed if `closed`.
+Outline revolved(const Vec3& origin, const Vec3& axis,
+                 const std::vector<std::array<double, 2>>& profile, int sectors,
                  bool closed = true);
 
 // The profile of a sphere about 0, from along = -radius.
 std::vector<std::array<double, 2>> half_circle(double radius, int parts);
 
-// What lies on the side of the plane x[axis] = at to which `side` (1 or -1) points, and the faces in the plane that close it. A surface
-// with an end, as that of a plate with a hole, encloses nothing: there the plane leaves a line.
+// What lies on the side of the plane x[axis] = at to which `side` (1 or -1) points, and the faces
+// in the plane that close it. A surface with an end, as that of a plate with a hole, encloses
+// nothing: there the plane leaves a line.
 struct OpenedOutline {
   Outline kept, cap;
 };

@@ -17,7 +17,8 @@ std::vector<Complaint> Cylinder::complaints() const {
 ShapePoint Cylinder::at(const Vec3& x) const {
   const Vec3 a = direction(into);
   const auto [along, rho, outward] = about({vec(face), a}, x);
-  const double side = rho - (radius - edge), end = edge - along;  // beyond the core sideways and endways
+  const double side = rho - (radius - edge),
+               end = edge - along;  // beyond the core sideways and endways
   return round_edged({a, outward, rho, Wall::faces_away}, side, end, edge);
 }
 
@@ -40,15 +41,20 @@ Outline Cylinder::outline(const Shown& shown) const {
 
 namespace {
 
-// nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t + h_i^2))^2 = 1
+// nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t +
+// h_i^2))^2 = 1
 Vec3 nearest(Vec3 q, const Vec3& h) {
   const double tiny = 1e-12 * h.minCoeff();
-  for (double& v : q) v = std::abs(v) < tiny ? std::copysign(tiny, v) : v;  // off the planes of symmetry: one nearest point
+  for (double& v : q)
+    v = std::abs(v) < tiny ? std::copysign(tiny, v)
+                           : v;  // off the planes of symmetry: one nearest point
   const Vec3 hh = h.cwiseProduct(h);
   int least = 0;
   h.minCoeff(&least);
   const Vec3 hq = h.cwiseProduct(q);
-  const auto f = [&](double t) { return hq.cwiseQuotient(hh + Vec3::Constant(t)).squaredNorm() - 1; };
+  const auto f = [&](double t) {
+    return hq.cwiseQuotient(hh + Vec3::Constant(t)).squaredNorm() - 1;
+  };
   double low = -hh.minCoeff() + h.minCoeff() * std::abs(q[least]), high = h.maxCoeff() * q.norm();
   if (f(low) < 0) low = -hh.minCoeff();
   double t = std::clamp(0.0, low, high);

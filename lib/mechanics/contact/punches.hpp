@@ -1,4 +1,5 @@
-// A flat-ended cylinder with a rounded edge, and an ellipsoid: exact distance, normal and curvature.
+// A flat-ended cylinder with a rounded edge, and an ellipsoid: exact distance, normal and
+// curvature.
 #pragma once
 
 #include "core/base/fields.hpp"
@@ -14,10 +15,12 @@ struct Cylinder {
     v(&Cylinder::radius, "radius", unit::mm, "outer radius", required, positive);
     v(&Cylinder::edge, "edge", unit::mm, "radius of the rounded edge", required, positive);
     v(&Cylinder::face, "face", unit::mm, "centre of the flat end before it moves", required);
-    v(&Cylinder::into, "axis", unit::none, "direction from the flat end into the cylinder (any length)");
+    v(&Cylinder::into, "axis", unit::none,
+      "direction from the flat end into the cylinder (any length)");
   }
   std::vector<Complaint> complaints() const;
-  // the cylinder is a core (radius less edge, starting one edge behind the face) thickened by the edge radius
+  // the cylinder is a core (radius less edge, starting one edge behind the face) thickened by the
+  // edge radius
   ShapePoint at(const Vec3& x) const;
   bool becomes(const Cylinder& other, const Isometry& op) const;
   Outline outline(const Shown& shown) const;

@@ -23,7 +23,8 @@ ShapePoint Plane::at(const Vec3& x) const {
 
 bool Plane::becomes(const Plane& other, const Isometry& op) const {
   const Vec3 p = vec(other.point), n = direction(other.outward);
-  return turns_to(direction(outward), n, op) && std::abs(n.dot(op(vec(point)) - p)) <= same_place * (1 + p.norm());
+  return turns_to(direction(outward), n, op) &&
+         std::abs(n.dot(op(vec(point)) - p)) <= same_place * (1 + p.norm());
 }
 
 std::vector<Complaint> Plane::complaints() const {
@@ -45,12 +46,18 @@ Outline Plane::outline(const Shown& shown) const {
   const Vec3 t = cross(a, s);
   Outline out;
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) out.points.push_back(middle + (i - 0.5 * n) * s + (j - 0.5 * n) * t);
-  const auto at_grid = [](int i, int j) { return i * (n + 1) + j; };
+    for (int j = 0; j <= n; ++j)
+      out.points.push_back(middle + (i - 0.5 * n) * s + (j - 0.5 * n) * t);
+  const auto at_grid = [](int i, int j) {
+    return i * (n + 1) + j;
+  };
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) out.faces.push_back({at_grid(i, j), at_grid(i + 1, j), at_grid(i + 1, j + 1), at_grid(i, j + 1)});
+    for (int j = 0; j < n; ++j)
+      out.faces.push_back(
+          {at_grid(i, j), at_grid(i + 1, j), at_grid(i + 1, j + 1), at_grid(i, j + 1)});
   for (int i = 0; i <= n; ++i)
-    out.lines.push_back({at_grid(i, 0), at_grid(i, n)}), out.lines.push_back({at_grid(0, i), at_grid(n, i)});
+    out.lines.push_back({at_grid(i, 0), at_grid(i, n)}),
+        out.lines.push_back({at_grid(0, i), at_grid(n, i)});
   return out;
 }
 
@@ -69,7 +76,8 @@ bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op) {
 
 bool unchanged_by(const Indenter& shape, const Isometry& op) { return becomes(shape, shape, op); }
 
-// what stays as it is when turned by one radian does so for every turn: no multiple of it is a whole one
+// what stays as it is when turned by one radian does so for every turn: no multiple of it is a
+// whole one
 bool is_revolved_about(const Line& line, const Indenter& shape) {
   return unchanged_by(shape, {rotation(line.along, 1), line.point});
 }

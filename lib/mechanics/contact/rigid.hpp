@@ -1,4 +1,5 @@
-// Rigid indenters as exact shapes. Positions are relative to the indenter: x - u_ind, with u_ind its displacement.
+// Rigid indenters as exact shapes. Positions are relative to the indenter: x - u_ind, with u_ind
+// its displacement.
 #pragma once
 
 #include <limits>
@@ -34,7 +35,8 @@ struct Plane {
   std::array<double, 3> outward{};
   static void fields(auto& v) {
     v(&Plane::point, "point", unit::mm, "a point of the plane before it moves", required);
-    v(&Plane::outward, "normal", unit::none, "direction from the plane to the body (any length)", required);
+    v(&Plane::outward, "normal", unit::none, "direction from the plane to the body (any length)",
+      required);
   }
   ShapePoint at(const Vec3& x) const;
   bool becomes(const Plane& other, const Isometry& op) const;
@@ -51,7 +53,8 @@ template <class... S>
 constexpr bool all_are_shapes(const std::variant<S...>*) {
   return (Shape<S> && ...);
 }
-static_assert(all_are_shapes(static_cast<const Indenter*>(nullptr)), "contact/shape.hpp says what a shape has to answer");
+static_assert(all_are_shapes(static_cast<const Indenter*>(nullptr)),
+              "contact/shape.hpp says what a shape has to answer");
 
 ShapePoint shape_at(const Indenter& shape, const Vec3& x);
 bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op);

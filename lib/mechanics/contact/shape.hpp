@@ -1,5 +1,5 @@
-// What a rigid shape answers for itself. A new one: a struct with these members in a file of its own, and its word in the list of
-// contact/rigid.hpp.
+// What a rigid shape answers for itself. A new one: a struct with these members in a file of its
+// own, and its word in the list of contact/rigid.hpp.
 //   at(x)             gap: signed distance, > 0 outside [mm]; normal: gradient of the gap, from the shape to the body;
 //                     curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of constant gap through x [1/mm]
 //   becomes(other, op)  `other` is its image; false where it cannot tell
@@ -12,9 +12,9 @@
 #include <concepts>
 #include <optional>
 
-#include "mechanics/contact/outline.hpp"
 #include "core/tensor/turn.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/contact/outline.hpp"
 
 namespace langer {
 
@@ -45,17 +45,20 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
   { shape.axis() } -> std::same_as<std::optional<Line>>;
 };
 
-// curvature round the axis a at the distance rho from it, where the normal has the component n_rho outwards: n_rho / rho along the circle
+// curvature round the axis a at the distance rho from it, where the normal has the component n_rho
+// outwards: n_rho / rho along the circle
 Mat3 ring(const Vec3& a, const Vec3& outward, double n_rho, double rho);
-// a circular wall round the axis a and the unit vector from the axis through a point at the distance rho [mm]
+// a circular wall round the axis a and the unit vector from the axis through a point at the
+// distance rho [mm]
 enum class Wall { faces_away = 1, faces_axis = -1 };
 struct RoundWall {
   Vec3 a, outward;
   double rho;
   Wall wall;
 };
-// surface of a core with a flat end (normal -a) and a circular wall, thickened by `edge`, from a point that lies `side` in front of
-// the core's wall and `end` in front of its end, both negative inside [mm]; rho > 0 or no wall near
+// surface of a core with a flat end (normal -a) and a circular wall, thickened by `edge`, from a
+// point that lies `side` in front of the core's wall and `end` in front of its end, both negative
+// inside [mm]; rho > 0 or no wall near
 ShapePoint round_edged(const RoundWall& at, double side, double end, double edge);
 Mat3 tangent_projection(const Vec3& n);
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }

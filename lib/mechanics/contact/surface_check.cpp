@@ -18,7 +18,8 @@ namespace langer {
 
 namespace {
 
-// nodes in z = 0 of a facet between z = 0 and the plane behind: the ends in the order of the facet, and the middle
+// nodes in z = 0 of a facet between z = 0 and the plane behind: the ends in the order of the facet,
+// and the middle
 std::vector<int> front_edge(const ReferenceCell& cell, const std::vector<int>& facet, int n_front) {
   std::vector<int> edge;
   const int sides = cell.facet_corners;
@@ -38,12 +39,14 @@ std::vector<std::array<int, 4>> edge_pieces(const std::vector<int>& n) {
 
 double radius_of(const ShapePoint& p) {
   const double curvature = p.curvature.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-  return curvature > 0 ? std::max(0.0, 1 / curvature - p.gap) : std::numeric_limits<double>::infinity();
+  return curvature > 0 ? std::max(0.0, 1 / curvature - p.gap)
+                       : std::numeric_limits<double>::infinity();
 }
 
 double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, signed
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return 2 * std::atan2(a.dot(b.cross(c)),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace
@@ -54,11 +57,13 @@ SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size
   for (const Facet& facet : boundary(mesh)) {
     Patch patch{facet_nodes(mesh, facet)};
     if (mesh.section) {
-      const bool flat = std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return n < front; });
+      const bool flat =
+          std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return n < front; });
       patch.nodes = flat ? std::vector<int>{} : front_edge(mesh.cell(), patch.nodes, front);
       if (patch.nodes.empty()) continue;
       patch.axis = mesh.section->of == SectionOf::axisymmetric &&
-                   std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return mesh.X[n][0] == 0; });
+                   std::all_of(patch.nodes.begin(), patch.nodes.end(),
+                               [&](int n) { return mesh.X[n][0] == 0; });
     }
     quads_.push_back(mesh.section ? edge_pieces(patch.nodes) : facet_quads(mesh, facet));
     if (!patch.axis) nodes.insert(patch.nodes.begin(), patch.nodes.end());
@@ -88,19 +93,24 @@ VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
   } else {  // all facets of a cell have the same functions in the order of their nodes
     const ReferenceCell& cell = mesh_.cell();
     const auto& local = cell.facet[0];
-    const auto corner = [&](int k) { return cell.node[local[k]]; };
-    const Vec3 xi = cell.facet_corners == 3 ? Vec3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
-                                            : Vec3(0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
-                                                           (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3)));
+    const auto corner = [&](int k) {
+      return cell.node[local[k]];
+    };
+    const Vec3 xi =
+        cell.facet_corners == 3
+            ? Vec3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
+            : Vec3(0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
+                           (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3)));
     const VecX N = cell.shape(xi);
     for (std::size_t k = 0; k < n; ++k) w[k] = N[local[k]];
   }
   return w;
 }
 
-// Least gap of a facet: pieces of it that may hold something less than what is known, halved until the indenter is smooth across one.
-SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x,
-                                            const Vec3& c) const {
+// Least gap of a facet: pieces of it that may hold something less than what is known, halved until
+// the indenter is smooth across one.
+SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidContact& contact,
+                                            const std::vector<Vec3>& x, const Vec3& c) const {
   const bool line = mesh_.section.has_value(), triangle = mesh_.cell().facet_corners == 3;
   const double low = triangle ? 0 : -1;
   const double width = half_width(contact.shape);
@@ -126,7 +136,8 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
     if (p.gap < best) best = p.gap, best_s = s, best_t = t;
     return p;
   };
-  const std::function<void(double, double, double, int)> piece = [&](double s, double t, double half, int level) {
+  const std::function<void(double, double, double, int)> piece = [&](double s, double t,
+                                                                     double half, int level) {
     const ShapePoint p = take(s, t);
     const double reach = (triangle ? 2.0 : 1.0) * half * size;  // a generous radius of the piece
     if (p.gap - reach > best) return;
@@ -161,9 +172,11 @@ std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves
   for (const Waypoint& w : contact.motion) {
     const Vec3 from = way.back();
     const double length = (w.to - from).norm();
-    const int parts = static_cast<int>(std::clamp(std::ceil(length / (0.5 * shortest)), 1.0, 400.0));
+    const int parts =
+        static_cast<int>(std::clamp(std::ceil(length / (0.5 * shortest)), 1.0, 400.0));
     step = std::max(step, length / parts);
-    for (int k = 1; k <= parts; ++k) way.push_back(from + (static_cast<double>(k) / parts) * (w.to - from));
+    for (int k = 1; k <= parts; ++k)
+      way.push_back(from + (static_cast<double>(k) / parts) * (w.to - from));
   }
   std::vector<double> least;
   double depth = 0;
@@ -173,8 +186,10 @@ std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves
     least.push_back(gap), depth = std::max(depth, -gap);
   }
   std::vector<int> nodes;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)  // odd factors: no node of a regular mesh lies on the limit
-    if (least[i] <= 0.2517 * depth + 2.0013 * spacing_[nodes_[i]] + 0.5 * step + moves) nodes.push_back(nodes_[i]);
+  for (std::size_t i = 0; i < nodes_.size();
+       ++i)  // odd factors: no node of a regular mesh lies on the limit
+    if (least[i] <= 0.2517 * depth + 2.0013 * spacing_[nodes_[i]] + 0.5 * step + moves)
+      nodes.push_back(nodes_[i]);
   return nodes;
 }
 
@@ -199,12 +214,13 @@ double SurfaceCheck::pressed_along(Vec3 along, const std::vector<Vec3>& u) const
   if (along.isZero(0)) return 0;
   along.normalize();
   double most = -std::numeric_limits<double>::infinity(), fewest = -most;
-  for (int n : nodes_) most = std::max(most, along.dot(u[n])), fewest = std::min(fewest, along.dot(u[n]));
+  for (int n : nodes_)
+    most = std::max(most, along.dot(u[n])), fewest = std::min(fewest, along.dot(u[n]));
   return most - fewest;
 }
 
-SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& c,
-                               const std::vector<Vec3>& r) const {
+SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Vec3>& u,
+                               const Vec3& c, const std::vector<Vec3>& r) const {
   SurfaceLook found;
   std::vector<Vec3> x = mesh_.X;
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += u[i];
@@ -235,7 +251,8 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
     const double a = half_diagonal(patch);
     if (touched) found.spacing = std::min(found.spacing, a);
     for (const auto& q : quads_[k])
-      found.whole_facet = found.whole_facet || std::all_of(q.begin(), q.end(), [&](int n) { return touches[n]; });
+      found.whole_facet =
+          found.whole_facet || std::all_of(q.begin(), q.end(), [&](int n) { return touches[n]; });
     // every point of the facet is within its diameter of each node
     if (!touched && least - size > std::max(0.0, found.distance)) continue;
     const Deepest d = deepest(patch, contact, x, c);
@@ -244,14 +261,16 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
     found.spacing = std::min(found.spacing, a);
     if (-d.gap > found.facet.depth) found.facet = {-d.gap, d.X};
     const double ratio = -d.gap / std::min(a, width);
-    if (ratio > found.unresolved_ratio) found.unresolved_ratio = ratio, found.unresolved = {-d.gap, d.X};
+    if (ratio > found.unresolved_ratio)
+      found.unresolved_ratio = ratio, found.unresolved = {-d.gap, d.X};
   }
   if (found.touching == 0 && found.distance > -1e-9)
     if (const auto p = point_inside(contact.shape)) found.swallowed = inside_body(*p + c, x);
   if (along.isZero(0) && found.distance < 0) {
     std::size_t nearest = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if ((mesh_.X[i] - found.nearest).norm() < (mesh_.X[nearest] - found.nearest).norm()) nearest = i;
+      if ((mesh_.X[i] - found.nearest).norm() < (mesh_.X[nearest] - found.nearest).norm())
+        nearest = i;
     along = shape_at(contact.shape, x[nearest] - c).normal;
   }
   found.pressed = pressed_along(along, u);

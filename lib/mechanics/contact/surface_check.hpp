@@ -1,7 +1,8 @@
 // A rigid indenter against the whole boundary of the body, between its nodes too.
-// The contact law keeps candidate nodes out of the shape. A facet between nodes that touch is a chord of the indenter and lies
-// inside it by about a^2 / (2 R), a half the diagonal between the nodes, R the radius of curvature: what these cells resolve. More than
-// that, and every node inside that is no candidate, is an indenter that the body does not feel.
+// The contact law keeps candidate nodes out of the shape. A facet between nodes that touch is a
+// chord of the indenter and lies inside it by about a^2 / (2 R), a half the diagonal between the
+// nodes, R the radius of curvature: what these cells resolve. More than that, and every node inside
+// that is no candidate, is an indenter that the body does not feel.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace langer {
 
-// What one look finds. Depths are distances from the indenter's surface [mm], places are reference positions.
+// What one look finds. Depths are distances from the indenter's surface [mm], places are reference
+// positions.
 struct SurfaceLook {
   struct Spot {
     double depth = 0;
@@ -23,13 +25,17 @@ struct SurfaceLook {
   Vec3 nearest = Vec3::Zero();
   Spot node;        // deepest node that is no candidate
   Spot facet;       // deepest point of any facet
-  Spot unresolved;  // the same, deepest relative to a, or to the indenter's half width if that is less
+  Spot unresolved;  // the same, deepest relative to a, or to the indenter's half width if that is
+                    // less
   double unresolved_ratio = 0;
-  double spacing = std::numeric_limits<double>::infinity();  // shortest distance a of what touches or is entered
-  bool swallowed = false;                                    // nothing touches or is entered, and the indenter is inside the body
-  int touching = 0;                                          // candidates with a reaction
-  bool whole_facet = false;  // all nodes of some facet, or of a part of it between neighbouring nodes, touch
-  double pressed = 0;        // how much further than the rest the boundary is pushed along the indenter's force
+  double spacing =
+      std::numeric_limits<double>::infinity();  // shortest distance a of what touches or is entered
+  bool swallowed = false;  // nothing touches or is entered, and the indenter is inside the body
+  int touching = 0;        // candidates with a reaction
+  bool whole_facet =
+      false;  // all nodes of some facet, or of a part of it between neighbouring nodes, touch
+  double pressed =
+      0;  // how much further than the rest the boundary is pushed along the indenter's force
 };
 
 class SurfaceCheck {
@@ -37,9 +43,11 @@ class SurfaceCheck {
   explicit SurfaceCheck(const Mesh& mesh);  // refers to the mesh
 
   // u (n) displacements; c of the indenter; r reactions of the candidates, none: no reaction
-  SurfaceLook look(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& c, const std::vector<Vec3>& r = {}) const;
-  // Nodes of the boundary, ascending, that the indenter reaches on its way through the body at rest, or comes near to: within a
-  // quarter of its depth there, the longest diagonal of their facets, and `moves`, what else moves the body [mm].
+  SurfaceLook look(const RigidContact& contact, const std::vector<Vec3>& u, const Vec3& c,
+                   const std::vector<Vec3>& r = {}) const;
+  // Nodes of the boundary, ascending, that the indenter reaches on its way through the body at
+  // rest, or comes near to: within a quarter of its depth there, the longest diagonal of their
+  // facets, and `moves`, what else moves the body [mm].
   std::vector<int> reached(const RigidContact& contact, double moves) const;
 
  private:
@@ -52,7 +60,8 @@ class SurfaceCheck {
     Vec3 X;
   };
   VecX weights(const Patch& patch, double s, double t) const;
-  Deepest deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x, const Vec3& c) const;
+  Deepest deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x,
+                  const Vec3& c) const;
   bool inside_body(const Vec3& p, const std::vector<Vec3>& x) const;
   double pressed_along(Vec3 along, const std::vector<Vec3>& u) const;
   double half_diagonal(const Patch& patch) const;  // between neighbouring nodes, at rest

@@ -6,13 +6,15 @@
 
 namespace langer {
 
-// The gap is a distance: a movement by it meets nothing, so that steps of it come to the touch, or go by for ever.
+// The gap is a distance: a movement by it meets nothing, so that steps of it come to the touch, or
+// go by for ever.
 std::optional<double> travel_to_touch(const RigidContact& contact, double t, double from,
                                       const std::function<Vec3(int node)>& position) {
   const auto gap = [&](double travel) {
     const Vec3 c = indenter_displacement(contact, t, travel);
     double least = std::numeric_limits<double>::infinity();
-    for (int node : contact.nodes) least = std::min(least, shape_at(contact.shape, position(node) - c).gap);
+    for (int node : contact.nodes)
+      least = std::min(least, shape_at(contact.shape, position(node) - c).gap);
     return least;
   };
   if (contact.nodes.empty()) return std::nullopt;
@@ -26,13 +28,16 @@ std::optional<double> travel_to_touch(const RigidContact& contact, double t, dou
   return std::nullopt;
 }
 
-double change_of_touch(const RigidContact& contact, double t, double travel, const std::function<Vec3(int node)>& position,
+double change_of_touch(const RigidContact& contact, double t, double travel,
+                       const std::function<Vec3(int node)>& position,
                        const std::function<Vec3(int node)>& moved) {
   const Vec3 c = indenter_displacement(contact, t, travel);
   double least = std::numeric_limits<double>::infinity(), change = 0;
   for (int node : contact.nodes) {
     const ShapePoint shape = shape_at(contact.shape, position(node) - c);
-    if (shape.gap < least) least = shape.gap, change = moved(node).dot(shape.normal) / contact.control->along.dot(shape.normal);
+    if (shape.gap < least)
+      least = shape.gap,
+      change = moved(node).dot(shape.normal) / contact.control->along.dot(shape.normal);
   }
   return change;
 }
@@ -50,7 +55,8 @@ Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance
   return start;
 }
 
-Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d, double tolerance) {
+Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d,
+                          double tolerance) {
   const ShapePoint from = shape_at(contact.shape, a.X + a.u0 - a.c0);
   double touches = 0, d_touches = 0;
   Vec3 start = a.u0, d_start = d.u0;
@@ -60,15 +66,18 @@ Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const 
     const double closed = from.gap - to.gap;
     const double d_gap = from.normal.dot(d.u0 - d.c0), d_closed = d_gap - to.normal.dot(d.u - d.c);
     touches = 1;
-    if (closed > from.gap) touches = from.gap / closed, d_touches = (d_gap - touches * d_closed) / closed;
+    if (closed > from.gap)
+      touches = from.gap / closed, d_touches = (d_gap - touches * d_closed) / closed;
     start += touches * way, d_start += d_touches * way + touches * d_way;
   }
   if (!contact.rotation) return d_start;
   // (R - 1) q and the derivative of R q with respect to the angle, along x R q
-  const Vec3 &along = contact.rotation->axis.along, q = a.X + start - a.c0 - contact.rotation->axis.point;
+  const Vec3 &along = contact.rotation->axis.along,
+             q = a.X + start - a.c0 - contact.rotation->axis.point;
   const double angle = (1 - touches) * a.angle;
   const Vec3 turned = q + turned_by(along, angle, q);
-  return d_start + turned_by(along, angle, d_start - d.c0) - d_touches * a.angle * cross(along, turned);
+  return d_start + turned_by(along, angle, d_start - d.c0) -
+         d_touches * a.angle * cross(along, turned);
 }
 
 Approach IncrementMove::of(const RigidContact& contact, int node) const {
@@ -80,12 +89,14 @@ Approach IncrementMove::of(const RigidContact& contact, int node) const {
           contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(t0) : 0};
 }
 
-std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact, const IncrementMove& move, double tolerance) {
+std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact,
+                                              const IncrementMove& move, double tolerance) {
   const Vec3 none = Vec3::Zero();
   std::vector<Vec3> out;
   for (int node : contact.nodes)
-    out.push_back(
-        change_of_slips_from(contact, move.of(contact, node), {none, none, none, none, contact.control->along}, tolerance));
+    out.push_back(change_of_slips_from(contact, move.of(contact, node),
+                                       {none, none, none, none, contact.control->along},
+                                       tolerance));
   return out;
 }
 

@@ -5,7 +5,8 @@
 
 namespace langer {
 
-void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, double* p) {
+void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n,
+               const double* x, double* p) {
   if (modal) {
     const ModalVolume<double> v = modal_volume(law, n, x, 0, geometry);
     std::copy(v.p, v.p + n, p);
@@ -14,8 +15,8 @@ void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, i
   }
 }
 
-void predicted_pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, const double* dx,
-                         double* p) {
+void predicted_pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n,
+                         const double* x, const double* dx, double* p) {
   if (linear_pressure(law)) {
     std::array<double, most_gauss> sum;
     for (int k = 0; k < n; ++k) sum[k] = x[k] + dx[k];

@@ -1,7 +1,8 @@
-// Volumetric energy of a cell as a function of its dilatation modes t_k (solid.hpp), for any number type. With
-// theta = sum t_k m_k and < > the mean over the reference volume:
+// Volumetric energy of a cell as a function of its dilatation modes t_k (solid.hpp), for any number
+// type. With theta = sum t_k m_k and < > the mean over the reference volume:
 //   W = V (<U(1 + theta)> - local/2 sum t_k^2),  p_k = dW/dt_k / V = <m_k U'> - local t_k,  kappa_kl = <m_k m_l U''> - local (k = l)
-// Where U is quadratic the modes are independent: p_k = (kappa - local) t_k. One mode is constant in the cell: no sum is needed.
+// Where U is quadratic the modes are independent: p_k = (kappa - local) t_k. One mode is constant
+// in the cell: no sum is needed.
 #pragma once
 
 #include "mechanics/element/geometry.hpp"
@@ -19,7 +20,8 @@ struct ModalVolume {
 
 // w[g] and modes m_k at the Gauss points, volume V
 template <class T>
-ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local, const T& V, int n_gauss, auto&& w, auto&& mode) {
+ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local, const T& V,
+                            int n_gauss, auto&& w, auto&& mode) {
   ModalVolume<T> out;
   if (linear_pressure(law)) {
     const T kappa = bulk_modulus(law) - local;
@@ -50,17 +52,19 @@ ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local
   return out;
 }
 
-inline ModalVolume<double> modal_volume(const Volume& law, int n, const double* t, double local, const ElementGeometry& geometry) {
+inline ModalVolume<double> modal_volume(const Volume& law, int n, const double* t, double local,
+                                        const ElementGeometry& geometry) {
   return modal_volume(
       law, n, t, local, geometry.V, geometry.n_gauss(), [&](int g) { return geometry.w[g]; },
       [&](int g, int k) { return geometry.mode[g][k]; });
 }
 
 // the pressures of all dilatations x (t_k of the modes, or J - 1 of the Gauss points) [MPa]
-void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, double* p);
+void pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n,
+               const double* x, double* p);
 
 // linearised about x, as the tangent of x has them after a change dx
-void predicted_pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n, const double* x, const double* dx,
-                         double* p);
+void predicted_pressures(const Volume& law, bool modal, const ElementGeometry& geometry, int n,
+                         const double* x, const double* dx, double* p);
 
 }  // namespace langer

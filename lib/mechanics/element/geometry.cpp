@@ -6,8 +6,8 @@ namespace langer {
 
 namespace {
 
-// Gram-Schmidt, twice for the last digits. It starts from the linear functions of X that are near to xi, eta, zeta:
-// in them a long and thin cell is as round as any other.
+// Gram-Schmidt, twice for the last digits. It starts from the linear functions of X that are near
+// to xi, eta, zeta: in them a long and thin cell is as round as any other.
 void add_modes(const ReferenceCell& cell, const ElementNodes& X, ElementGeometry& geometry) {
   Vec3 middle = Vec3::Zero();
   Mat3 mean = Mat3::Zero();  // dX/dxi
@@ -24,7 +24,8 @@ void add_modes(const ReferenceCell& cell, const ElementNodes& X, ElementGeometry
   }
   const auto product = [&](int i, int j) {
     double sum = 0;
-    for (int g = 0; g < cell.n_gauss; ++g) sum += geometry.w[g] * geometry.mode[g][i] * geometry.mode[g][j];
+    for (int g = 0; g < cell.n_gauss; ++g)
+      sum += geometry.w[g] * geometry.mode[g][i] * geometry.mode[g][j];
     return sum / geometry.V;
   };
   for (int round = 0; round < 2; ++round)

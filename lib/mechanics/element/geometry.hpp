@@ -25,13 +25,17 @@ struct ElementGeometry {
   int n_gauss() const { return static_cast<int>(w.size()); }
 };
 
-using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_nodes, 3>;  // one row per node
+using ElementNodes =
+    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_nodes, 3>;  // one row per node
 
-ElementNodes element_nodes(const Mesh& mesh, int e);                  // reference positions
-ElementNodes element_values(const Mesh& mesh, int e, const VecX& u);  // of a field with three components per node
+ElementNodes element_nodes(const Mesh& mesh, int e);  // reference positions
+ElementNodes element_values(const Mesh& mesh, int e,
+                            const VecX& u);  // of a field with three components per node
 ElementGeometry element_geometry(const ElementNodes& X);
 
 // du/dX (3,3)
-inline Mat3 displacement_gradient(const ElementNodes& u, const Gradients& dN_dX) { return u.transpose().lazyProduct(dN_dX); }
+inline Mat3 displacement_gradient(const ElementNodes& u, const Gradients& dN_dX) {
+  return u.transpose().lazyProduct(dN_dX);
+}
 
 }  // namespace langer

@@ -22,12 +22,14 @@ void displacement_gradient(const P* dN, const P* u, P* H) {
 
 // J - 1 = tr H + i2(H) + det H
 P dilatation(const P* H) {
-  const P c0 = H[4] * H[8] - H[5] * H[7], c1 = H[5] * H[6] - H[3] * H[8], c2 = H[3] * H[7] - H[4] * H[6];
+  const P c0 = H[4] * H[8] - H[5] * H[7], c1 = H[5] * H[6] - H[3] * H[8],
+          c2 = H[3] * H[7] - H[4] * H[6];
   const P i2 = H[0] * H[4] - H[1] * H[3] + c0 + H[8] * H[0] - H[6] * H[2];
   return (H[0] + H[4] + H[8]) + i2 + (H[0] * c0 + H[1] * c1 + H[2] * c2);
 }
 
-// What the law gives at one Gauss point, in the deformed state; components in the order of voigt.hpp.
+// What the law gives at one Gauss point, in the deformed state; components in the order of
+// voigt.hpp.
 struct Spatial {
   P tau[6];     // isochoric Kirchhoff stress
   P tau_trace;  // trace of sum 2 W' h, before the deviator is taken
@@ -52,15 +54,17 @@ struct Times {
 
 //   tau = dev sum 2 W' h,   h of spatial_terms.hpp; W' and W'' times their factors
 template <class Factors>
-void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres, const Factors& factors, Spatial& out) {
+void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres,
+         const Factors& factors, Spatial& out) {
   const auto deviator = [](const P* h, P* d) {
     const P mean = (h[0] + h[1] + h[2]) * (1.0 / 3);
     for (int p = 0; p < 6; ++p) d[p] = p < 3 ? h[p] - mean : h[p];
   };
   const SpatialState state(F, J, [&](std::size_t k, int i) { return fibres[k].a[i]; });
   P dW{}, ddW{}, sum[6];
-  matrix_terms<P>(material, state,
-                  [&](OfI1, const Energy<P>& e) { out.W += e.W, dW += factors.matrix(e.dW), ddW += factors.matrix(e.ddW); });
+  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) {
+    out.W += e.W, dW += factors.matrix(e.dW), ddW += factors.matrix(e.ddW);
+  });
   for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * state.b[p];
   out.stiffness[0] = 4.0 * ddW;
   deviator(state.b, out.h[0]);
@@ -81,16 +85,19 @@ void push_forward(const P* F, const P* H, P* tau) {
   const P full[3][3] = {{H[0], H[3], H[5]}, {H[3], H[1], H[4]}, {H[5], H[4], H[2]}};
   P FH[3][3];
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) FH[i][k] = F[3 * i] * full[0][k] + F[3 * i + 1] * full[1][k] + F[3 * i + 2] * full[2][k];
+    for (int k = 0; k < 3; ++k)
+      FH[i][k] = F[3 * i] * full[0][k] + F[3 * i + 1] * full[1][k] + F[3 * i + 2] * full[2][k];
   for (int p = 0; p < 6; ++p) {
     const int i = voigt_i[p], j = voigt_j[p];
     tau[p] = FH[i][0] * F[3 * j] + FH[i][1] * F[3 * j + 1] + FH[i][2] * F[3 * j + 2];
   }
 }
 
-// c = sum 4 W'' dev h x dev h + 2/3 tr (I - 1/3 1 x 1) - 2/3 (tau x 1 + 1 x tau) + p J (1 x 1 - 2 I) + bulk 1 x 1,  times w
+// c = sum 4 W'' dev h x dev h + 2/3 tr (I - 1/3 1 x 1) - 2/3 (tau x 1 + 1 x tau) + p J (1 x 1 - 2
+// I) + bulk 1 x 1,  times w
 void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
-  const P al = (2.0 / 3) * s.tau_trace, same = w * (al - 2.0 * pJ), ones = w * (pJ + bulk - al * (1.0 / 3));
+  const P al = (2.0 / 3) * s.tau_trace, same = w * (al - 2.0 * pJ),
+          ones = w * (pJ + bulk - al * (1.0 / 3));
   for (int p = 0; p < 6; ++p)
     for (int q = p; q < 6; ++q) {
       P x = p < 3 && q < 3 ? ones : P();
@@ -108,8 +115,8 @@ void tangent(const Spatial& s, const P& pJ, const P& bulk, const P& w, P* c) {
     for (int q = 0; q < p; ++q) c[6 * p + q] = c[6 * q + p];
 }
 
-// The column of node b, a >= b:  K_ab = sum over Gauss points of  B_a^T (c B_b) + (g_a . s g_b) I,  with s the full Kirchhoff stress
-// times w. The sum stays in registers.
+// The column of node b, a >= b:  K_ab = sum over Gauss points of  B_a^T (c B_b) + (g_a . s g_b) I,
+// with s the full Kirchhoff stress times w. The sum stays in registers.
 template <int n, int n_gauss>
 void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6], P* K) {
   P cB[n_gauss][3][6];        // columns of c B_b
@@ -123,7 +130,8 @@ void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6],
       cB[q][2][p] = r[2] * gb[2] + r[4] * gb[1] + r[5] * gb[0];
     }
     const P* t = s[q];
-    const P sg[3] = {t[0] * gb[0] + t[3] * gb[1] + t[5] * gb[2], t[3] * gb[0] + t[1] * gb[1] + t[4] * gb[2],
+    const P sg[3] = {t[0] * gb[0] + t[3] * gb[1] + t[5] * gb[2],
+                     t[3] * gb[0] + t[1] * gb[1] + t[4] * gb[2],
                      t[5] * gb[0] + t[4] * gb[1] + t[2] * gb[2]};
     constexpr int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int j = 0; j < 3; ++j)
@@ -150,7 +158,8 @@ void add_stiffness(int b, const P (*g)[n][3], const P (*c)[36], const P (*s)[6],
   }
 }
 
-// What the parts of packet_solid_of share. They are inlined into it, so that sizes and pointers stay known to the compiler.
+// What the parts of packet_solid_of share. They are inlined into it, so that sizes and pointers
+// stay known to the compiler.
 template <int n, int n_gauss>
 struct PacketPoints {
   P F[n_gauss][9], g[n_gauss][n][3], J_minus_1[n_gauss];  // g_a = cof F dN_a / J
@@ -159,8 +168,9 @@ struct PacketPoints {
 
 // dJ/du of every point where n_modal is 0
 template <int n, int n_gauss>
-[[gnu::always_inline]] inline void kinematics(const PacketGeometry& geometry, const Packet* u, int n_modal,
-                                              PacketPoints<n, n_gauss>& at, PacketElement& out) {
+[[gnu::always_inline]] inline void kinematics(const PacketGeometry& geometry, const Packet* u,
+                                              int n_modal, PacketPoints<n, n_gauss>& at,
+                                              PacketElement& out) {
   constexpr int n_dofs = 3 * n;
   for (int k = 0; k < n_modal; ++k) std::fill(at.b[k], at.b[k] + n_dofs, P());
   out.J_min = P(1e300);
@@ -173,15 +183,17 @@ template <int n, int n_gauss>
     out.J_min = P(J.v < out.J_min.v ? J.v : out.J_min.v);
     for (int i = 0; i < 9; ++i) at.F[q][i] = i % 4 == 0 ? 1.0 + H[i] : H[i];
     const P* f = at.F[q];
-    const P cof[9] = {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
-                      f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
-                      f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
+    const P cof[9] = {
+        f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
+        f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
+        f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
     const P inverse_J = 1.0 / J, w = geometry.w[q];
     P weight[n_modes] = {w};
     for (int k = 1; k < n_modal; ++k) weight[k] = w * geometry.mode[q * n_modes + k];
     for (int a = 0; a < n; ++a)
       for (int i = 0; i < 3; ++i) {
-        const P dJ = cof[3 * i] * dN[3 * a] + cof[3 * i + 1] * dN[3 * a + 1] + cof[3 * i + 2] * dN[3 * a + 2];
+        const P dJ = cof[3 * i] * dN[3 * a] + cof[3 * i + 1] * dN[3 * a + 1] +
+                     cof[3 * i + 2] * dN[3 * a + 2];
         at.g[q][a][i] = dJ * inverse_J;
         if (n_modal > 0)
           for (int k = 0; k < n_modal; ++k) at.b[k][3 * a + i] += weight[k] * dJ;
@@ -194,9 +206,11 @@ template <int n, int n_gauss>
 
 // dilatations and pressures of the whole cell: their energy, force and tangent; p: of the tangent
 template <int n, int n_gauss>
-[[gnu::always_inline]] inline void add_modal(const Material& material, const P& local, const PacketGeometry& geometry,
+[[gnu::always_inline]] inline void add_modal(const Material& material, const P& local,
+                                             const PacketGeometry& geometry,
                                              const Packet* p_tangent, bool with_tangent, int n_p,
-                                             const PacketPoints<n, n_gauss>& at, P* p, PacketElement& out) {
+                                             const PacketPoints<n, n_gauss>& at, P* p,
+                                             PacketElement& out) {
   constexpr int n_dofs = 3 * n;
   const P inverse_V = 1.0 / geometry.V;
   for (int k = 0; k < n_p; ++k) {
@@ -205,7 +219,8 @@ template <int n, int n_gauss>
     for (int i = 0; i < n_dofs; ++i) dJ[i] = at.b[k][i] * inverse_V;
   }
   const ModalVolume<P> volume = modal_volume(
-      material.volume, n_p, out.J_minus_1.data(), local, geometry.V, n_gauss, [&](int q) { return geometry.w[q]; },
+      material.volume, n_p, out.J_minus_1.data(), local, geometry.V, n_gauss,
+      [&](int q) { return geometry.w[q]; },
       [&](int q, int k) { return geometry.mode[q * n_modes + k]; });
   out.W += volume.W;
   for (int k = 0; k < n_p; ++k) {
@@ -225,8 +240,9 @@ template <int n, int n_gauss>
 }
 
 template <int n, int n_gauss>
-void packet_solid_of(Formulation formulation, const Material& material, const P& local, const PacketGeometry& geometry,
-                     const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+void packet_solid_of(Formulation formulation, const Material& material, const P& local,
+                     const PacketGeometry& geometry, const PacketFibre* fibres, const Packet* u,
+                     const Packet* p_tangent, bool with_tangent, PacketElement& out,
                      const PacketMemory* memory) {
   const bool modal = formulation != Formulation::displacement;
   const int n_p = n_pressures(formulation, n);
@@ -262,7 +278,8 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
     }
     if (!modal || formulation == Formulation::linear_dilatation) {
       const P x = at.J_minus_1[q];
-      const Energy<P> U = modal ? Energy<P>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
+      const Energy<P> U = modal ? Energy<P>{0.5 * local * x * x, local * x, local}
+                                : volume_energy(material.volume, x);
       p_K += p_tangent && !modal ? p_tangent[q] : U.dW;
       out.W += w * U.W;
       for (int i = 0; i < 3; ++i) force[i] += w * U.dW * J;
@@ -288,14 +305,20 @@ void packet_solid_of(Formulation formulation, const Material& material, const P&
 }  // namespace
 
 bool packet_form(const Material& material) {
-  if (std::count_if(material.fibres.begin(), material.fibres.end(), acts) > most_families) return false;
+  if (std::count_if(material.fibres.begin(), material.fibres.end(), acts) > most_families)
+    return false;
   for (const MatrixTerm& term : material.matrix)
-    if (!std::visit([]<class Law>(const Law&) { return Law::of == Invariant::I1_bar; }, term)) return false;
+    if (!std::visit([]<class Law>(const Law&) { return Law::of == Invariant::I1_bar; }, term))
+      return false;
   return true;
 }
 
 PacketElement::PacketElement(int n_nodes, int n_pressures)
-    : n_dofs(3 * n_nodes), f(n_dofs), K(n_dofs * (n_dofs + 1) / 2), J_minus_1(n_pressures), gradients(n_pressures * n_dofs) {}
+    : n_dofs(3 * n_nodes),
+      f(n_dofs),
+      K(n_dofs * (n_dofs + 1) / 2),
+      J_minus_1(n_pressures),
+      gradients(n_pressures * n_dofs) {}
 
 PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
   PacketGeometry out;
@@ -305,9 +328,11 @@ PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
   for (int l = 0; l < P::lanes; ++l) {
     for (int g = 0; g < out.n_gauss; ++g) {
       for (int a = 0; a < out.n_nodes; ++a)
-        for (int k = 0; k < 3; ++k) out.dN_dX[3 * (g * out.n_nodes + a) + k].set(l, geometry[l]->dN_dX[g](a, k));
+        for (int k = 0; k < 3; ++k)
+          out.dN_dX[3 * (g * out.n_nodes + a) + k].set(l, geometry[l]->dN_dX[g](a, k));
       out.w[g].set(l, geometry[l]->w[g]);
-      for (int k = 0; k < n_modes && !out.mode.empty(); ++k) out.mode[g * n_modes + k].set(l, geometry[l]->mode[g][k]);
+      for (int k = 0; k < n_modes && !out.mode.empty(); ++k)
+        out.mode[g * n_modes + k].set(l, geometry[l]->mode[g][k]);
     }
     out.V.set(l, geometry[l]->V);
   }
@@ -318,17 +343,19 @@ void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet*
   for (int q = 0; q < geometry.n_gauss; ++q) {
     P H[9];
     const P* dN = &geometry.dN_dX[q * 3 * geometry.n_nodes];
-    with_cell(geometry.n_nodes, [&](auto cell) { displacement_gradient<decltype(cell)::n_nodes>(dN, u, H); });
+    with_cell(geometry.n_nodes,
+              [&](auto cell) { displacement_gradient<decltype(cell)::n_nodes>(dN, u, H); });
     J_minus_1[q] = dilatation(H);
   }
 }
 
-void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
-                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+void packet_solid(Formulation formulation, const Material& material, const Packet& local,
+                  const PacketGeometry& geometry, const PacketFibre* fibres, const Packet* u,
+                  const Packet* p_tangent, bool with_tangent, PacketElement& out,
                   const PacketMemory* memory) {
   with_cell(geometry.n_nodes, [&](auto cell) {
-    packet_solid_of<decltype(cell)::n_nodes, decltype(cell)::n_gauss>(formulation, material, local, geometry, fibres, u, p_tangent,
-                                                                      with_tangent, out, memory);
+    packet_solid_of<decltype(cell)::n_nodes, decltype(cell)::n_gauss>(
+        formulation, material, local, geometry, fibres, u, p_tangent, with_tangent, out, memory);
   });
 }
 

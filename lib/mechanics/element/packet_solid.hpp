@@ -1,21 +1,22 @@
-// The cell of solid.hpp for eight elements of one material at once: same integrals over the reference volume, with
-// stress and tangent pushed forward to the deformed state, where the strain operator is sparse.   [A23] eqs 28-33
+// The cell of solid.hpp for eight elements of one material at once: same integrals over the
+// reference volume, with stress and tangent pushed forward to the deformed state, where the strain
+// operator is sparse.   [A23] eqs 28-33
 //   K_ab = integral B_a^T c B_b + (g_a . tau g_b) I dV0,   g_a = F^-T dN_a/dX,  tau = F S F^T,  c = push-forward of D
-// Handles sums of terms in I1_bar and of up to four fibre families that act; packet_form() says no to others, and solid() does
-// them one by one.
+// Handles sums of terms in I1_bar and of up to four fibre families that act; packet_form() says no
+// to others, and solid() does them one by one.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "mechanics/element/solid.hpp"
 #include "core/tensor/packet.hpp"
 #include "core/tensor/voigt.hpp"
+#include "mechanics/element/solid.hpp"
 
 namespace langer {
 
-// What eight elements bring along: gradients dN_dX[n_dofs g + 3 a + k], weights, modes[n_modes g + k], volume, and the fibre
-// directions a0[family][k].
+// What eight elements bring along: gradients dN_dX[n_dofs g + 3 a + k], weights, modes[n_modes g +
+// k], volume, and the fibre directions a0[family][k].
 struct PacketGeometry {
   int n_nodes = 0, n_gauss = 0;
   std::vector<Packet> dN_dX, w, mode;
@@ -47,9 +48,11 @@ bool packet_form(const Material& material);
 
 PacketGeometry packed(const ElementGeometry* const geometry[Packet::lanes]);
 
-// u[3 a + k]; p_tangent: one packet for each dilatation, or nullptr. Check J_min > 0 before using the rest.
-void packet_solid(Formulation formulation, const Material& material, const Packet& local, const PacketGeometry& geometry,
-                  const PacketFibre* fibres, const Packet* u, const Packet* p_tangent, bool with_tangent, PacketElement& out,
+// u[3 a + k]; p_tangent: one packet for each dilatation, or nullptr. Check J_min > 0 before using
+// the rest.
+void packet_solid(Formulation formulation, const Material& material, const Packet& local,
+                  const PacketGeometry& geometry, const PacketFibre* fibres, const Packet* u,
+                  const Packet* p_tangent, bool with_tangent, PacketElement& out,
                   const PacketMemory* memory = nullptr);
 
 // J - 1 at each Gauss point of displaced elements

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/tensor/kinematics.hpp"
 #include "mechanics/element/spatial_terms.hpp"
 #include "mechanics/material/ellipticity.hpp"
-#include "core/tensor/kinematics.hpp"
 
 namespace langer {
 
@@ -34,10 +34,13 @@ template <std::size_t n>
 std::array<Normal, n> grid() {
   std::array<Normal, n> out;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 v = wave_normal(static_cast<int>(i), static_cast<int>(n)), s = v.unitOrthogonal(), t = v.cross(s);
+    const Vec3 v = wave_normal(static_cast<int>(i), static_cast<int>(n)), s = v.unitOrthogonal(),
+               t = v.cross(s);
     for (int p = 0; p < 6; ++p) {
       const int k = voigt_i[p], l = voigt_j[p];
-      const auto weight = [&](const Vec3& x) { return p < 3 ? x[k] * v[k] : x[k] * v[l] + x[l] * v[k]; };
+      const auto weight = [&](const Vec3& x) {
+        return p < 3 ? x[k] * v[k] : x[k] * v[l] + x[l] * v[k];
+      };
       out[i].nn[p] = weight(v), out[i].sn[p] = weight(s), out[i].tn[p] = weight(t);
     }
   }
@@ -55,7 +58,8 @@ struct Term {
 };
 
 // the terms of a law in packet form; B gets sum 2 W' h
-int terms(const Material& material, const P* F, const P& J, std::span<const Vec3> a, Term* out, P* B) {
+int terms(const Material& material, const P* F, const P& J, std::span<const Vec3> a, Term* out,
+          P* B) {
   const SpatialState state(F, J, [&](std::size_t k, int i) { return a[k][i]; });
   P dW{}, ddW{};
   matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { dW += e.dW, ddW += e.ddW; });
@@ -72,8 +76,8 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
 
 }  // namespace
 
-void check_points(const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
-                  PointCheck& out) {
+void check_points(const Material& material, const ElementGeometry& geometry,
+                  std::span<const Vec3> a, const ElementNodes& u, PointCheck& out) {
   const int n_gauss = geometry.n_gauss();
   out.F.resize(n_gauss), out.J.resize(n_gauss), out.stiffness.resize(n_gauss);
   for (int g = 0; g < n_gauss; ++g) {
@@ -82,7 +86,8 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
     out.J[g] = 1 + volume_change(H);
   }
   if (!packet_form(material)) {
-    for (int g = 0; g < n_gauss; ++g) out.stiffness[g] = sampled_shear_stiffness(material, out.F[g], a, 48);
+    for (int g = 0; g < n_gauss; ++g)
+      out.stiffness[g] = sampled_shear_stiffness(material, out.F[g], a, 48);
     return;
   }
   static const auto normals = grid<96>();
@@ -104,7 +109,8 @@ void check_points(const Material& material, const ElementGeometry& geometry, std
       }
       const P half = 0.5 * (aa - bb);
       const P same = contract(normal.nn, B);
-      const P value = same + 0.5 * (aa + bb) - root(half * half + ab * ab), size = root(same * same) + root((aa + bb) * (aa + bb));
+      const P value = same + 0.5 * (aa + bb) - root(half * half + ab * ab),
+              size = root(same * same) + root((aa + bb) * (aa + bb));
       largest = P(size.v > largest.v ? size.v : largest.v);
       least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
     }

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "mechanics/element/dilatation.hpp"
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/voigt.hpp"
+#include "mechanics/element/dilatation.hpp"
 
 namespace langer {
 
@@ -55,7 +55,9 @@ void add_geometric(const typename Sizes<n>::Gradient& dN, const Vec6& S, double 
       for (int i = 0; i < 3; ++i) K(3 * a + i, 3 * b + i) += G(a, b);
 }
 
-double mode(const ElementGeometry& geometry, int g, int k) { return k == 0 ? 1 : geometry.mode[g][k]; }
+double mode(const ElementGeometry& geometry, int g, int k) {
+  return k == 0 ? 1 : geometry.mode[g][k];
+}
 
 // n nodes; sizes known to the compiler
 template <int n>
@@ -80,8 +82,10 @@ struct GaussPoints {
 
 // dilatations and pressures of the whole cell: their energy, force and tangent
 template <int n>
-ModalVolume<double> add_modal(const Material& material, double local, const ElementGeometry& geometry, const GaussPoints<n>& at,
-                              int n_p, typename Sizes<n>::Vec& f, typename Sizes<n>::Mat* K, SolidElement& out) {
+ModalVolume<double> add_modal(const Material& material, double local,
+                              const ElementGeometry& geometry, const GaussPoints<n>& at, int n_p,
+                              typename Sizes<n>::Vec& f, typename Sizes<n>::Mat* K,
+                              SolidElement& out) {
   out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
   for (int k = 0; k < n_p; ++k) {
     double& t = out.J_minus_1[k];
@@ -92,19 +96,22 @@ ModalVolume<double> add_modal(const Material& material, double local, const Elem
     }
     t /= geometry.V, b /= geometry.V;
   }
-  const ModalVolume<double> volume = modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
+  const ModalVolume<double> volume =
+      modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
   out.W += volume.W;
   for (int k = 0; k < n_p; ++k) {
     f += (geometry.V * volume.p[k]) * out.dJ_du[k];
     for (int l = 0; l < n_p && K; ++l)
-      if (l == k || !volume.independent) *K += (geometry.V * volume.kappa[k][l]) * out.dJ_du[k] * out.dJ_du[l].transpose();
+      if (l == k || !volume.independent)
+        *K += (geometry.V * volume.kappa[k][l]) * out.dJ_du[k] * out.dJ_du[l].transpose();
   }
   return volume;
 }
 
 template <int n>
-bool solid_of(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-              std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+bool solid_of(Formulation formulation, const Material& material, double local,
+              const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
+              const double* p_tangent, bool with_tangent, SolidElement& out,
               const CellMemory* memory) {
   const bool modal = formulation != Formulation::displacement;
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
@@ -125,18 +132,21 @@ bool solid_of(Formulation formulation, const Material& material, double local, c
   for (int g = 0; g < n_gauss; ++g) {
     const double w = geometry.w[g], J = 1 + at.J_minus_1[g];
     const Mat3 C = at.F[g].transpose() * at.F[g];
-    Response iso = memory ? isochoric(material, C, a, memory->amplified) : isochoric(material, C, a);
+    Response iso =
+        memory ? isochoric(material, C, a, memory->amplified) : isochoric(material, C, a);
     if (memory) iso.S += memory->H[static_cast<std::size_t>(g)];
     out.W += w * iso.W;
     const Mat3 C_inverse = C.inverse();
     const Vec6 Ci = voigt(C_inverse);
     Vec6 S = iso.S;
     const double x = at.J_minus_1[g];
-    const Energy<double> U = modal ? Energy<double>{0.5 * local * x * x, local * x, local} : volume_energy(material.volume, x);
+    const Energy<double> U = modal ? Energy<double>{0.5 * local * x * x, local * x, local}
+                                   : volume_energy(material.volume, x);
     double p_K = U.dW;
     out.W += w * U.W;
     S += U.dW * J * Ci;
-    for (int k = 0; k < n_p && modal; ++k) p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
+    for (int k = 0; k < n_p && modal; ++k)
+      p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
     if (!modal && p_tangent) p_K = p_tangent[g];
     const typename Sizes<n>::Strain B = strain_operator<n>(at.F[g], at.dN[g]);
     f.noalias() += w * (B.transpose() * S);
@@ -169,32 +179,39 @@ double local_modulus_change(const ElementGeometry& geometry, const double* p, co
   double most = 0, change = 0;
   for (int g = 0; g < geometry.n_gauss(); ++g) {
     double here = 0, d_here = 0;
-    for (int k = 0; k < n_modes; ++k) here += geometry.mode[g][k] * p[k], d_here += geometry.mode[g][k] * dp[k];
+    for (int k = 0; k < n_modes; ++k)
+      here += geometry.mode[g][k] * p[k], d_here += geometry.mode[g][k] * dp[k];
     if (-here > most) most = -here, change = -d_here;
   }
   return change;
 }
 
 int n_pressures(Formulation f, int n_nodes) {
-  return f == Formulation::mean_dilatation ? 1 : f == Formulation::linear_dilatation ? n_modes : reference(n_nodes).n_gauss;
+  return f == Formulation::mean_dilatation     ? 1
+         : f == Formulation::linear_dilatation ? n_modes
+                                               : reference(n_nodes).n_gauss;
 }
 
 Formulation usual_formulation(CellType type) {
-  return reference(type).second_order() ? Formulation::linear_dilatation : Formulation::mean_dilatation;
+  return reference(type).second_order() ? Formulation::linear_dilatation
+                                        : Formulation::mean_dilatation;
 }
 
-bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+bool solid(Formulation formulation, const Material& material, double local,
+           const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
+           const double* p_tangent, bool with_tangent, SolidElement& out,
            const CellMemory* memory) {
   bool done = false;
   with_cell(static_cast<int>(u.rows()), [&](auto cell) {
-    done = solid_of<decltype(cell)::n_nodes>(formulation, material, local, geometry, a, u, p_tangent, with_tangent, out, memory);
+    done = solid_of<decltype(cell)::n_nodes>(formulation, material, local, geometry, a, u,
+                                             p_tangent, with_tangent, out, memory);
   });
   return done;
 }
 
-std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
-                                     std::span<const Vec3> a, const ElementNodes& u, std::span<const Vec6> branches) {
+std::vector<GaussState> gauss_states(Formulation formulation, const Material& material,
+                                     const ElementGeometry& geometry, std::span<const Vec3> a,
+                                     const ElementNodes& u, std::span<const Vec6> branches) {
   const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
   const bool modal = formulation != Formulation::displacement;
   std::vector<GaussState> states(n_gauss);
@@ -205,7 +222,8 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
     const double J_minus_1 = volume_change(H);
     states[g].J = 1 + J_minus_1;
     if (!modal) states[g].pressure = volume_energy(material.volume, J_minus_1).dW;
-    for (int k = 0; k < n_p && modal; ++k) t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
+    for (int k = 0; k < n_p && modal; ++k)
+      t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
   }
   std::array<double, n_modes> p{};
   if (modal) pressures(material.volume, true, geometry, n_p, t.data(), p.data());

@@ -1,4 +1,5 @@
-// Total Lagrangian cell: internal force and tangent over the reference volume.   [A23] eqs 28-33, [SH98]
+// Total Lagrangian cell: internal force and tangent over the reference volume.   [A23] eqs 28-33,
+// [SH98]
 //   f = integral B^T S dV0,  B = B_L + B_NL(u)
 //   K = integral B^T D B dV0 + geometric part
 // How the dilatation enters:
@@ -6,15 +7,17 @@
 //   mean_dilatation    U(J_bar) with one J_bar = (1/V) integral J dV0 per element
 //   linear_dilatation  U(J_bar) with J_bar linear in X, discontinuous between elements: three-field Hu-Washizu with dilatation and
 //                      pressure in {1, X, Y, Z}, condensed (Q2P1 on hex27, its like on tet15; hex8 would lock)                  [SH98]
-// With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one, for a quadratic U:
+// With modes m_k orthonormal in the mean over the element (m_0 = 1) the last two are one, for a
+// quadratic U:
 //   t_k = (1/V) integral m_k (J - 1) dV0,   W_vol = V kappa/2 sum t_k^2,   p = sum m_k kappa t_k;   K stays symmetric
 // Another U has W_vol = integral U(1 + sum t_k m_k) dV0 (dilatation.hpp).
-// What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's compressive pressure: movements h
-// that change J but no t_k meet p ((tr h)^2 - tr h^2) from the second derivative of J, and where p < 0 and varies within the cell
-// the first part drives them apart: the cell buckles within itself though the body is stable [ABLR05]. Modes: kappa - local.
-// The tangent may use another pressure than kappa (J - 1): p_tangent, the one the last linear solve predicted.
-// J - 1 is formed from the displacement gradient, never as det F - 1.
-// Refuses (returns false) where some det F is not positive; f and K are then meaningless.
+// What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's
+// compressive pressure: movements h that change J but no t_k meet p ((tr h)^2 - tr h^2) from the
+// second derivative of J, and where p < 0 and varies within the cell the first part drives them
+// apart: the cell buckles within itself though the body is stable [ABLR05]. Modes: kappa - local.
+// The tangent may use another pressure than kappa (J - 1): p_tangent, the one the last linear solve
+// predicted. J - 1 is formed from the displacement gradient, never as det F - 1. Refuses (returns
+// false) where some det F is not positive; f and K are then meaningless.
 #pragma once
 
 #include <span>
@@ -29,7 +32,8 @@ namespace langer {
 
 // dilatations, each with its pressure, of a cell: t_k, or J - 1 at each Gauss point
 int n_pressures(Formulation f, int n_nodes);
-// that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest compressive one at its Gauss points
+// that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest
+// compressive one at its Gauss points
 double local_modulus(const ElementGeometry& geometry, const double* p);
 // its change where those pressures change by dp, on the side of the point that has the largest now
 double local_modulus_change(const ElementGeometry& geometry, const double* p, const double* dp);
@@ -43,9 +47,11 @@ struct SolidElement {
   std::vector<VecX> dJ_du;        // gradients of those
 };
 
-// local: modulus of what the modes leave of J - 1; memory: of viscous branches, none where the law is elastic (W is then without them)
-bool solid(Formulation formulation, const Material& material, double local, const ElementGeometry& geometry,
-           std::span<const Vec3> a, const ElementNodes& u, const double* p_tangent, bool with_tangent, SolidElement& out,
+// local: modulus of what the modes leave of J - 1; memory: of viscous branches, none where the law
+// is elastic (W is then without them)
+bool solid(Formulation formulation, const Material& material, double local,
+           const ElementGeometry& geometry, std::span<const Vec3> a, const ElementNodes& u,
+           const double* p_tangent, bool with_tangent, SolidElement& out,
            const CellMemory* memory = nullptr);
 
 // State at a Gauss point, for results.
@@ -56,8 +62,10 @@ struct GaussState {
   double pressure = 0;  // p or U'(J): the volumetric part of the mean stress [MPa]
 };
 // branches: sum of the branch stresses Q_i at each Gauss point, empty where the law is elastic
-std::vector<GaussState> gauss_states(Formulation formulation, const Material& material, const ElementGeometry& geometry,
-                                     std::span<const Vec3> a, const ElementNodes& u, std::span<const Vec6> branches = {});
-double mean_I4_bar(std::span<const GaussState> states, const Vec3& a);  // over the Gauss points, of fibres along a
+std::vector<GaussState> gauss_states(Formulation formulation, const Material& material,
+                                     const ElementGeometry& geometry, std::span<const Vec3> a,
+                                     const ElementNodes& u, std::span<const Vec6> branches = {});
+double mean_I4_bar(std::span<const GaussState> states,
+                   const Vec3& a);  // over the Gauss points, of fibres along a
 
 }  // namespace langer

@@ -1,11 +1,12 @@
-// The state of eight points at once as for_each_term() asks for it, in the deformed state (components in the order of voigt.hpp):
+// The state of eight points at once as for_each_term() asks for it, in the deformed state
+// (components in the order of voigt.hpp):
 //   h  isochoric push-forward of an invariant's tensor, I = tr h: b_bar for I1_bar, kappa b_bar + (1 - 3 kappa) m (F a)(F a)^T for a
 //      family of fibres
 #pragma once
 
-#include "mechanics/material/terms.hpp"
 #include "core/tensor/packet.hpp"
 #include "core/tensor/voigt.hpp"
+#include "mechanics/material/terms.hpp"
 
 namespace langer {
 
@@ -22,7 +23,8 @@ struct SpatialState {
     factor = 1.0 / (root * root);
     for (int p = 0; p < 6; ++p) {
       const int i = voigt_i[p], j = voigt_j[p];
-      b[p] = factor * (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
+      b[p] = factor *
+             (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
     }
   }
   struct Family {
@@ -33,9 +35,12 @@ struct SpatialState {
   Family family(const Fibre& fibre, std::size_t k) const {
     P f[3];
     Family out;
-    for (int i = 0; i < 3; ++i) f[i] = F[3 * i] * direction(k, 0) + F[3 * i + 1] * direction(k, 1) + F[3 * i + 2] * direction(k, 2);
+    for (int i = 0; i < 3; ++i)
+      f[i] = F[3 * i] * direction(k, 0) + F[3 * i + 1] * direction(k, 1) +
+             F[3 * i + 2] * direction(k, 2);
     const double along = 1 - 3 * fibre.kappa;
-    for (int p = 0; p < 6; ++p) out.h[p] = fibre.kappa * b[p] + along * factor * f[voigt_i[p]] * f[voigt_j[p]];
+    for (int p = 0; p < 6; ++p)
+      out.h[p] = fibre.kappa * b[p] + along * factor * f[voigt_i[p]] * f[voigt_j[p]];
     out.I = out.h[0] + out.h[1] + out.h[2];
     return out;
   }

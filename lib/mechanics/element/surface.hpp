@@ -1,27 +1,33 @@
 // Facets of cells as loaded surfaces.
 #pragma once
 
+#include "core/tensor/types.hpp"
 #include "mechanics/element/geometry.hpp"
 #include "mechanics/mesh/mesh.hpp"
-#include "core/tensor/types.hpp"
 
 namespace langer {
 
 // Adds the nodal forces of a dead traction [MPa, per reference area] on facets to F (3 n) [N].
-void add_dead_traction(const Mesh& mesh, const std::vector<Facet>& facets, const Vec3& traction, VecX& F);
+void add_dead_traction(const Mesh& mesh, const std::vector<Facet>& facets, const Vec3& traction,
+                       VecX& F);
 
-// What each node of facets has of their area in the reference state (n) [mm^2]: integral N_a dA. Their sum is the area.
+// What each node of facets has of their area in the reference state (n) [mm^2]: integral N_a dA.
+// Their sum is the area.
 VecX nodal_areas(const Mesh& mesh, const std::vector<Facet>& facets);
 
-// Nodal forces of a cell, one row per node [N], of a dead traction [MPa, per reference area] on one of its facets.
-ElementNodes dead_traction(const ReferenceCell& cell, int facet, const ElementNodes& X, const Vec3& traction);
+// Nodal forces of a cell, one row per node [N], of a dead traction [MPa, per reference area] on one
+// of its facets.
+ElementNodes dead_traction(const ReferenceCell& cell, int facet, const ElementNodes& X,
+                           const Vec3& traction);
 // The same of a pressure of 1 MPa that follows its facet and pushes into the cell:
 //   f_a = -integral N_a x,1 x x,2                    x (nodes, 3): where the cell's nodes are now   [Wriggers, section 4.2.5]
 ElementNodes follower_pressure(const ReferenceCell& cell, int facet, const ElementNodes& x);
-// The symmetric part of df/dx, (3 nodes, 3 nodes) [N/mm]. What is left is skew and belongs to the rim of the facet: at the edges that two
-// loaded facets share it cancels, and where the rim is held it does nothing.
+// The symmetric part of df/dx, (3 nodes, 3 nodes) [N/mm]. What is left is skew and belongs to the
+// rim of the facet: at the edges that two loaded facets share it cancels, and where the rim is held
+// it does nothing.
 MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes& x);
 // df/dx dx, whole: what follower_pressure changes by to first order when its nodes move by dx [N]
-ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x, const ElementNodes& dx);
+ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x,
+                                      const ElementNodes& dx);
 
 }  // namespace langer

@@ -10,10 +10,12 @@
 namespace langer {
 
 bool ViscousPoints::needed(const std::vector<Material>& materials) {
-  return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return is_viscous(m); });
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& m) { return is_viscous(m); });
 }
 
-ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::vector<int>& body, int n_cells, int n_gauss)
+ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::vector<int>& body,
+                             int n_cells, int n_gauss)
     : body_(materials.size() > 1 ? body : std::vector<int>{}), n_gauss_(n_gauss) {
   for (const Material& material : materials) {
     Law& law = laws_.emplace_back();
@@ -29,7 +31,8 @@ ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::
     first_.push_back(next);
     if (!has(e)) continue;
     const auto n = static_cast<std::size_t>(n_gauss);
-    next.point += n, next.stress += n * law_of(e).groups.size(), next.branch += n * law_of(e).branches.size();
+    next.point += n, next.stress += n * law_of(e).groups.size(),
+        next.branch += n * law_of(e).branches.size();
   }
   stress_.assign(6 * next.stress, 0), trial_ = stress_;
   branch_.assign(6 * next.branch, 0);
@@ -67,14 +70,15 @@ CellMemory ViscousPoints::memory(int e) const {
   return memory;
 }
 
-void ViscousPoints::end(int e, const Material& material, const ElementGeometry& geometry, std::span<const Vec3> a,
-                        const ElementNodes& u) {
+void ViscousPoints::end(int e, const Material& material, const ElementGeometry& geometry,
+                        std::span<const Vec3> a, const ElementNodes& u) {
   if (!has(e)) return;
   const Law& law = law_of(e);
   const std::size_t m = law.groups.size(), first = first_[static_cast<std::size_t>(e)].stress;
   double error = 0, size = 0;
   for (int g = 0; g < n_gauss_; ++g) {
-    const Mat3 C = right_cauchy_green(deformation_gradient(displacement_gradient(u, geometry.dN_dX[g])));
+    const Mat3 C =
+        right_cauchy_green(deformation_gradient(displacement_gradient(u, geometry.dN_dX[g])));
     const std::size_t here = first + static_cast<std::size_t>(g) * m;
     double here_error = 0, here_size = 0;
     for (std::size_t k = 0; k < m; ++k) {
@@ -82,7 +86,9 @@ void ViscousPoints::end(int e, const Material& material, const ElementGeometry& 
       here_size += at(trial_, here + k).norm();
     }
     for (std::size_t i = 0; i < law.branches.size(); ++i)
-      here_error += law.step_error[i] * (at(trial_, here + law.group_of[i]) - at(stress_, here + law.group_of[i])).norm();
+      here_error +=
+          law.step_error[i] *
+          (at(trial_, here + law.group_of[i]) - at(stress_, here + law.group_of[i])).norm();
     error += geometry.w[g] * here_error * here_error, size += geometry.w[g] * here_size * here_size;
   }
   error_[static_cast<std::size_t>(e)] = error, size_[static_cast<std::size_t>(e)] = size;
@@ -93,14 +99,16 @@ double ViscousPoints::error() const {
   return size > 0 ? std::sqrt(std::accumulate(error_.begin(), error_.end(), 0.) / size) : 0;
 }
 
-void ViscousPoints::accept(int e, const ElementGeometry& geometry, const ElementNodes& u0, const ElementNodes& u) {
+void ViscousPoints::accept(int e, const ElementGeometry& geometry, const ElementNodes& u0,
+                           const ElementNodes& u) {
   if (!has(e)) return;
   const Law& law = law_of(e);
   const First& first = first_[static_cast<std::size_t>(e)];
   const std::size_t n = law.branches.size(), m = law.groups.size();
   for (int g = 0; g < n_gauss_; ++g) {
     const std::size_t q = static_cast<std::size_t>(g);
-    const Mat3 grad0 = displacement_gradient(u0, geometry.dN_dX[g]), grad = displacement_gradient(u, geometry.dN_dX[g]);
+    const Mat3 grad0 = displacement_gradient(u0, geometry.dN_dX[g]),
+               grad = displacement_gradient(u, geometry.dN_dX[g]);
     const Vec6 dE = voigt_strain(green_lagrange(grad) - green_lagrange(grad0));
     Vec6 twice_mean = Vec6::Zero();
     for (std::size_t i = 0; i < n; ++i) {
@@ -113,17 +121,21 @@ void ViscousPoints::accept(int e, const ElementGeometry& geometry, const Element
     work_[first.point + q] += 0.5 * twice_mean.dot(dE);
   }
   const std::size_t from = 6 * first.stress, to = from + 6 * m * static_cast<std::size_t>(n_gauss_);
-  std::copy(trial_.begin() + static_cast<std::ptrdiff_t>(from), trial_.begin() + static_cast<std::ptrdiff_t>(to),
+  std::copy(trial_.begin() + static_cast<std::ptrdiff_t>(from),
+            trial_.begin() + static_cast<std::ptrdiff_t>(to),
             stress_.begin() + static_cast<std::ptrdiff_t>(from));
 }
 
-void ViscousPoints::accepted() { largest_ = std::max(largest_, std::accumulate(size_.begin(), size_.end(), 0.)); }
+void ViscousPoints::accepted() {
+  largest_ = std::max(largest_, std::accumulate(size_.begin(), size_.end(), 0.));
+}
 
 Vec6 ViscousPoints::stress(int e, int g) const {
   const std::size_t n = law_of(e).branches.size();
   Vec6 sum = Vec6::Zero();
   for (std::size_t i = 0; i < n; ++i)
-    sum += at(branch_, first_[static_cast<std::size_t>(e)].branch + static_cast<std::size_t>(g) * n + i);
+    sum += at(branch_,
+              first_[static_cast<std::size_t>(e)].branch + static_cast<std::size_t>(g) * n + i);
   return sum;
 }
 

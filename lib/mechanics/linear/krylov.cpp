@@ -13,7 +13,8 @@ class ByProducts;
 
 // what Eigen asks of a matrix that is none
 template <>
-struct Eigen::internal::traits<langer::ByProducts> : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
+struct Eigen::internal::traits<langer::ByProducts>
+    : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
 
 namespace langer {
 
@@ -24,14 +25,19 @@ class ByProducts : public Eigen::EigenBase<ByProducts> {
   using Scalar = double;
   using RealScalar = double;
   using StorageIndex = int;
-  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
+  enum {
+    ColsAtCompileTime = Eigen::Dynamic,
+    MaxColsAtCompileTime = Eigen::Dynamic,
+    IsRowMajor = false
+  };
 
   ByProducts(const LinearMap& map, Eigen::Index n) : map_(&map), n_(n) {}
   Eigen::Index rows() const { return n_; }
   Eigen::Index cols() const { return n_; }
   VecX times(const VecX& x) const { return (*map_)(x); }
   template <typename Right>
-  Eigen::Product<ByProducts, Right, Eigen::AliasFreeProduct> operator*(const Eigen::MatrixBase<Right>& x) const {
+  Eigen::Product<ByProducts, Right, Eigen::AliasFreeProduct> operator*(
+      const Eigen::MatrixBase<Right>& x) const {
     return {*this, x.derived()};
   }
 
@@ -45,9 +51,11 @@ class ByProducts : public Eigen::EigenBase<ByProducts> {
 }  // namespace langer
 
 template <typename Right>
-struct Eigen::internal::generic_product_impl<langer::ByProducts, Right, Eigen::SparseShape, Eigen::DenseShape, Eigen::GemvProduct>
-    : Eigen::internal::generic_product_impl_base<langer::ByProducts, Right,
-                                                 Eigen::internal::generic_product_impl<langer::ByProducts, Right>> {
+struct Eigen::internal::generic_product_impl<langer::ByProducts, Right, Eigen::SparseShape,
+                                             Eigen::DenseShape, Eigen::GemvProduct>
+    : Eigen::internal::generic_product_impl_base<
+          langer::ByProducts, Right,
+          Eigen::internal::generic_product_impl<langer::ByProducts, Right>> {
   template <typename Out>
   static void scaleAndAddTo(Out& out, const langer::ByProducts& A, const Right& x, double factor) {
     out += factor * A.times(x);

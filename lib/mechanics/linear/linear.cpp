@@ -6,7 +6,8 @@
 
 namespace langer {
 
-LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads) : state_(std::make_unique<State>()) {
+LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   blas::need_buffers();
   blas::set_threads(std::max(1, threads));
@@ -17,7 +18,8 @@ LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int th
   s.last = std::move(last);
   s.place_of.assign(pattern.n, -1);
   for (std::size_t i = 0; i < s.last.size(); ++i) s.place_of[s.last[i]] = static_cast<int>(i);
-  s.A = cholmod_allocate_sparse(pattern.n, pattern.n, pattern.nnz(), 1, 1, -1, CHOLMOD_REAL, &s.common);
+  s.A = cholmod_allocate_sparse(pattern.n, pattern.n, pattern.nnz(), 1, 1, -1, CHOLMOD_REAL,
+                                &s.common);
   if (!s.A) throw std::bad_alloc();
   std::copy(pattern.column_start.begin(), pattern.column_start.end(), static_cast<int*>(s.A->p));
   std::copy(pattern.row.begin(), pattern.row.end(), static_cast<int*>(s.A->i));
@@ -50,7 +52,8 @@ void LinearSolver::State::order_last() {
   common.method[0].ordering = CHOLMOD_GIVEN;
   L = cholmod_analyze_p(A, order.data(), nullptr, 0, &common);
   if (!L) return;
-  // postordering may only have permuted them among themselves; where the body falls apart it may have done more
+  // postordering may only have permuted them among themselves; where the body falls apart it may
+  // have done more
   const int* permutation = static_cast<int*>(L->Perm);
   trailing = true;
   trailing_order.resize(m);
@@ -84,8 +87,8 @@ VecX LinearSolver::solve(const VecX& b) const {
   if (s.indefinite) {
     double control[UMFPACK_CONTROL];
     umfpack_di_defaults(control);
-    umfpack_di_solve(UMFPACK_A, s.full_start.data(), s.full_row.data(), s.full_value.data(), x.data(), b.data(), s.numeric, control,
-                     nullptr);
+    umfpack_di_solve(UMFPACK_A, s.full_start.data(), s.full_row.data(), s.full_value.data(),
+                     x.data(), b.data(), s.numeric, control, nullptr);
     return x;
   }
   x = s.whole(b);
@@ -109,7 +112,8 @@ LinearSolver::Half LinearSolver::start(const VecX& b) const {
   VecX permuted(n);
   for (Eigen::Index i = 0; i < n; ++i) permuted[i] = b[permutation[i]];
   half.rest = s.through(CHOLMOD_L, permuted);
-  const VecX x = s.trailing_factor().triangularView<Eigen::Lower>().transpose().solve(half.rest.tail(m));
+  const VecX x =
+      s.trailing_factor().triangularView<Eigen::Lower>().transpose().solve(half.rest.tail(m));
   for (Eigen::Index i = 0; i < m; ++i) half.last[s.trailing_order[i]] = x[i];
   return half;
 }
@@ -155,15 +159,16 @@ VecX LinearSolver::State::through(int system, const VecX& b) const {
 const MatX& LinearSolver::State::trailing_factor() const {
   if (trailing_block.size() > 0) return trailing_block;
   const int n = static_cast<int>(L->n), m = static_cast<int>(last.size()), first = n - m;
-  const int *super = static_cast<int*>(L->super), *pi = static_cast<int*>(L->pi), *px = static_cast<int*>(L->px),
-            *rows = static_cast<int*>(L->s);
+  const int *super = static_cast<int*>(L->super), *pi = static_cast<int*>(L->pi),
+            *px = static_cast<int*>(L->px), *rows = static_cast<int*>(L->s);
   const double* x = static_cast<double*>(L->x);
   MatX& block = trailing_block = MatX::Zero(m, m);
   for (int k = static_cast<int>(L->nsuper) - 1; k >= 0 && super[k + 1] > first; --k) {
     const int n_rows = pi[k + 1] - pi[k];
     for (int c = std::max(super[k], first); c < super[k + 1]; ++c)
       for (int q = c - super[k]; q < n_rows; ++q)
-        block(rows[pi[k] + q] - first, c - first) = x[px[k] + q + static_cast<std::size_t>(c - super[k]) * n_rows];
+        block(rows[pi[k] + q] - first, c - first) =
+            x[px[k] + q + static_cast<std::size_t>(c - super[k]) * n_rows];
   }
   return block;
 }
@@ -208,15 +213,19 @@ std::optional<MatX> LinearSolver::schur() const {
   MatX S(L.rows(), L.rows());
   for (Eigen::Index i = 0; i < S.rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j)
-      S(s.trailing_order[i], s.trailing_order[j]) = S(s.trailing_order[j], s.trailing_order[i]) = ordered(i, j);
+      S(s.trailing_order[i], s.trailing_order[j]) = S(s.trailing_order[j], s.trailing_order[i]) =
+          ordered(i, j);
   return S;
 }
 
 LinearSolver::Size LinearSolver::size() const {
   const State& s = *state_;
-  const double nonzeros = static_cast<double>(s.A->nzmax), block = static_cast<double>(s.last.size());
-  // supernodes with their workspace; K permuted, twice; the candidates' trailing block and their compliance
-  const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros + 3 * 8.0 * block * block;
+  const double nonzeros = static_cast<double>(s.A->nzmax),
+               block = static_cast<double>(s.last.size());
+  // supernodes with their workspace; K permuted, twice; the candidates' trailing block and their
+  // compliance
+  const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros +
+                       3 * 8.0 * block * block;
   return {nonzeros, s.common.lnz, bytes, s.common.fl};
 }
 

@@ -1,6 +1,7 @@
-// Direct solution of K x = b for the symmetric tangent: CHOLMOD supernodal, and UMFPACK where K is not positive definite.
-// The pattern is analysed once. Rows named `last` are eliminated last, so that the trailing block of the factor is the
-// Cholesky factor of their Schur complement: their compliance costs no extra solves.
+// Direct solution of K x = b for the symmetric tangent: CHOLMOD supernodal, and UMFPACK where K is
+// not positive definite. The pattern is analysed once. Rows named `last` are eliminated last, so
+// that the trailing block of the factor is the Cholesky factor of their Schur complement: their
+// compliance costs no extra solves.
 #pragma once
 
 #include <memory>
@@ -8,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/assembly/pattern.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/assembly/pattern.hpp"
 
 namespace langer {
 
@@ -19,16 +20,19 @@ class LinearSolver {
   LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
   ~LinearSolver();
 
-  // By CHOLMOD; false where K is not positive definite. solve() then must wait for another factorization.
+  // By CHOLMOD; false where K is not positive definite. solve() then must wait for another
+  // factorization.
   bool factorize(const std::vector<double>& values);
   // By UMFPACK, whatever the signs; false where K is singular.
   bool factorize_indefinite(const std::vector<double>& values);
-  // By CHOLMOD with springs: springs on a few rows, found where Cholesky stops, at least one for each negative eigenvalue. They
-  // are taken out again exactly in solve() and compliance() (Woodbury). False where `most` of them are not enough.
+  // By CHOLMOD with springs: springs on a few rows, found where Cholesky stops, at least one for
+  // each negative eigenvalue. They are taken out again exactly in solve() and compliance()
+  // (Woodbury). False where `most` of them are not enough.
   bool factorize_with_springs(const std::vector<double>& values, int most = 40);
   VecX solve(const VecX& b) const;
 
-  // The same in two halves, for a b whose part on the rows of `last` is known only after x has been seen there:
+  // The same in two halves, for a b whose part on the rows of `last` is known only after x has been
+  // seen there:
   //   half = start(b);   half.last is x on those rows, in their order;   finish(half, c) = K^-1 (b + c), c on the rows of `last`
   struct Half {
     VecX last;
@@ -40,17 +44,18 @@ class LinearSolver {
   // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`
   MatX compliance(const MatX& B) const;
 
-  // Schur complement of the rows of `last`, in their order; nothing where the last factor does not hold it
+  // Schur complement of the rows of `last`, in their order; nothing where the last factor does not
+  // hold it
   std::optional<MatX> schur() const;
-  // Negative pivots of a simplicial L D L^T: as many as there are negative eigenvalues. -1 where a pivot is zero.
-  // Slower than a factor; the factor that solve() uses stays.
+  // Negative pivots of a simplicial L D L^T: as many as there are negative eigenvalues. -1 where a
+  // pivot is zero. Slower than a factor; the factor that solve() uses stays.
   int negative_pivots(const std::vector<double>& values);
 
   struct Size {
     double nonzeros = 0;         // of K, one triangle
     double factor_nonzeros = 0;  // of its Cholesky factor
-    double factor_bytes = 0;     // what factorizing will take, beside what the analysis holds already
-    double flops = 0;            // of one factorization
+    double factor_bytes = 0;  // what factorizing will take, beside what the analysis holds already
+    double flops = 0;         // of one factorization
   };
   Size size() const;  // known from the analysis
 

@@ -5,8 +5,8 @@
 
 namespace langer {
 
-// iterative: displacements and pressures together, by multigrid and GMRES (linear/mixed.hpp); automatic: so where the body is large and
-// PETSc is at hand
+// iterative: displacements and pressures together, by multigrid and GMRES (linear/mixed.hpp);
+// automatic: so where the body is large and PETSc is at hand
 enum class LinearBy { automatic, direct, iterative };
 constexpr auto names(LinearBy) { return std::array{"auto", "direct", "iterative"}; }
 

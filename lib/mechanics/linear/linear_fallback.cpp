@@ -1,4 +1,5 @@
-// Tangents that are not positive definite: with springs, by UMFPACK, and how many directions give way.
+// Tangents that are not positive definite: with springs, by UMFPACK, and how many directions give
+// way.
 #include <algorithm>
 #include <new>
 
@@ -15,7 +16,8 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
   s.indefinite = false;
   s.springs.clear();
   double mean = 0;  // a column starts with its diagonal
-  for (std::size_t row = 0; row < s.A->nrow; ++row) mean += std::abs(values[column_start[row]]) / static_cast<double>(s.A->nrow);
+  for (std::size_t row = 0; row < s.A->nrow; ++row)
+    mean += std::abs(values[column_start[row]]) / static_cast<double>(s.A->nrow);
   std::vector<double> stiffness;
   for (int attempt = 0; !s.cholesky(); ++attempt) {
     const int row = static_cast<int*>(s.L->Perm)[s.L->minor];
@@ -23,7 +25,8 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
       s.springs.clear();
       return false;
     }
-    // after an earlier pivot near zero a later one may be as low as any number: then its spring is made stiffer
+    // after an earlier pivot near zero a later one may be as low as any number: then its spring is
+    // made stiffer
     const auto known = std::find(s.springs.begin(), s.springs.end(), row);
     double more = 100 * std::max(mean, std::abs(values[column_start[row]]));
     if (known == s.springs.end()) {
@@ -39,7 +42,8 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
   // (K + E k E^T - E k E^T)^-1 = Z + Z E (1/k - E^T Z E)^-1 E^T Z
   MatX share = MatX::Zero(q, q);
   s.spring_moves.resize(s.A->nrow, q);
-  for (int i = 0; i < q; ++i) s.spring_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.springs[i]));
+  for (int i = 0; i < q; ++i)
+    s.spring_moves.col(i) = s.whole(VecX::Unit(static_cast<Eigen::Index>(s.A->nrow), s.springs[i]));
   for (int i = 0; i < q; ++i) {
     share(i, i) = 1 / stiffness[i];
     for (int j = 0; j < q; ++j) share(i, j) -= s.spring_moves(s.springs[i], j);
@@ -69,9 +73,11 @@ bool LinearSolver::State::factorize_indefinite() {
         if (row[k] != c) ++full_start[row[k] + 1];
       }
     for (int c = 0; c < n; ++c) full_start[c + 1] += full_start[c];
-    full_row.resize(full_start[n]), full_from.resize(full_start[n]), full_value.resize(full_start[n]);
+    full_row.resize(full_start[n]), full_from.resize(full_start[n]),
+        full_value.resize(full_start[n]);
     std::vector<int> next(full_start.begin(), full_start.end() - 1);
-    for (int c = 0; c < n; ++c)  // ascending c puts the upper entries of a column before its lower ones, in order
+    for (int c = 0; c < n;
+         ++c)  // ascending c puts the upper entries of a column before its lower ones, in order
       for (int k = p[c]; k < p[c + 1]; ++k)
         if (row[k] != c) full_row[next[row[k]]] = c, full_from[next[row[k]]++] = k;
     for (int c = 0; c < n; ++c)
@@ -88,11 +94,13 @@ bool LinearSolver::State::factorize_indefinite() {
   };
   if (!symbolic) {
     const auto alone = one_ordering_at_a_time();
-    if (!worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(), &symbolic, control, nullptr)))
+    if (!worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(),
+                                    &symbolic, control, nullptr)))
       return false;
   }
   if (numeric) umfpack_di_free_numeric(&numeric);
-  return worked(umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic, &numeric, control, nullptr));
+  return worked(umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic,
+                                   &numeric, control, nullptr));
 }
 
 int LinearSolver::negative_pivots(const std::vector<double>& values) {
@@ -102,13 +110,15 @@ int LinearSolver::negative_pivots(const std::vector<double>& values) {
   const auto way = s.common.supernodal;
   const auto ordering = s.common.method[0].ordering;
   const auto final_ll = s.common.final_ll;
-  s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0, s.common.method[0].ordering = CHOLMOD_GIVEN;
+  s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0,
+  s.common.method[0].ordering = CHOLMOD_GIVEN;
   s.common.status = CHOLMOD_OK;
   cholmod_factor* D = cholmod_analyze_p(s.A, static_cast<int*>(s.L->Perm), nullptr, 0, &s.common);
   int negative = -1;
   if (D && cholmod_factorize(s.A, D, &s.common) && D->minor >= D->n && !D->is_ll) {
     negative = 0;
-    for (std::size_t i = 0; i < D->n; ++i) negative += static_cast<double*>(D->x)[static_cast<int*>(D->p)[i]] < 0;
+    for (std::size_t i = 0; i < D->n; ++i)
+      negative += static_cast<double*>(D->x)[static_cast<int*>(D->p)[i]] < 0;
   }
   if (D) cholmod_free_factor(&D, &s.common);
   s.common.supernodal = way, s.common.final_ll = final_ll, s.common.method[0].ordering = ordering;

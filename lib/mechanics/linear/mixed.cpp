@@ -20,7 +20,9 @@ std::vector<int> by_nodes(const std::vector<int>& dof_of_row) {
   return out;
 }
 
-int rows_of_nodes(const std::vector<int>& block_row) { return block_row.empty() ? 0 : block_row.back() / 3 * 3 + 3; }
+int rows_of_nodes(const std::vector<int>& block_row) {
+  return block_row.empty() ? 0 : block_row.back() / 3 * 3 + 3;
+}
 
 std::vector<int> in_nodes(std::vector<int> rows, const std::vector<int>& block_row) {
   for (int& row : rows)
@@ -30,8 +32,9 @@ std::vector<int> in_nodes(std::vector<int> rows, const std::vector<int>& block_r
 
 }  // namespace
 
-MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
-                         const petsc_module::Functions& module, int threads, const Division* division)
+MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row,
+                         std::vector<int> cell_rows, const petsc_module::Functions& module,
+                         int threads, const Division* division)
     : pattern_(pattern),
       module_(module),
       ranks_(division ? division->ranks : nullptr),
@@ -46,7 +49,8 @@ MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_
       ++start_[block_row_[column] + 1];
       if (pattern.row[at] != column) ++start_[block_row_[pattern.row[at]] + 1];
     }
-  for (std::size_t row = 1; row < start_.size(); ++row) start_[row] = start_[row - 1] + std::max(start_[row], 1);
+  for (std::size_t row = 1; row < start_.size(); ++row)
+    start_[row] = start_[row - 1] + std::max(start_[row], 1);
   if (!division) {
     own_.resize(static_cast<std::size_t>(n_cells()));
     std::iota(own_.begin(), own_.end(), 0);
@@ -56,7 +60,8 @@ MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_
   rank_of_node_.assign(rows / 3, -1);  // that of the first cell around it
   for (std::size_t k = 0; k < cell_rows_.size(); ++k)
     if (cell_rows_[k] >= 0)
-      if (int& rank = rank_of_node_[block_row_[cell_rows_[k]] / 3]; rank < 0) rank = division->rank_of[k / per_cell];
+      if (int& rank = rank_of_node_[block_row_[cell_rows_[k]] / 3]; rank < 0)
+        rank = division->rank_of[k / per_cell];
   for (int& rank : rank_of_node_) rank = std::max(rank, 0);
 }
 
@@ -64,7 +69,8 @@ VecX MixedSolver::gather(const std::vector<double>& b, const VecX& d) const {
   VecX out = VecX::Zero(n_cells());
   for (int e : own_)
     for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) out[e] += b[per_cell * e + k] * d[row];
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0)
+        out[e] += b[per_cell * e + k] * d[row];
   if (ranks_) ranks_->sum(out.data(), static_cast<std::size_t>(out.size()));
   return out;
 }
@@ -72,7 +78,8 @@ VecX MixedSolver::gather(const std::vector<double>& b, const VecX& d) const {
 void MixedSolver::spread_own(const std::vector<double>& b, const VecX& q, VecX& f) const {
   for (int e : own_)
     for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0) f[row] += b[per_cell * e + k] * q[e];
+      if (const int row = cell_rows_[per_cell * e + k]; row >= 0)
+        f[row] += b[per_cell * e + k] * q[e];
 }
 
 void MixedSolver::spread(const std::vector<double>& b, const VecX& q, VecX& f) const {
@@ -94,8 +101,11 @@ void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
   const std::size_t rows = start_.size() - 1;
   if (column_.empty()) column_.resize(start_.back()), value_.resize(start_.back());
   std::vector<int> to(start_.begin(), start_.end() - 1);
-  const auto put = [&](int row, int column, double value) { column_[to[row]] = column, value_[to[row]++] = value; };
-  for (int column = 0; column < pattern_.n; ++column)  // what stands before the diagonal of later rows first
+  const auto put = [&](int row, int column, double value) {
+    column_[to[row]] = column, value_[to[row]++] = value;
+  };
+  for (int column = 0; column < pattern_.n;
+       ++column)  // what stands before the diagonal of later rows first
     for (int at = pattern_.column_start[column] + 1; at < pattern_.column_start[column + 1]; ++at)
       put(block_row_[pattern_.row[at]], block_row_[column], A[at]);
   double sum = 0;
@@ -134,8 +144,9 @@ bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vecto
   return schur_.factorize(scaled, inverse_D_);
 }
 
-bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
-                               const std::vector<char>& fixed, const MatX& rigid, std::string& why) {
+bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<double>& b,
+                               const VecX& D, const std::vector<char>& fixed, const MatX& rigid,
+                               std::string& why) {
   preconditioned_ = false;
   const VecX diagonal = diagonal_of(A);
   if (!(diagonal.array() > 0).all()) {
@@ -152,8 +163,8 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
   MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
   for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
   const NoTraps in_petsc;
-  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(), value_.data(),
-                                rank_of_node_.data()};
+  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(),
+                                value_.data(), rank_of_node_.data()};
   preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
   again_ = preconditioned_;
   if (ranks_) column_ = {}, value_ = {};  // PETSc has the whole rows of this rank
@@ -177,15 +188,17 @@ VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
   z.tail(n_cells()) = -schur_.solve(gather(b, free) + inverse_D_.cwiseProduct(pressed));
   free = VecX::Zero(n);
   spread(b, -z.tail(n_cells()), free);
-  for (Eigen::Index row = 0; row < n; ++row) block[block_row_[row]] = r[row] + (fixed_[row] ? 0 : free[row]);
+  for (Eigen::Index row = 0; row < n; ++row)
+    block[block_row_[row]] = r[row] + (fixed_[row] ? 0 : free[row]);
   VecX moved(rows);
   cycle_->apply(block.data(), moved.data());
   for (Eigen::Index row = 0; row < n; ++row) z[row] = moved[block_row_[row]];
   return z;
 }
 
-MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector<double>& b, const VecX& f, const VecX& g,
-                                       double relative, int most, const Answer& from) const {
+MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector<double>& b,
+                                       const VecX& f, const VecX& g, double relative, int most,
+                                       const Answer& from) const {
   const Eigen::Index n = f.size(), cells = g.size(), all = n + cells;
   VecX right(all), x = VecX::Zero(all), begin = VecX::Zero(all);
   right << f, g;
@@ -216,9 +229,11 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
 }
 
 double MixedSolver::bytes() const {
-  // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors of GMRES
+  // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors
+  // of GMRES
   const double entries = start_.empty() ? 0 : start_.back(), share = ranks_ ? 1.0 / ranks_->n() : 1;
-  return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes + 8.0 * 2 * 20 * share * (pattern_.n + n_cells());
+  return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes +
+         8.0 * 2 * 20 * share * (pattern_.n + n_cells());
 }
 
 }  // namespace langer

@@ -1,13 +1,16 @@
-// Iterative solution near incompressibility, without a factor of K: displacements d and volumetric forces q of the cells together.
+// Iterative solution near incompressibility, without a factor of K: displacements d and volumetric
+// forces q of the cells together.
 //   K = A + B^T D B,   D d q = D B d  taken as unknown:    [ A   B^T  ] [d]   [f]
 //                                                          [ B  -D^-1 ] [q] = [g]
 // A   what K has beside the dyads, with a little of the volume in it: a matrix that multigrid likes
 // B   (cells, rows), D  (cells): a dyad of each cell
-// Flexible GMRES, preconditioned by the upper block triangle: a cycle of smoothed aggregation for A, and for the Schur complement
+// Flexible GMRES, preconditioned by the upper block triangle: a cycle of smoothed aggregation for
+// A, and for the Schur complement
 //   S^-1 = L^-1 (B M^-1 A M^-1 B^T + D^-1) L^-1,   M = diag A,   L = B M^-1 B^T + D^-1   by Cholesky                    after [EHSST06]
-// L knows the pressures that hexahedra with one dilatation hardly see (checkerboards), which a mass matrix in its place does not:
-// 10 iterations for a reduction by 1e-4 where that takes 100 to 200.
-// Divided among ranks, A is what each adds to it and B what each has of it by its own cells; vectors are whole, and the same on all.
+// L knows the pressures that hexahedra with one dilatation hardly see (checkerboards), which a mass
+// matrix in its place does not: 10 iterations for a reduction by 1e-4 where that takes 100 to 200.
+// Divided among ranks, A is what each adds to it and B what each has of it by its own cells;
+// vectors are whole, and the same on all.
 #pragma once
 
 #include <functional>
@@ -15,11 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "core/tensor/types.hpp"
 #include "mechanics/assembly/pattern.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/petsc/petsc_interface.hpp"
 #include "mechanics/linear/pressure_schur.hpp"
-#include "core/tensor/types.hpp"
 
 namespace langer {
 
@@ -27,24 +30,29 @@ class MixedSolver {
  public:
   static constexpr int per_cell = PressureSchur::per_cell;
 
-  // dof_of_row: 3 node + axis of each row; cell_rows: (per_cell) of each cell, -1 where its dof is prescribed. Refers to pattern,
-  // module and division (nullptr: alone).
-  MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row, std::vector<int> cell_rows,
-              const petsc_module::Functions& module, int threads, const Division* division = nullptr);
+  // dof_of_row: 3 node + axis of each row; cell_rows: (per_cell) of each cell, -1 where its dof is
+  // prescribed. Refers to pattern, module and division (nullptr: alone).
+  MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_row,
+              std::vector<int> cell_rows, const petsc_module::Functions& module, int threads,
+              const Division* division = nullptr);
 
   int n_cells() const { return static_cast<int>(cell_rows_.size()) / per_cell; }
   // b: (per_cell) by cell, the entries of B
-  VecX gather(const std::vector<double>& b, const VecX& d) const;               // B d
-  void spread(const std::vector<double>& b, const VecX& q, VecX& f) const;      // f += B^T q
-  void spread_own(const std::vector<double>& b, const VecX& q, VecX& f) const;  // the same of this rank's cells
+  VecX gather(const std::vector<double>& b, const VecX& d) const;           // B d
+  void spread(const std::vector<double>& b, const VecX& q, VecX& f) const;  // f += B^T q
+  void spread_own(const std::vector<double>& b, const VecX& q,
+                  VecX& f) const;  // the same of this rank's cells
   const Ranks* ranks() const { return ranks_; }
 
-  // What solve() goes by from now on, until the next one. A: lower triangle in the pattern's order; fixed: rows that are not coupled,
-  // neither in A nor by B; rigid: (rows, 6), rigid movements. False where PETSc cannot; `why`.
-  bool precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D, const std::vector<char>& fixed,
-                    const MatX& rigid, std::string& why);
+  // What solve() goes by from now on, until the next one. A: lower triangle in the pattern's order;
+  // fixed: rows that are not coupled, neither in A nor by B; rigid: (rows, 6), rigid movements.
+  // False where PETSc cannot; `why`.
+  bool precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
+                    const std::vector<char>& fixed, const MatX& rigid, std::string& why);
   bool preconditioned() const { return preconditioned_; }
-  void forget() { preconditioned_ = again_ = false; }  // so that nothing depends on what was solved before
+  void forget() {
+    preconditioned_ = again_ = false;
+  }  // so that nothing depends on what was solved before
 
   struct Answer {
     VecX d, q;
@@ -54,11 +62,11 @@ class MixedSolver {
   // product: (f, g) of (d, q)
   using Product = std::function<void(const VecX& d, const VecX& q, VecX& f, VecX& g)>;
   // relative: what may be left of f and g together; from: where it begins, empty: from zero
-  Answer solve(const Product& product, const std::vector<double>& b, const VecX& f, const VecX& g, double relative, int most,
-               const Answer& from) const;
+  Answer solve(const Product& product, const std::vector<double>& b, const VecX& f, const VecX& g,
+               double relative, int most, const Answer& from) const;
 
-  VecX diagonal_of(const std::vector<double>& A) const;                        // of all ranks
-  double bytes() const;                                                        // about, of what precondition() makes
+  VecX diagonal_of(const std::vector<double>& A) const;  // of all ranks
+  double bytes() const;                                  // about, of what precondition() makes
   double entries() const { return static_cast<double>(pattern_.row.size()); }  // of A, one triangle
   LinearSolver::Size schur_size() const { return schur_.size(); }
 

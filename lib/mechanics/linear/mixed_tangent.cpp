@@ -10,19 +10,22 @@ namespace langer {
 namespace {
 
 constexpr int n_dofs = MixedSolver::per_cell;
-// bulk modulus that A keeps, in shear moduli: 1 to 3 take 8 to 12 products on even and flat cells, 10 take 100 on flat ones
+// bulk modulus that A keeps, in shear moduli: 1 to 3 take 8 to 12 products on even and flat cells,
+// 10 take 100 on flat ones
 constexpr double kept = 2;
 
 }  // namespace
 
-std::unique_ptr<MixedTangent> MixedTangent::of(const Equilibrium& body, int threads, std::string& why) {
+std::unique_ptr<MixedTangent> MixedTangent::of(const Equilibrium& body, int threads,
+                                               std::string& why) {
   const petsc_module::Functions* module = petsc(why);
   if (!module) return nullptr;
   auto out = std::make_unique<MixedTangent>();
   const Dofs& dofs = body.dofs();
   out->cell_dofs_ = body.cell_dofs();
   for (int dof : out->cell_dofs_) out->cell_rows_.push_back(dofs.equation[dof]);
-  out->solver_ = std::make_unique<MixedSolver>(body.pattern(), dofs.free, out->cell_rows_, *module, threads, body.division());
+  out->solver_ = std::make_unique<MixedSolver>(body.pattern(), dofs.free, out->cell_rows_, *module,
+                                               threads, body.division());
   Vec3 middle = Vec3::Zero();
   for (const Vec3& X : body.mesh().X) middle += X / static_cast<double>(body.mesh().X.size());
   out->rigid_ = MatX::Zero(dofs.n_free(), 6);
@@ -41,8 +44,8 @@ void MixedTangent::linearise(const Equilibrium& body, const VecX& du_prescribed)
   b_ = std::move(part.b), V_ = part.V;
   scale_.resize(n), D_.resize(n), softened_.resize(n), of_prescribed_ = VecX::Zero(n);
   for (Eigen::Index e = 0; e < n; ++e) {
-    const double mu =
-        std::max(std::abs(shear_modulus(body.material(static_cast<int>(e)))), 1e-9 * part.kappa[e]);  // a matrix may have none
+    const double mu = std::max(std::abs(shear_modulus(body.material(static_cast<int>(e)))),
+                               1e-9 * part.kappa[e]);  // a matrix may have none
     const double soft = std::min(kept * mu, 0.5 * part.kappa[e]), stiff = part.kappa[e] - soft;
     scale_[e] = 1 / std::sqrt(1 / (V_[e] * stiff) + 1 / (V_[e] * (soft + mu)));
     D_[e] = V_[e] * stiff / (scale_[e] * scale_[e]), softened_[e] = soft / scale_[e];

@@ -1,7 +1,8 @@
-// The tangent of a body of 8-node hexahedra with one dilatation each, split for an iterative solution (linear/mixed.hpp):
+// The tangent of a body of 8-node hexahedra with one dilatation each, split for an iterative
+// solution (linear/mixed.hpp):
 //   K = A + B^T D B,   A with a bulk modulus of a few shear moduli in place of kappa
-// Its pressures are unknowns: what an inexact solution leaves of them is not multiplied by kappa, as it would be in residuals and
-// predictions made of J_bar alone.
+// Its pressures are unknowns: what an inexact solution leaves of them is not multiplied by kappa,
+// as it would be in residuals and predictions made of J_bar alone.
 #pragma once
 
 #include <memory>
@@ -17,7 +18,8 @@ class MixedTangent {
   // body: of 8-node hexahedra with a mean dilatation. nullptr: PETSc is not at hand, `why`
   static std::unique_ptr<MixedTangent> of(const Equilibrium& body, int threads, std::string& why);
 
-  // As assembled last; du_prescribed: (3 n) movement of prescribed dofs still to be made. b() is then in the axes of the free rows.
+  // As assembled last; du_prescribed: (3 n) movement of prescribed dofs still to be made. b() is
+  // then in the axes of the free rows.
   void linearise(const Equilibrium& body, const VecX& du_prescribed);
   std::vector<double> rest_of(const Equilibrium& body) const;  // A, from K()
   std::vector<double>& b() { return b_; }                      // for who turns rows into other axes
@@ -33,7 +35,8 @@ class MixedTangent {
 
   MixedSolver& solver() { return *solver_; }
   const MixedSolver& solver() const { return *solver_; }
-  // Of f and g together, what a solution may leave: while candidates still change what they do, and at last.
+  // Of f and g together, what a solution may leave: while candidates still change what they do, and
+  // at last.
   static constexpr double rough = 1e-2, fine = 1e-4;
   static constexpr int most = 120;  // products of one solution
 

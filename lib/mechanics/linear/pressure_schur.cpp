@@ -20,13 +20,15 @@ Pattern full(int n) {
 
 }  // namespace
 
-PressureSchur::PressureSchur(std::vector<int> cell_rows, int n_rows, const Division* division, int threads)
+PressureSchur::PressureSchur(std::vector<int> cell_rows, int n_rows, const Division* division,
+                             int threads)
     : cell_rows_(std::move(cell_rows)), n_rows_(n_rows), threads_(threads), division_(division) {
   CellsOf cells_of(static_cast<std::size_t>(n_rows / 3));
   for (int e = 0; e < n_cells(); ++e)
     for (int k = 0; k < per_cell; ++k)
       if (const int row = cell_rows_[per_cell * e + k]; row >= 0)
-        if (std::vector<int>& cells = cells_of[row / 3]; cells.empty() || cells.back() != e) cells.push_back(e);
+        if (std::vector<int>& cells = cells_of[row / 3]; cells.empty() || cells.back() != e)
+          cells.push_back(e);
   if (division_) {
     divide(cells_of);
     return;
@@ -37,10 +39,11 @@ PressureSchur::PressureSchur(std::vector<int> cell_rows, int n_rows, const Divis
   solver_ = std::make_unique<LinearSolver>(own_.pattern, std::vector<int>{}, threads);
 }
 
-// n_rim: cells at the end that are eliminated last. Zeros join all others to the first of them, and each of them to the next, as where the
-// cells of a rank fall apart the rim would not stay behind them all.
-PressureSchur::Part PressureSchur::part(std::vector<int> cells, std::vector<char> node_counts, const CellsOf& cells_of,
-                                        int n_rim) const {
+// n_rim: cells at the end that are eliminated last. Zeros join all others to the first of them, and
+// each of them to the next, as where the cells of a rank fall apart the rim would not stay behind
+// them all.
+PressureSchur::Part PressureSchur::part(std::vector<int> cells, std::vector<char> node_counts,
+                                        const CellsOf& cells_of, int n_rim) const {
   Part out{std::move(cells), {}, std::move(node_counts)};
   std::vector<int> place(static_cast<std::size_t>(n_cells()), -1);
   for (std::size_t i = 0; i < out.cells.size(); ++i) place[out.cells[i]] = static_cast<int>(i);
@@ -54,7 +57,8 @@ PressureSchur::Part PressureSchur::part(std::vector<int> cells, std::vector<char
           row >= 0 && (out.node_counts.empty() || out.node_counts[row / 3]))
         for (int f : cells_of[row / 3])
           if (place[f] > i) neighbours.push_back(place[f]);
-    if (const int first = out.pattern.n - n_rim; n_rim > 0 && i + 1 < out.pattern.n) neighbours.push_back(std::max(first, i + 1));
+    if (const int first = out.pattern.n - n_rim; n_rim > 0 && i + 1 < out.pattern.n)
+      neighbours.push_back(std::max(first, i + 1));
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     out.pattern.row.insert(out.pattern.row.end(), neighbours.begin(), neighbours.end());
@@ -64,19 +68,22 @@ PressureSchur::Part PressureSchur::part(std::vector<int> cells, std::vector<char
 }
 
 // B M^-1 B^T of the part
-std::vector<double> PressureSchur::values(const Part& part, const std::vector<double>& scaled) const {
+std::vector<double> PressureSchur::values(const Part& part,
+                                          const std::vector<double>& scaled) const {
   std::vector<double> out(part.pattern.row.size());
   std::vector<double> of_row(static_cast<std::size_t>(n_rows_), 0);  // entries of a cell
   const auto rows = [&](int e, auto&& each) {
     for (int k = 0; k < per_cell; ++k)
-      if (const int row = cell_rows_[per_cell * e + k]; row >= 0 && (part.node_counts.empty() || part.node_counts[row / 3]))
+      if (const int row = cell_rows_[per_cell * e + k];
+          row >= 0 && (part.node_counts.empty() || part.node_counts[row / 3]))
         each(of_row[row], scaled[per_cell * e + k]);
   };
   for (int i = 0; i < part.pattern.n; ++i) {
     rows(part.cells[i], [](double& in_row, double entry) { in_row += entry; });
     for (int at = part.pattern.column_start[i]; at < part.pattern.column_start[i + 1]; ++at) {
       double sum = 0;
-      rows(part.cells[part.pattern.row[at]], [&](double in_row, double entry) { sum += entry * in_row; });
+      rows(part.cells[part.pattern.row[at]],
+           [&](double in_row, double entry) { sum += entry * in_row; });
       out[at] = sum;
     }
     rows(part.cells[i], [](double& in_row, double) { in_row = 0; });
@@ -89,14 +96,16 @@ void PressureSchur::divide(const CellsOf& cells_of) {
   const double between = static_cast<double>(between_.cells.size());
   const double largest = division_->ranks->largest(solver_ ? solver_->size().flops : 0);
   // among many ranks there is too much between them: rank 0 has all
-  if (between * between * between / 3 > 4 * largest) take(std::vector<int>(static_cast<std::size_t>(n_cells()), 0), cells_of);
+  if (between * between * between / 3 > 4 * largest)
+    take(std::vector<int>(static_cast<std::size_t>(n_cells()), 0), cells_of);
 }
 
-// Between ranks are cells with a neighbour of a higher one. A node of a cell within touches none of another rank's.
+// Between ranks are cells with a neighbour of a higher one. A node of a cell within touches none of
+// another rank's.
 void PressureSchur::take(const std::vector<int>& rank_of, const CellsOf& cells_of) {
   const int rank = division_->ranks->rank();
-  std::vector<char> lies_between(static_cast<std::size_t>(n_cells()), 0), counts(cells_of.size(), 0),
-      counts_between(cells_of.size(), 0);
+  std::vector<char> lies_between(static_cast<std::size_t>(n_cells()), 0),
+      counts(cells_of.size(), 0), counts_between(cells_of.size(), 0);
   for (const std::vector<int>& cells : cells_of)
     for (int e : cells)
       for (int f : cells) lies_between[e] = lies_between[e] || rank_of[f] > rank_of[e];
@@ -118,11 +127,13 @@ void PressureSchur::take(const std::vector<int>& rank_of, const CellsOf& cells_o
   std::vector<int> last;
   for (std::size_t i = 0; i < between.size(); ++i)
     if (on_rim[between[i]])
-      last.push_back(static_cast<int>(cells.size())), rim_.push_back(static_cast<int>(i)), cells.push_back(between[i]);
+      last.push_back(static_cast<int>(cells.size())), rim_.push_back(static_cast<int>(i)),
+          cells.push_back(between[i]);
   own_ = part(std::move(cells), std::move(counts), cells_of, static_cast<int>(rim_.size()));
   between_ = part(std::move(between), std::move(counts_between), cells_of);
   solver_.reset(), solver_between_.reset();
-  if (own_.pattern.n > 0) solver_ = std::make_unique<LinearSolver>(own_.pattern, std::move(last), threads_);
+  if (own_.pattern.n > 0)
+    solver_ = std::make_unique<LinearSolver>(own_.pattern, std::move(last), threads_);
 }
 
 bool PressureSchur::factorize(const std::vector<double>& scaled, const VecX& inverse_D) {
@@ -143,7 +154,8 @@ bool PressureSchur::factorize(const std::vector<double>& scaled, const VecX& inv
   return factorize_between(scaled, inverse_D, eliminated);
 }
 
-bool PressureSchur::factorize_between(const std::vector<double>& scaled, const VecX& inverse_D, bool eliminated) {
+bool PressureSchur::factorize_between(const std::vector<double>& scaled, const VecX& inverse_D,
+                                      bool eliminated) {
   const Ranks& ranks = *division_->ranks;
   if (ranks.largest(eliminated ? 0 : 1) > 0) return false;
   const int n = between_.pattern.n;
@@ -152,7 +164,8 @@ bool PressureSchur::factorize_between(const std::vector<double>& scaled, const V
   if (ranks.first()) {
     const std::vector<double> L = values(between_, scaled);
     for (int i = 0; i < n; ++i) {
-      for (int at = between_.pattern.column_start[i]; at < between_.pattern.column_start[i + 1]; ++at)
+      for (int at = between_.pattern.column_start[i]; at < between_.pattern.column_start[i + 1];
+           ++at)
         whole(between_.pattern.row[at], i) += L[at];
       whole(i, i) += inverse_D[between_.cells[i]];
     }
@@ -164,9 +177,11 @@ bool PressureSchur::factorize_between(const std::vector<double>& scaled, const V
   ranks.sum(whole.data(), static_cast<std::size_t>(whole.size()));
   int positive = 1;
   if (ranks.first()) {
-    if (!solver_between_) solver_between_ = std::make_unique<LinearSolver>(full(n), std::vector<int>{}, threads_);
+    if (!solver_between_)
+      solver_between_ = std::make_unique<LinearSolver>(full(n), std::vector<int>{}, threads_);
     std::vector<double> lower;
-    for (int j = 0; j < n; ++j) lower.insert(lower.end(), whole.col(j).data() + j, whole.col(j).data() + n);
+    for (int j = 0; j < n; ++j)
+      lower.insert(lower.end(), whole.col(j).data() + j, whole.col(j).data() + n);
     positive = solver_between_->factorize(lower);
   }
   ranks.from_first(&positive, sizeof positive);
@@ -183,7 +198,8 @@ VecX PressureSchur::solve(const VecX& g) const {
   if (solver_ && n > 0) {
     half = solver_->start(own);
     const VecX condensed = rim_matrix_ * half.last;
-    for (std::size_t i = 0; i < rim_.size(); ++i) right[rim_[i]] = condensed[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < rim_.size(); ++i)
+      right[rim_[i]] = condensed[static_cast<Eigen::Index>(i)];
   }
   if (n > 0) {
     ranks.sum(right.data(), static_cast<std::size_t>(n));
@@ -194,7 +210,8 @@ VecX PressureSchur::solve(const VecX& g) const {
   VecX out = VecX::Zero(g.size());
   if (solver_ && n > 0) {
     VecX moved(half.last.size());
-    for (std::size_t i = 0; i < rim_.size(); ++i) moved[static_cast<Eigen::Index>(i)] = right[rim_[i]];
+    for (std::size_t i = 0; i < rim_.size(); ++i)
+      moved[static_cast<Eigen::Index>(i)] = right[rim_[i]];
     own = solver_->finish(half, rim_matrix_ * (moved - half.last));
   } else if (solver_) {
     own = solver_->solve(own);

@@ -1,5 +1,6 @@
-// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky. Divided among ranks it is still exact: each eliminates the cells
-// that lie within its own, which leaves a full matrix over those between ranks (substructuring), for rank 0 to factorize.
+// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky. Divided among ranks it is
+// still exact: each eliminates the cells that lie within its own, which leaves a full matrix over
+// those between ranks (substructuring), for rank 0 to factorize.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,8 @@ class PressureSchur {
  public:
   static constexpr int per_cell = 24;  // rows of a cell: hex8
 
-  // cell_rows: (per_cell) of each cell, three rows for each node (-1: none); refers to the division (nullptr: alone). threads: of the BLAS
+  // cell_rows: (per_cell) of each cell, three rows for each node (-1: none); refers to the division
+  // (nullptr: alone). threads: of the BLAS
   PressureSchur(std::vector<int> cell_rows, int n_rows, const Division* division, int threads);
 
   // scaled: (per_cell) by cell, B M^-1/2. False where L is not positive definite.
@@ -31,7 +33,8 @@ class PressureSchur {
   };
   using CellsOf = std::vector<std::vector<int>>;  // by node
 
-  Part part(std::vector<int> cells, std::vector<char> node_counts, const CellsOf& cells_of, int n_rim = 0) const;
+  Part part(std::vector<int> cells, std::vector<char> node_counts, const CellsOf& cells_of,
+            int n_rim = 0) const;
   std::vector<double> values(const Part& part, const std::vector<double>& scaled) const;
   void divide(const CellsOf& cells_of);
   void take(const std::vector<int>& rank_of, const CellsOf& cells_of);
@@ -46,8 +49,8 @@ class PressureSchur {
   std::vector<int> rim_;  // the latter, as places in between_
   Part between_;
   std::unique_ptr<LinearSolver> solver_, solver_between_;  // the latter on rank 0
-  VecX held_;                                              // added on the rim, so that what is left there is positive definite
-  MatX rim_matrix_;                                        // Schur complement of the rim, with it
+  VecX held_;        // added on the rim, so that what is left there is positive definite
+  MatX rim_matrix_;  // Schur complement of the rim, with it
 };
 
 }  // namespace langer

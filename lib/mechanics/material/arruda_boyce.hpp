@@ -14,8 +14,10 @@ struct ArrudaBoyce {
   static constexpr Invariant of = Invariant::I1_bar;
   double mu = 0, locking_stretch = 1;
   static void fields(auto& v) {
-    v(&ArrudaBoyce::mu, "mu", unit::MPa, "n k T of the chains: the shear modulus at rest where they are long", required);
-    v(&ArrudaBoyce::locking_stretch, "locking_stretch", unit::none, "stretch at which the chains are straight", required, positive);
+    v(&ArrudaBoyce::mu, "mu", unit::MPa,
+      "n k T of the chains: the shear modulus at rest where they are long", required);
+    v(&ArrudaBoyce::locking_stretch, "locking_stretch", unit::none,
+      "stretch at which the chains are straight", required, positive);
   }
   template <class T>
   Energy<T> operator()(T I1_bar) const {

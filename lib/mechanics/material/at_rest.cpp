@@ -25,9 +25,11 @@ std::string at_rest_in_words(const Material& material) {
   if (rest == AtRest::stiff) return "";
   std::string terms;
   for (const MatrixTerm& term : material.matrix)
-    terms += (terms.empty() ? "" : " + ") + std::string(std::visit([](const auto& law) { return law.key; }, term));
+    terms += (terms.empty() ? "" : " + ") +
+             std::string(std::visit([](const auto& law) { return law.key; }, term));
   return fmt::format("{} at rest: the shear modulus of {} is {:.3g} MPa there",
-                     rest == AtRest::unstable ? "unstable" : "no stiffness", terms.empty() ? "its matrix" : terms,
+                     rest == AtRest::unstable ? "unstable" : "no stiffness",
+                     terms.empty() ? "its matrix" : terms,
                      rest == AtRest::unstable ? shear_modulus(material) : 0.);
 }
 

@@ -1,5 +1,6 @@
-// The stiffness of a law at rest. Fibres add none to a shear across them, however stiff: only the matrix does, its shear modulus.
-// Without it the tangent of a body at rest is singular, and no first step can be found.
+// The stiffness of a law at rest. Fibres add none to a shear across them, however stiff: only the
+// matrix does, its shear modulus. Without it the tangent of a body at rest is singular, and no
+// first step can be found.
 #pragma once
 
 #include <string>

@@ -9,16 +9,17 @@
 #include <numbers>
 #include <vector>
 
-#include "mechanics/material/terms.hpp"
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/stress.hpp"
+#include "mechanics/material/terms.hpp"
 
 namespace langer {
 
 namespace {
 
 Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
-  // T maps components of a symmetric reference tensor to those of F A F^T; D carries engineering strains on both sides
+  // T maps components of a symmetric reference tensor to those of F A F^T; D carries engineering
+  // strains on both sides
   Mat6 T;
   for (int p = 0; p < 6; ++p)
     for (int q = 0; q < 6; ++q) {
@@ -30,12 +31,13 @@ Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
 
 constexpr double rounding = 1e-12;  // of the terms that make a stiffness: a loss by less is none
 
-// The acoustic problem of one state as the second derivative of the energy along 1 + eps m n^T, which leaves J alone:
+// The acoustic problem of one state as the second derivative of the energy along 1 + eps m n^T,
+// which leaves J alone:
 //   A(n, m) J = sum_k 2 W_k' d_k + 4 W_k'' (x_k)^2,  with p = F^T n, q = F^T m, r = F^-1 m, o = F^-1 n (F isochoric), f = F a
 //   I1_bar  d = p.p, x = p.q        I2_bar  d = r.r, x = o.r
 //   fibre   d = kappa p.p + (1 - 3 kappa) (f.n)^2, x = kappa p.q + (1 - 3 kappa) (f.n)(f.m)
-// A sum of what is not negative where no W' and W'' is: stiff terms do not round soft ones away. Laws of the stretches (Ogden) have
-// n.c.n + (n.sigma n) I in place of it.
+// A sum of what is not negative where no W' and W'' is: stiff terms do not round soft ones away.
+// Laws of the stretches (Ogden) have n.c.n + (n.sigma n) I in place of it.
 class Acoustic {
  public:
   Acoustic(const Material& material, const Mat3& F, std::span<const Vec3> a);
@@ -55,7 +57,8 @@ class Acoustic {
   };
   struct Part {
     double value = 0, size = 0;
-    // d > 0; the derivative dW is known to the rounding of its invariant I, which ddW makes a stiffness
+    // d > 0; the derivative dW is known to the rounding of its invariant I, which ddW makes a
+    // stiffness
     void add(double two_dW, double four_ddW, double I, double d) {
       value += two_dW * d, size += (std::abs(two_dW) + std::abs(four_ddW) * I) * d;
     }
@@ -67,7 +70,8 @@ class Acoustic {
   std::vector<Family> families_;
   std::vector<Vec3> f_;
   bool of_stretches_ = false, finite_ = true;
-  Mat6 c_ = Mat6::Zero();  // spatial, rows and columns 11 22 33 12 23 13; of laws of the stretches alone
+  Mat6 c_ =
+      Mat6::Zero();  // spatial, rows and columns 11 22 33 12 23 13; of laws of the stretches alone
   Mat3 sigma_ = Mat3::Zero();
   mutable std::vector<Square> squares_;
 };
@@ -97,21 +101,23 @@ Acoustic::Acoustic(const Material& material, const Mat3& F, std::span<const Vec3
   FT_ = F.transpose() / root, inverse_ = F.inverse() * root;
   const DeformedState state{FT_, a, FT_.squaredNorm(), inverse_.squaredNorm(), 1 / (root * root)};
   Material stretches;
-  for_each_term<double>(material, state,
-                        Overloaded{[&](OfI1, const Energy<double>& e) { two_dW1_ += 2 * e.dW, four_ddW1_ += 4 * e.ddW; },
-                                   [&](OfI2, const Energy<double>& e) { two_dW2_ += 2 * e.dW, four_ddW2_ += 4 * e.ddW; },
-                                   [&](const Ogden& law) { of_stretches_ = true, stretches.matrix.push_back(law); },
-                                   [&](const DeformedState::Family& family, const Energy<double>& e) {
-                                     families_.push_back({family.kappa, 2 * e.dW, 4 * e.ddW, family.f});
-                                     f_.push_back(family.f);
-                                     finite_ = finite_ && std::isfinite(e.dW) && std::isfinite(e.ddW);
-                                   }});
+  for_each_term<double>(
+      material, state,
+      Overloaded{
+          [&](OfI1, const Energy<double>& e) { two_dW1_ += 2 * e.dW, four_ddW1_ += 4 * e.ddW; },
+          [&](OfI2, const Energy<double>& e) { two_dW2_ += 2 * e.dW, four_ddW2_ += 4 * e.ddW; },
+          [&](const Ogden& law) { of_stretches_ = true, stretches.matrix.push_back(law); },
+          [&](const DeformedState::Family& family, const Energy<double>& e) {
+            families_.push_back({family.kappa, 2 * e.dW, 4 * e.ddW, family.f});
+            f_.push_back(family.f);
+            finite_ = finite_ && std::isfinite(e.dW) && std::isfinite(e.ddW);
+          }});
   if (of_stretches_) {
     const Response r = isochoric(stretches, right_cauchy_green(F), {});
     c_ = push_forward(F, r.D, J_), sigma_ = cauchy(F, r.S, J_);
   }
-  finite_ = finite_ && std::isfinite(two_dW1_ + four_ddW1_ + two_dW2_ + four_ddW2_) && c_.allFinite() && sigma_.allFinite() &&
-            FT_.allFinite() && inverse_.allFinite();
+  finite_ = finite_ && std::isfinite(two_dW1_ + four_ddW1_ + two_dW2_ + four_ddW2_) &&
+            c_.allFinite() && sigma_.allFinite() && FT_.allFinite() && inverse_.allFinite();
 }
 
 // gathers what depends on m; what does not is returned
@@ -124,8 +130,10 @@ Acoustic::Part Acoustic::squares(const Vec3& n, const Vec3& s, const Vec3& t) co
   squares_.push_back({four_ddW1_, x, y});
   for (const Family& k : families_) {
     const double part = 1 - 3 * k.kappa, fn = k.f.dot(n);
-    same.add(k.two_dW, k.four_ddW, k.kappa * FT_.squaredNorm() + part * k.f.squaredNorm(), k.kappa * pp + part * fn * fn);
-    squares_.push_back({k.four_ddW, k.kappa * x + part * fn * k.f.dot(s), k.kappa * y + part * fn * k.f.dot(t)});
+    same.add(k.two_dW, k.four_ddW, k.kappa * FT_.squaredNorm() + part * k.f.squaredNorm(),
+             k.kappa * pp + part * fn * fn);
+    squares_.push_back(
+        {k.four_ddW, k.kappa * x + part * fn * k.f.dot(s), k.kappa * y + part * fn * k.f.dot(t)});
   }
   if (two_dW2_ != 0 || four_ddW2_ != 0) {
     const Vec3 o = inverse_ * n, r_s = inverse_ * s, r_t = inverse_ * t;
@@ -135,7 +143,8 @@ Acoustic::Part Acoustic::squares(const Vec3& n, const Vec3& s, const Vec3& t) co
   return same;
 }
 
-// the smaller eigenvalue of [a b; b d] = sum w (x, y)(x, y)^T, whose determinant is sum w_k w_l (x_k y_l - x_l y_k)^2
+// the smaller eigenvalue of [a b; b d] = sum w (x, y)(x, y)^T, whose determinant is sum w_k w_l
+// (x_k y_l - x_l y_k)^2
 ShearStiffness Acoustic::at(const Vec3& n) const {
   const Vec3 s = n.unitOrthogonal(), t = n.cross(s);
   const Part same = squares(n, s, t);
@@ -156,10 +165,12 @@ ShearStiffness Acoustic::at(const Vec3& n) const {
     a += s.dot(Q * s), b += s.dot(Q * t), d += t.dot(Q * t);
   }
   const double root = std::hypot(a - d, 2 * b), trace = a + d;
-  const double value = !of_stretches_ && trace > 0 ? 2 * det / (trace + root) : 0.5 * (trace - root);
+  const double value =
+      !of_stretches_ && trace > 0 ? 2 * det / (trace + root) : 0.5 * (trace - root);
   // eigenvector of the smaller eigenvalue: angle phi from s
   const double phi = root > 0 ? 0.5 * std::atan2(-2 * b, d - a) : 0;
-  const double size = same.size + 0.5 * (std::abs(trace) + root) + (of_stretches_ ? J_ * c_.norm() : 0);
+  const double size =
+      same.size + 0.5 * (std::abs(trace) + root) + (of_stretches_ ? J_ * c_.norm() : 0);
   return {(same.value + value) / J_, n, std::cos(phi) * s + std::sin(phi) * t, size / J_};
 }
 
@@ -168,7 +179,9 @@ bool lower(const ShearStiffness& x, const ShearStiffness& y) { return x.value < 
 // The best of eight normals at distance `reach` and of the bottom of the paraboloid through them.
 ShearStiffness best_nearby(const Acoustic& acoustic, const ShearStiffness& place, double reach) {
   const Vec3 s = place.n.unitOrthogonal(), t = place.n.cross(s);
-  const auto at = [&](double x, double y) { return acoustic.at((place.n + reach * (x * s + y * t)).normalized()); };
+  const auto at = [&](double x, double y) {
+    return acoustic.at((place.n + reach * (x * s + y * t)).normalized());
+  };
   const ShearStiffness e = at(1, 0), w = at(-1, 0), n = at(0, 1), o = at(0, -1);
   const ShearStiffness ne = at(1, 1), sw = at(-1, -1), se = at(1, -1), nw = at(-1, 1);
   const double gx = (e.value - w.value) / 2, gy = (n.value - o.value) / 2;
@@ -176,20 +189,24 @@ ShearStiffness best_nearby(const Acoustic& acoustic, const ShearStiffness& place
   const double hxy = (ne.value + sw.value - se.value - nw.value) / 4, det = hxx * hyy - hxy * hxy;
   ShearStiffness best = std::min({e, w, n, o, ne, sw, se, nw}, lower);
   if (hxx > 0 && det > 0) {
-    const double x = (-hyy * gx + hxy * gy) / det, y = (hxy * gx - hxx * gy) / det, far = std::hypot(x, y);
+    const double x = (-hyy * gx + hxy * gy) / det, y = (hxy * gx - hxx * gy) / det,
+                 far = std::hypot(x, y);
     const double shorter = std::min(1., 10 / std::max(far, 1e-300));
     best = std::min(best, at(shorter * x, shorter * y), lower);
   }
   return best;
 }
 
-// downhill from a place; short of it by less than a millionth of its size or of the largest stiffness
+// downhill from a place; short of it by less than a millionth of its size or of the largest
+// stiffness
 ShearStiffness downhill(const Acoustic& acoustic, ShearStiffness place, double largest) {
   constexpr int moves = 100;
   int moved = 0;
   for (double reach = 0.1; reach > 1e-6 && moved < moves;) {
     const ShearStiffness next = best_nearby(acoustic, place, reach);
-    const double enough = 1e-3 * reach * reach * std::max(std::abs(place.value), 1e-6 * largest);  // rounding must not be followed
+    const double enough =
+        1e-3 * reach * reach *
+        std::max(std::abs(place.value), 1e-6 * largest);  // rounding must not be followed
     if (next.value < place.value - enough)
       place = next, ++moved;
     else
@@ -198,11 +215,14 @@ ShearStiffness downhill(const Acoustic& acoustic, ShearStiffness place, double l
   return place;
 }
 
-// Waves normal to a fibre do not feel it. Where it is far stiffer than the rest they are a groove that no step on the sphere finds.
+// Waves normal to a fibre do not feel it. Where it is far stiffer than the rest they are a groove
+// that no step on the sphere finds.
 ShearStiffness least_around(const Acoustic& acoustic, const Vec3& f) {
   constexpr int places = 48;
   const Vec3 along = f.normalized(), u = along.unitOrthogonal(), v = along.cross(u);
-  const auto at = [&](double angle) { return acoustic.at(std::cos(angle) * u + std::sin(angle) * v); };
+  const auto at = [&](double angle) {
+    return acoustic.at(std::cos(angle) * u + std::sin(angle) * v);
+  };
   double step = std::numbers::pi / places, best = 0;
   ShearStiffness least = at(0);
   const auto take = [&](double angle) {
@@ -229,7 +249,8 @@ ShearStiffness least_of_fibres(const Acoustic& acoustic) {
 }  // namespace
 
 Vec3 wave_normal(int i, int n) {
-  const double z = (i + 0.5) / n, angle = i * std::numbers::pi * (3 - std::sqrt(5.)), s = std::sqrt(1 - z * z);
+  const double z = (i + 0.5) / n, angle = i * std::numbers::pi * (3 - std::sqrt(5.)),
+               s = std::sqrt(1 - z * z);
   return {s * std::cos(angle), s * std::sin(angle), z};
 }
 
@@ -238,7 +259,8 @@ double without_rounding(double value, double size) {
   return std::isless(value, 0) && std::isgreater(value, -rounding * size) ? 0 : value;
 }
 
-double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a, int n) {
+double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a,
+                               int n) {
   const Acoustic acoustic(material, F, a);
   if (!acoustic.finite()) return std::numeric_limits<double>::quiet_NaN();
   ShearStiffness least = acoustic.at(wave_normal(0, n));
@@ -246,19 +268,24 @@ double sampled_shear_stiffness(const Material& material, const Mat3& F, std::spa
   return without_rounding(least.value, least.size);
 }
 
-ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a) {
+ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F,
+                                        std::span<const Vec3> a) {
   const Acoustic acoustic(material, F, a);
-  if (!acoustic.finite()) return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitX(), Vec3::UnitY(), 0};
+  if (!acoustic.finite())
+    return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitX(), Vec3::UnitY(), 0};
 
   // an even grid on the half sphere, then downhill from its best places
   constexpr int grid = 400, best = 6;
   std::vector<ShearStiffness> found;
   double largest = 0;
-  for (int i = 0; i < grid; ++i) found.push_back(acoustic.at(wave_normal(i, grid))), largest = std::max(largest, found.back().size);
+  for (int i = 0; i < grid; ++i)
+    found.push_back(acoustic.at(wave_normal(i, grid))),
+        largest = std::max(largest, found.back().size);
   std::partial_sort(found.begin(), found.begin() + best, found.end(), lower);
   ShearStiffness least = least_of_fibres(acoustic);
   if (std::isfinite(least.value)) least = downhill(acoustic, least, largest);
-  for (int k = 0; k < best; ++k) least = std::min(least, downhill(acoustic, found[static_cast<std::size_t>(k)], largest), lower);
+  for (int k = 0; k < best; ++k)
+    least = std::min(least, downhill(acoustic, found[static_cast<std::size_t>(k)], largest), lower);
   least.value = without_rounding(least.value, least.size);
   return least;
 }

@@ -1,8 +1,10 @@
-// Strong ellipticity of an incompressible material in a deformed state: whether every shear wave has a real speed.
+// Strong ellipticity of an incompressible material in a deformed state: whether every shear wave
+// has a real speed.
 //   A(n, m) = (m n):c:(m n) + n.sigma n  over unit vectors m normal to n, in the deformed state
 //   c  push-forward of D, sigma Cauchy stress, both of the isochoric part: the pressure cancels for m normal to n
-// The smallest value [MPa] is the shear modulus at rest; where it is negative, bands of intense shear may form and
-// solutions of a mesh depend on the mesh. A value below zero by less than 1e-12 of the terms that make it is rounding: 0.
+// The smallest value [MPa] is the shear modulus at rest; where it is negative, bands of intense
+// shear may form and solutions of a mesh depend on the mesh. A value below zero by less than 1e-12
+// of the terms that make it is rounding: 0.
 #pragma once
 
 #include <span>
@@ -18,10 +20,12 @@ struct ShearStiffness {
 };
 
 // F with det F > 0; a volume change counts as 1/J in c and sigma
-ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a);
+ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F,
+                                        std::span<const Vec3> a);
 
 // the smallest over n wave normals only: from above [MPa]
-double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a, int n);
+double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a,
+                               int n);
 
 double without_rounding(double value, double size);
 

@@ -1,7 +1,7 @@
-// An energy term: a scalar function of one scalar invariant, with two derivatives.    [A23] eqs 13-15
-// Laws are written once for any number type T (double, packets of doubles); `exp` and friends are found by lookup.
-// Two kinds of matrix terms are more than that: sums of a function of I1_bar and one of I2_bar (Mooney-Rivlin), and
-// sums over the principal stretches (Ogden).
+// An energy term: a scalar function of one scalar invariant, with two derivatives.    [A23] eqs
+// 13-15 Laws are written once for any number type T (double, packets of doubles); `exp` and friends
+// are found by lookup. Two kinds of matrix terms are more than that: sums of a function of I1_bar
+// and one of I2_bar (Mooney-Rivlin), and sums over the principal stretches (Ogden).
 #pragma once
 
 #include <concepts>

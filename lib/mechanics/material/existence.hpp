@@ -1,16 +1,17 @@
-// Where an energy does not exist, or no double holds it, its invariant becomes NaN before the law sees it. All that follows is then
-// NaN too, without an invalid operation or an overflow on the way, and the state is refused like every other that is not finite.
+// Where an energy does not exist, or no double holds it, its invariant becomes NaN before the law
+// sees it. All that follows is then NaN too, without an invalid operation or an overflow on the
+// way, and the state is refused like every other that is not finite.
 #pragma once
 
 #include <cmath>
 #include <limits>
 
+#include "core/tensor/packet.hpp"
 #include "mechanics/material/exp_pow_fibre.hpp"
 #include "mechanics/material/gent.hpp"
 #include "mechanics/material/hgo_fibre.hpp"
 #include "mechanics/material/logarithmic_volume.hpp"
 #include "mechanics/material/simo_taylor_volume.hpp"
-#include "core/tensor/packet.hpp"
 
 namespace langer {
 
@@ -21,12 +22,20 @@ inline bool exists(const HgoFibre& fibre, double I4_bar) {
   return !std::isgreater(std::sqrt(fibre.c2) * std::abs(I4_bar - 1), std::sqrt(largest_exponent));
 }
 inline bool exists(const ExpPowFibre& fibre, double I4_bar) {
-  if (fibre.alpha == 0) return !std::isgreater(std::abs(I4_bar - 1), std::pow(1e150, 1 / fibre.beta));
-  return !std::isgreater(std::abs(I4_bar - 1), std::pow(largest_exponent / fibre.alpha, 1 / fibre.beta));
+  if (fibre.alpha == 0)
+    return !std::isgreater(std::abs(I4_bar - 1), std::pow(1e150, 1 / fibre.beta));
+  return !std::isgreater(std::abs(I4_bar - 1),
+                         std::pow(largest_exponent / fibre.alpha, 1 / fibre.beta));
 }
-inline bool exists(const LogarithmicVolume&, double J_minus_1) { return std::isgreater(J_minus_1, -1); }
-inline bool exists(const SimoTaylorVolume&, double J_minus_1) { return std::isgreater(J_minus_1, -1); }
-inline bool exists(const Gent& law, double I1_bar) { return !std::isgreaterequal(I1_bar - 3, law.Jm); }
+inline bool exists(const LogarithmicVolume&, double J_minus_1) {
+  return std::isgreater(J_minus_1, -1);
+}
+inline bool exists(const SimoTaylorVolume&, double J_minus_1) {
+  return std::isgreater(J_minus_1, -1);
+}
+inline bool exists(const Gent& law, double I1_bar) {
+  return !std::isgreaterequal(I1_bar - 3, law.Jm);
+}
 
 // a test at such a stretch, whose invariants and their powers are numbers still
 constexpr double largest_stretch = 1e20;

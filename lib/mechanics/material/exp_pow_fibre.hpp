@@ -1,7 +1,8 @@
 // Fibre energy of an exponential of a power, the "fiber-exp-pow" of FEBio [MEAW12]:
 //   W = ksi/(alpha beta) (exp(alpha y^beta) - 1),  y = |I4_bar - 1|;   at alpha = 0 the limit  W = ksi y^beta / beta
 //   ksi [MPa] >= 0; alpha [-] >= 0; beta [-] >= 2, so that W is twice differentiable where the fibre begins to bear
-// beta = 2 is HGO's energy with c1 = ksi and c2 = alpha. The absolute value matters where the switch lets a fibre push.
+// beta = 2 is HGO's energy with c1 = ksi and c2 = alpha. The absolute value matters where the
+// switch lets a fibre push.
 #pragma once
 
 #include <cmath>
@@ -16,8 +17,10 @@ struct ExpPowFibre {
   double ksi = 0, alpha = 0, beta = 2;
   static void fields(auto& v) {
     v(&ExpPowFibre::ksi, "ksi", unit::MPa, "fibre modulus", required, at_least(0));
-    v(&ExpPowFibre::alpha, "alpha", unit::none, "coefficient in the exponent; 0: a power law", at_least(0));
-    v(&ExpPowFibre::beta, "beta", unit::none, "power of (I4_bar - 1); 2: the energy of hgo", at_least(2));
+    v(&ExpPowFibre::alpha, "alpha", unit::none, "coefficient in the exponent; 0: a power law",
+      at_least(0));
+    v(&ExpPowFibre::beta, "beta", unit::none, "power of (I4_bar - 1); 2: the energy of hgo",
+      at_least(2));
   }
   double modulus() const { return ksi; }
   template <class T>

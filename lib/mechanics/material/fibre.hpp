@@ -1,4 +1,5 @@
-// A fibre family: its law, one of several, and what all of them share. One more law is its header and its name in the list.
+// A fibre family: its law, one of several, and what all of them share. One more law is its header
+// and its name in the list.
 #pragma once
 
 #include <variant>
@@ -23,12 +24,13 @@ struct Fibre {
   double kappa = 0;
   static void fields(auto& v) {
     v(&Fibre::law, among_keys, unit::none, "energy of the fibres, eq. 14", required);
-    v(&Fibre::alpha_deg, "alpha", unit::deg, "angle between the fibres and the frame's x axis, in the x-z plane, eq. 1",
+    v(&Fibre::alpha_deg, "alpha", unit::deg,
+      "angle between the fibres and the frame's x axis, in the x-z plane, eq. 1",
       between(-360, 360));
     v(&Fibre::tension_switch, "switch", unit::none,
       "which invariant decides that the fibre is stretched; the paper prints I4, eq. 16");
-    v(&Fibre::kappa, "kappa", unit::none, "dispersion: 0 all fibres along the direction, 1/3 no direction at all",
-      between(0, 1. / 3));
+    v(&Fibre::kappa, "kappa", unit::none,
+      "dispersion: 0 all fibres along the direction, 1/3 no direction at all", between(0, 1. / 3));
   }
 };
 

@@ -7,8 +7,8 @@
 
 namespace langer {
 
-// At rest I4_bar is 1 up to the rounding of a a^T: such a fibre counts as stretched, so that the tangent at rest does
-// not depend on the digits of cos(alpha).
+// At rest I4_bar is 1 up to the rounding of a a^T: such a fibre counts as stretched, so that the
+// tangent at rest does not depend on the digits of cos(alpha).
 inline constexpr double stretched_from = 1 - 16 * std::numeric_limits<double>::epsilon();
 
 // not negative where the fibre is stretched; m = I3^(-1/3), I4_bar = m I4

@@ -1,6 +1,7 @@
 // Gent's law of limited extension [G96]:  W = -mu Jm/2 ln(1 - x/Jm),  x = I1_bar - 3 < Jm.
 //   mu [MPa] shear modulus at rest; Jm [-] > 0 value of x at which the chains are straight
-// Beyond Jm no energy exists: W and its derivatives are then NaN, which solvers take for "no state here".
+// Beyond Jm no energy exists: W and its derivatives are then NaN, which solvers take for "no state
+// here".
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,8 @@ struct Gent {
   double mu = 0, Jm = 1;
   static void fields(auto& v) {
     v(&Gent::mu, "mu", unit::MPa, "shear modulus at rest", required);
-    v(&Gent::Jm, "Jm", unit::none, "value of (I1_bar - 3) at which the stress becomes infinite", required, positive);
+    v(&Gent::Jm, "Jm", unit::none, "value of (I1_bar - 3) at which the stress becomes infinite",
+      required, positive);
   }
   template <class T>
   Energy<T> operator()(T I1_bar) const {

@@ -1,4 +1,5 @@
-// Exponential fibre energy  W = c1/(2 c2) (exp(c2 x^2) - 1),  x = I4_bar - 1.          [A23] eq. 14, [HGO00]
+// Exponential fibre energy  W = c1/(2 c2) (exp(c2 x^2) - 1),  x = I4_bar - 1.          [A23] eq.
+// 14, [HGO00]
 //   c1 [MPa] any sign (the paper identifies c1 < 0: W is then unbounded below)
 //   c2 [-] >= 0; at c2 = 0 the limit  W = c1 x^2 / 2.
 // Where the fibre is slack the caller sets the term to zero (FibreSwitch in fibre.hpp).

@@ -13,7 +13,8 @@ struct LogarithmicVolume {
   static constexpr const char* key = "logarithmic";
   double bulk_modulus = 0;
   static void fields(auto& v) {
-    v(&LogarithmicVolume::bulk_modulus, "bulk_modulus", unit::MPa, "kappa of U = kappa/2 (ln J)^2", required, positive);
+    v(&LogarithmicVolume::bulk_modulus, "bulk_modulus", unit::MPa, "kappa of U = kappa/2 (ln J)^2",
+      required, positive);
   }
   // of J - 1, without cancellation
   template <class T>

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "core/base/traps.hpp"
+#include "core/tensor/invariants.hpp"
+#include "core/tensor/kinematics.hpp"
 #include "mechanics/material/terms.hpp"
 #include "mechanics/material/viscous_point.hpp"
 #include "mechanics/mesh/directions.hpp"
-#include "core/tensor/invariants.hpp"
-#include "core/tensor/kinematics.hpp"
 
 namespace langer {
 
@@ -51,7 +51,8 @@ double shear_modulus(const MatrixTerm& term) {
 
 namespace {
 
-// Beyond this the law that is left says nothing, and a modulus of the instant law was meant, or percent.
+// Beyond this the law that is left says nothing, and a modulus of the instant law was meant, or
+// percent.
 constexpr double most_gamma = 1000;
 
 void complain_of_strengths(const Material& material, std::vector<Complaint>& found) {
@@ -63,7 +64,9 @@ void complain_of_strengths(const Material& material, std::vector<Complaint>& fou
   for (std::size_t i = 0; material.viscous && i < material.viscous->size(); ++i) {
     const double gamma = (*material.viscous)[i].gamma;
     const std::string key = fmt::format("viscous[{}].gamma", i);
-    if (gamma > most_gamma) found.push_back({key, fmt::format("found {:g}", gamma), fmt::format("at most {:g}", most_gamma), hint});
+    if (gamma > most_gamma)
+      found.push_back(
+          {key, fmt::format("found {:g}", gamma), fmt::format("at most {:g}", most_gamma), hint});
     alone = alone || gamma > most_gamma, sum += gamma, last = key;
   }
   if (material.spectrum) {
@@ -72,8 +75,8 @@ void complain_of_strengths(const Material& material, std::vector<Complaint>& fou
     sum += of_spectrum, last = "spectrum.c";
   }
   if (!alone && sum > most_gamma)
-    found.push_back(
-        {last, fmt::format("found strengths that make {:g} in all", sum), fmt::format("a sum of at most {:g}", most_gamma), hint});
+    found.push_back({last, fmt::format("found strengths that make {:g} in all", sum),
+                     fmt::format("a sum of at most {:g}", most_gamma), hint});
 }
 
 }  // namespace
@@ -81,12 +84,14 @@ void complain_of_strengths(const Material& material, std::vector<Complaint>& fou
 std::vector<Complaint> Material::complaints() const {
   std::vector<Complaint> found;
   if (viscous && viscous->empty())
-    found.push_back({"viscous", "found an empty list", "at least {tau: 1, gamma: 0.5}", "without the key the law is elastic"});
+    found.push_back({"viscous", "found an empty list", "at least {tau: 1, gamma: 0.5}",
+                     "without the key the law is elastic"});
   complain_of_strengths(*this, found);
   if (!fibres.empty()) return found;
   for (std::size_t i = 0; viscous && i < viscous->size(); ++i)
     if ((*viscous)[i].of == BranchOf::fibres)
-      found.push_back({"viscous[" + std::to_string(i) + "].of", "fibres, which the material has none of", "all or matrix", ""});
+      found.push_back({"viscous[" + std::to_string(i) + "].of",
+                       "fibres, which the material has none of", "all or matrix", ""});
   if (spectrum && spectrum->of == BranchOf::fibres)
     found.push_back({"spectrum.of", "fibres, which the material has none of", "all or matrix", ""});
   return found;
@@ -108,7 +113,8 @@ double shear_modulus(const Material& material) {
 
 namespace {
 
-// What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H = d2W/dC_bar2
+// What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H =
+// d2W/dC_bar2
 //   dW/dC = I3^(-1/3) (G - (G:C)/3 C^-1), as of a term with M = G;  d2W/dC2 = that term's + Q^T H Q,  Q = dC_bar/dC
 struct OfStretches {
   double W = 0;
@@ -162,7 +168,8 @@ struct ReferenceState {
   }
 };
 
-// factors of the terms and of their energies: of an elastic law, of the stress of an increment, of its potential
+// factors of the terms and of their energies: of an elastic law, of the stress of an increment, of
+// its potential
 struct AsTheyAre {
   static constexpr double matrix = 1, fibres = 1, W_matrix = 1, W_fibres = 1;
 };
@@ -176,36 +183,37 @@ struct OfPotential {
 
 // the terms of one C, gathered before the derivatives of the invariants are formed once
 template <class Factors>
-Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a, const Mat6* C_inverse_product,
-                   const Factors& factors) {
+Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a,
+                   const Mat6* C_inverse_product, const Factors& factors) {
   Response r;
   Vec6 M = Vec6::Zero();  // sum W' M, M = I or the fibres' tensor
   double dW_I2 = 0;
   const auto square = [&](double ddW, const Vec6& dI_dC) {
     if (C_inverse_product && ddW != 0) r.D.noalias() += (4 * ddW * dI_dC) * dI_dC.transpose();
   };
-  for_each_term<double>(material, ReferenceState{v, a},
-                        Overloaded{[&](OfI1, const Energy<double>& e) {
-                                     r.W += factors.W_matrix * e.W;
-                                     M.head<3>().array() += factors.matrix * e.dW;
-                                     square(factors.matrix * e.ddW, dlinear_bar_dC(v, identity6()));
-                                   },
-                                   [&](OfI2, const Energy<double>& e) {
-                                     r.W += factors.W_matrix * e.W;
-                                     dW_I2 += factors.matrix * e.dW;
-                                     square(factors.matrix * e.ddW, dI2_bar_dC(v));
-                                   },
-                                   [&](const ReferenceState::Family& family, const Energy<double>& e) {
-                                     r.W += factors.W_fibres * e.W;
-                                     M += factors.fibres * e.dW * family.M;
-                                     square(factors.fibres * e.ddW, dlinear_bar_dC(v, family.M));
-                                   },
-                                   [&](const Ogden& law) {
-                                     const OfStretches s = of_stretches(law, v, C_inverse_product);
-                                     r.W += factors.W_matrix * s.W;
-                                     M += factors.matrix * s.G;
-                                     if (C_inverse_product) r.D += (4 * factors.matrix) * s.QHQ;
-                                   }});
+  for_each_term<double>(
+      material, ReferenceState{v, a},
+      Overloaded{[&](OfI1, const Energy<double>& e) {
+                   r.W += factors.W_matrix * e.W;
+                   M.head<3>().array() += factors.matrix * e.dW;
+                   square(factors.matrix * e.ddW, dlinear_bar_dC(v, identity6()));
+                 },
+                 [&](OfI2, const Energy<double>& e) {
+                   r.W += factors.W_matrix * e.W;
+                   dW_I2 += factors.matrix * e.dW;
+                   square(factors.matrix * e.ddW, dI2_bar_dC(v));
+                 },
+                 [&](const ReferenceState::Family& family, const Energy<double>& e) {
+                   r.W += factors.W_fibres * e.W;
+                   M += factors.fibres * e.dW * family.M;
+                   square(factors.fibres * e.ddW, dlinear_bar_dC(v, family.M));
+                 },
+                 [&](const Ogden& law) {
+                   const OfStretches s = of_stretches(law, v, C_inverse_product);
+                   r.W += factors.W_matrix * s.W;
+                   M += factors.matrix * s.G;
+                   if (C_inverse_product) r.D += (4 * factors.matrix) * s.QHQ;
+                 }});
 
   r.S = 2 * dlinear_bar_dC(v, M);
   if (C_inverse_product) r.D += 4 * d2linear_bar_dC2(v, M, *C_inverse_product);
@@ -218,15 +226,16 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
 
 }  // namespace
 
-Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent) {
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a,
+                   bool with_tangent) {
   const Invariants v = invariants(C);
   if (!with_tangent) return isochoric(material, v, a, nullptr, AsTheyAre{});
   const Mat6 P = inverse_product(v);
   return isochoric(material, v, a, &P, AsTheyAre{});
 }
 
-Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, const Amplified& amplified,
-                   bool with_tangent) {
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a,
+                   const Amplified& amplified, bool with_tangent) {
   const Invariants v = invariants(C);
   const OfStress factors{amplified.matrix, amplified.fibres};
   if (!with_tangent) return isochoric(material, v, a, nullptr, factors);
@@ -234,8 +243,8 @@ Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3
   return isochoric(material, v, a, &P, factors);
 }
 
-Response incremental(const Material& material, const Mat3& C, std::span<const Vec3> a, const PointMemory& memory,
-                     bool with_tangent) {
+Response incremental(const Material& material, const Mat3& C, std::span<const Vec3> a,
+                     const PointMemory& memory, bool with_tangent) {
   const Invariants v = invariants(C);
   const auto& [matrix, fibres] = memory.amplified;
   const OfPotential factors{matrix, fibres, matrix, fibres};
@@ -246,7 +255,8 @@ Response incremental(const Material& material, const Mat3& C, std::span<const Ve
   return r;
 }
 
-Response response(const Material& material, const Mat3& C, double J_minus_1, std::span<const Vec3> a) {
+Response response(const Material& material, const Mat3& C, double J_minus_1,
+                  std::span<const Vec3> a) {
   const Invariants v = invariants(C);
   const Mat6 P = inverse_product(v);
   Response r = isochoric(material, v, a, &P, AsTheyAre{});

@@ -1,10 +1,12 @@
-// A material: the sum of energy terms.                                                [A23] eqs 12-20, 30, 44
+// A material: the sum of energy terms.                                                [A23] eqs
+// 12-20, 30, 44
 //   W(C) = sum matrix_i(I1_bar, I2_bar or stretches) + sum fibre_k(I_k) + volume(J)
 //   I_k = kappa I1_bar + (1 - 3 kappa) I4_bar_k = I3^(-1/3) M:C,  M = kappa I + (1 - 3 kappa) a a^T       [GOH06]
 //   S = 2 dW/dC,  D = 4 d2W/dC2
 //   C   right Cauchy-Green tensor (3,3);  a  unit fibre direction of each family in the reference state
 //   S   second Piola-Kirchhoff stress [MPa], components;  D  (6,6) [MPa], S = D E with engineering shear in E
-// The fibre acts where I_k >= 1 (default, W is C1) or where M:C >= 1 (the paper's eq. 16; S jumps when J != 1).
+// The fibre acts where I_k >= 1 (default, W is C1) or where M:C >= 1 (the paper's eq. 16; S jumps
+// when J != 1).
 #pragma once
 
 #include <optional>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "core/base/fields.hpp"
+#include "core/tensor/types.hpp"
 #include "mechanics/material/arruda_boyce.hpp"
 #include "mechanics/material/fibre.hpp"
 #include "mechanics/material/gent.hpp"
@@ -22,12 +25,12 @@
 #include "mechanics/material/viscous.hpp"
 #include "mechanics/material/volume.hpp"
 #include "mechanics/material/yeoh.hpp"
-#include "core/tensor/types.hpp"
 
 namespace langer {
 
 // Each alternative has `static constexpr Invariant of`; those of one invariant are an EnergyTerm.
-using MatrixTerm = std::variant<NeoHooke, Yeoh, YeohI2, MooneyRivlin, Signorini, Ogden, ArrudaBoyce, Gent>;
+using MatrixTerm =
+    std::variant<NeoHooke, Yeoh, YeohI2, MooneyRivlin, Signorini, Ogden, ArrudaBoyce, Gent>;
 
 double shear_modulus(const MatrixTerm& term);  // at rest [MPa]
 
@@ -72,13 +75,16 @@ std::vector<std::vector<double>> fibre_angles(const std::vector<Material>& mater
 std::vector<Vec3> fibre_directions(const Material& material, const Mat3& frame = Mat3::Identity());
 
 // isochoric part: matrix and fibres, no volume term; without tangent D stays zero
-Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, bool with_tangent = true);
-// S and D with each kind of terms times its factor, as in an increment of viscous branches; W without
-Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a, const Amplified& amplified,
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a,
                    bool with_tangent = true);
+// S and D with each kind of terms times its factor, as in an increment of viscous branches; W
+// without
+Response isochoric(const Material& material, const Mat3& C, std::span<const Vec3> a,
+                   const Amplified& amplified, bool with_tangent = true);
 
 // all terms; J_minus_1 where it is known without cancellation (tensor/kinematics.hpp)
 Response response(const Material& material, const Mat3& C, std::span<const Vec3> a);
-Response response(const Material& material, const Mat3& C, double J_minus_1, std::span<const Vec3> a);
+Response response(const Material& material, const Mat3& C, double J_minus_1,
+                  std::span<const Vec3> a);
 
 }  // namespace langer

@@ -1,8 +1,9 @@
 // Ogden's law of one to three terms [O72]:
 //   W = sum_p mu_p/alpha_p (l_1^alpha_p + l_2^alpha_p + l_3^alpha_p - 3),  l_a = J^(-1/3) lambda_a
 //   mu_p [MPa], alpha_p [-]; the shear modulus at rest is sum mu_p alpha_p / 2. A term with mu_p = 0 is not there.
-// Written in e = l^2, the eigenvalues of I3^(-1/3) C:  W = sum_a g(e_a),  g = sum_p mu_p/alpha_p (e^(alpha_p/2) - 1).
-// The tangent needs (g'(e_a) - g'(e_b))/(e_a - e_b), which keeps its digits down to equal stretches.
+// Written in e = l^2, the eigenvalues of I3^(-1/3) C:  W = sum_a g(e_a),  g = sum_p mu_p/alpha_p
+// (e^(alpha_p/2) - 1). The tangent needs (g'(e_a) - g'(e_b))/(e_a - e_b), which keeps its digits
+// down to equal stretches.
 #pragma once
 
 #include <array>

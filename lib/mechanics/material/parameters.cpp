@@ -18,22 +18,34 @@ template <class V>
 void collect_member(V& value, const Member& m, const std::string& path, List& list) {
   if constexpr (std::is_same_v<V, double>) {
     const auto dot = path.rfind('.');
-    list.push_back({path, dot == std::string::npos ? path : path.substr(dot + 1), m.unit, m.range, &value});
+    list.push_back(
+        {path, dot == std::string::npos ? path : path.substr(dot + 1), m.unit, m.range, &value});
   } else if constexpr (is_sum<V>) {
     std::map<std::string, int> count;
-    const auto key = [](const auto& term) { return std::string(std::remove_cvref_t<decltype(term)>::key); };
+    const auto key = [](const auto& term) {
+      return std::string(std::remove_cvref_t<decltype(term)>::key);
+    };
     for (const auto& term : value) ++count[std::visit(key, term)];
     bool once = true;
     for (const auto& [name, n] : count) once = once && n == 1;
     for (std::size_t i = 0; i < value.size(); ++i)
-      std::visit([&](auto& term) { collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term), list); },
-                 value[i]);
+      std::visit(
+          [&](auto& term) {
+            collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term),
+                    list);
+          },
+          value[i]);
   } else if constexpr (is_choice<V>) {
-    std::visit([&](auto& term) { collect(term, path + "." + std::remove_cvref_t<decltype(term)>::key, list); }, value);
+    std::visit(
+        [&](auto& term) {
+          collect(term, path + "." + std::remove_cvref_t<decltype(term)>::key, list);
+        },
+        value);
   } else if constexpr (is_optional<V>) {
     if (value) collect_member(*value, m, path, list);
   } else if constexpr (is_vector<V>) {
-    for (std::size_t i = 0; i < value.size(); ++i) collect_member(value[i], m, path + "[" + std::to_string(i) + "]", list);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      collect_member(value[i], m, path + "[" + std::to_string(i) + "]", list);
   } else if constexpr (Listed<V>) {
     collect(value, path, list);
   }
@@ -46,10 +58,12 @@ void collect(T& object, const std::string& path, List& list) {
   });
 }
 
-// Two of one word that are not one quantity: the number of a law takes the law's name before its own (exp_pow_alpha, beside the
-// angle alpha of its family).
+// Two of one word that are not one quantity: the number of a law takes the law's name before its
+// own (exp_pow_alpha, beside the angle alpha of its family).
 void tell_apart(List& list) {
-  const auto depth = [](const MaterialParameter& p) { return std::count(p.key.begin(), p.key.end(), '.'); };
+  const auto depth = [](const MaterialParameter& p) {
+    return std::count(p.key.begin(), p.key.end(), '.');
+  };
   std::vector<MaterialParameter*> found;
   for (MaterialParameter& p : list)
     for (const MaterialParameter& other : list)

@@ -27,7 +27,8 @@ TestKind kind(Path path) {
 PathState on_path(const Material& material, Path path, double amount) {
   const TestKind test = kind(path);
   const bool slides = test == TestKind::simple_shear;
-  const PlaneState state = plane_state(material, fibre_directions(material), test, slides ? amount : 1 + amount);
+  const PlaneState state =
+      plane_state(material, fibre_directions(material), test, slides ? amount : 1 + amount);
   PathState s;
   if (!state.converged) return s;
   const auto nominal = measured_stress(state, test, StressMeasure::nominal);
@@ -43,7 +44,8 @@ Material turned(Material material, double degrees) {
   return material;
 }
 
-std::optional<std::vector<double>> path_curve(const Material& material, Path path, std::span<const double> amount,
+std::optional<std::vector<double>> path_curve(const Material& material, Path path,
+                                              std::span<const double> amount,
                                               StressMeasure measure) {
   std::vector<double> stress;
   stress.reserve(amount.size());

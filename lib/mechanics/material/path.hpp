@@ -1,4 +1,5 @@
-// The tests that stability and sensitivity look along: states of material/states.hpp with one amount each, shear held.
+// The tests that stability and sensitivity look along: states of material/states.hpp with one
+// amount each, shear held.
 //   uniaxial, equibiaxial, pure_shear   amount = engineering strain l - 1;   simple_shear   amount = g
 //   stresses in MPa
 // A fibre at 0 degrees lies along x; `turned` gives the same sheet cut at another angle.
@@ -14,8 +15,11 @@
 namespace langer {
 
 enum class Path { uniaxial, equibiaxial, pure_shear, simple_shear };
-constexpr auto names(Path) { return std::array{"uniaxial", "equibiaxial", "pure_shear", "simple_shear"}; }
-inline constexpr std::array all_paths{Path::uniaxial, Path::equibiaxial, Path::pure_shear, Path::simple_shear};
+constexpr auto names(Path) {
+  return std::array{"uniaxial", "equibiaxial", "pure_shear", "simple_shear"};
+}
+inline constexpr std::array all_paths{Path::uniaxial, Path::equibiaxial, Path::pure_shear,
+                                      Path::simple_shear};
 
 struct PathState {
   bool exists = false;
@@ -31,7 +35,8 @@ PathState on_path(const Material& material, Path path, double amount);
 Material turned(Material material, double degrees);  // every fibre further from x by `degrees`
 
 // stress at each amount; nothing if one of the states does not exist
-std::optional<std::vector<double>> path_curve(const Material& material, Path path, std::span<const double> amount,
+std::optional<std::vector<double>> path_curve(const Material& material, Path path,
+                                              std::span<const double> amount,
                                               StressMeasure measure);
 
 }  // namespace langer

@@ -11,8 +11,8 @@ struct QuadraticVolume {
   static constexpr bool linear_pressure = true;  // U' is linear in J
   double d = 0;
   static void fields(auto& v) {
-    v(&QuadraticVolume::d, "d", unit::per_MPa, "compressibility: 2/d is the bulk modulus", required, positive,
-      Hint{"[A23] uses 1e-6; its tables were made with 2e-3 (FER) and 4.4e-4 (ANSYS)"});
+    v(&QuadraticVolume::d, "d", unit::per_MPa, "compressibility: 2/d is the bulk modulus", required,
+      positive, Hint{"[A23] uses 1e-6; its tables were made with 2e-3 (FER) and 4.4e-4 (ANSYS)"});
   }
   double bulk_modulus() const { return 2 / d; }  // [MPa]
   // as a function of J - 1, which the caller knows without cancellation

@@ -16,7 +16,8 @@ namespace {
 // zero where it is negative by no more than the difference quotient rounds
 double slope_at(const Material& material, Path path, double x) {
   constexpr double h = 1e-5, rounding = 1e-10;
-  const PathState after = on_path(material, path, x + h), before = on_path(material, path, x > 0 ? x - h : x);
+  const PathState after = on_path(material, path, x + h),
+                  before = on_path(material, path, x > 0 ? x - h : x);
   if (!after.exists || !before.exists) return nan;
   const double width = x > 0 ? 2 * h : h, slope = (after.work - before.work) / width;
   const double noise = rounding * (std::abs(after.work) + std::abs(before.work)) / width;
@@ -28,7 +29,8 @@ double ellipticity_at(const Material& material, Path path, double x) {
   return s.exists ? smallest_shear_stiffness(material, s.F, fibre_directions(material)).value : nan;
 }
 
-// first x at which `is` holds for f: the first interval with such an end, halved (NaN is compared without a trap)
+// first x at which `is` holds for f: the first interval with such an end, halved (NaN is compared
+// without a trap)
 template <class F, class Is>
 double first_place(const std::vector<double>& x, const std::vector<double>& values, F f, Is is) {
   const auto found = std::find_if(values.begin(), values.end(), is);
@@ -54,7 +56,8 @@ Mat3 state_at(const Eigen::SelfAdjointEigenSolver<Mat3>& h, double r) {
 
 }  // namespace
 
-PathStability path_stability(const Material& material, Path path, const std::vector<double>& amount) {
+PathStability path_stability(const Material& material, Path path,
+                             const std::vector<double>& amount) {
   PathStability s;
   s.path = path;
   s.angle = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
@@ -64,8 +67,12 @@ PathStability path_stability(const Material& material, Path path, const std::vec
     s.slope.push_back(slope_at(material, path, x));
     s.ellipticity.push_back(ellipticity_at(material, path, x));
   }
-  const auto slope = [&](double x) { return slope_at(material, path, x); };
-  const auto ellipticity = [&](double x) { return ellipticity_at(material, path, x); };
+  const auto slope = [&](double x) {
+    return slope_at(material, path, x);
+  };
+  const auto ellipticity = [&](double x) {
+    return ellipticity_at(material, path, x);
+  };
   s.slope_loss = first_place(amount, s.slope, slope, is_lost);
   s.ellipticity_loss = first_place(amount, s.ellipticity, ellipticity, is_lost);
   s.end = first_place(amount, s.ellipticity, ellipticity, is_no_number);
@@ -76,7 +83,9 @@ HenckyReach hencky_reach(const Material& material, double most) {
   constexpr int directions = 300;
   constexpr double step = 0.1;
   const std::vector<Vec3> a = fibre_directions(material);
-  const auto stiffness = [&](const auto& h, double r) { return smallest_shear_stiffness(material, state_at(h, r), a).value; };
+  const auto stiffness = [&](const auto& h, double r) {
+    return smallest_shear_stiffness(material, state_at(h, r), a).value;
+  };
   HenckyReach reach{inf, inf};
   for (int i = 0; i < directions; ++i) {
     Random random(1, static_cast<std::uint64_t>(i));
@@ -86,7 +95,8 @@ HenckyReach hencky_reach(const Material& material, double most) {
       h(i / 2, i / 2) = i % 2 ? -1 : 1;
     else
       for (int p = 0; p < 3; ++p)
-        for (int q = 0; q <= p; ++q) h(p, q) = h(q, p) = random.normal() * (p == q ? 1 : std::sqrt(0.5));
+        for (int q = 0; q <= p; ++q)
+          h(p, q) = h(q, p) = random.normal() * (p == q ? 1 : std::sqrt(0.5));
     h.diagonal().array() -= h.trace() / 3;
     const Eigen::SelfAdjointEigenSolver<Mat3> direction(Mat3(h / h.norm()));
     for (double r = step; r - step < std::min(reach.safe, most); r += step) {
@@ -105,30 +115,38 @@ HenckyReach hencky_reach(const Material& material, double most) {
   return reach;
 }
 
-double safe_hencky(const Material& material, double most) { return hencky_reach(material, most).safe; }
+double safe_hencky(const Material& material, double most) {
+  return hencky_reach(material, most).safe;
+}
 
 StabilityMap stability_map(const Material& material, const StabilityOptions& options) {
   StabilityMap map;
-  for (int i = 0; i < options.points; ++i) map.amount.push_back(options.to * i / (options.points - 1));
+  for (int i = 0; i < options.points; ++i)
+    map.amount.push_back(options.to * i / (options.points - 1));
   map.angle = options.angles;
   for (int i = 0; i < options.stretches; ++i)
-    map.stretch.push_back(options.stretch_from + i * (options.stretch_to - options.stretch_from) / (options.stretches - 1));
+    map.stretch.push_back(options.stretch_from + i * (options.stretch_to - options.stretch_from) /
+                                                     (options.stretches - 1));
   map.plane.resize(options.stretches, options.stretches);
-  const auto angles = static_cast<int>(options.angles.size()), n_paths = static_cast<int>(all_paths.size()) * angles;
+  const auto angles = static_cast<int>(options.angles.size()),
+             n_paths = static_cast<int>(all_paths.size()) * angles;
   map.paths.resize(static_cast<std::size_t>(n_paths));
   const double own = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
   const std::vector<Vec3> a = fibre_directions(material);
   const auto compute = [&](int, int job) {
     if (job < n_paths) {
-      const Material sample = turned(material, options.angles[static_cast<std::size_t>(job % angles)] - own);
+      const Material sample =
+          turned(material, options.angles[static_cast<std::size_t>(job % angles)] - own);
       auto& path = map.paths[static_cast<std::size_t>(job)];
       path = path_stability(sample, all_paths[static_cast<std::size_t>(job / angles)], map.amount);
       path.angle = options.angles[static_cast<std::size_t>(job % angles)];
     } else if (job < n_paths + options.stretches) {
       const int row = job - n_paths;
       for (int column = 0; column < options.stretches; ++column) {
-        const double l1 = map.stretch[static_cast<std::size_t>(column)], l2 = map.stretch[static_cast<std::size_t>(row)];
-        map.plane(row, column) = smallest_shear_stiffness(material, Vec3(l1, 1 / (l1 * l2), l2).asDiagonal(), a).value;
+        const double l1 = map.stretch[static_cast<std::size_t>(column)],
+                     l2 = map.stretch[static_cast<std::size_t>(row)];
+        map.plane(row, column) =
+            smallest_shear_stiffness(material, Vec3(l1, 1 / (l1 * l2), l2).asDiagonal(), a).value;
       }
     } else {
       const HenckyReach reach = hencky_reach(material, 1.2);

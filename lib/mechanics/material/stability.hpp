@@ -1,4 +1,5 @@
-// Where a law stops being stable, along the tests of material/path.hpp and in every fibre direction.
+// Where a law stops being stable, along the tests of material/path.hpp and in every fibre
+// direction.
 //   slope         d work/d amount [MPa]: the nominal stress falls where it is negative (the test is then unstable under load)
 //   ellipticity   smallest shear stiffness [MPa] (material/ellipticity.hpp): solutions depend on the mesh where it is negative
 //   first losses  the amount at which each first turns negative, found to 1e-4; infinity where not up to the end
@@ -23,12 +24,15 @@ struct PathStability {
 struct StabilityMap {
   std::vector<double> amount, angle;  // amounts from 0 evenly
   std::vector<PathStability> paths;   // path by path, angle by angle
-  // ellipticity over the plane of stretches (fibre at its own angle, F = diag(l1, 1/(l1 l2), l2)): rows l2, columns l1
+  // ellipticity over the plane of stretches (fibre at its own angle, F = diag(l1, 1/(l1 l2), l2)):
+  // rows l2, columns l1
   std::vector<double> stretch;
   MatX plane;
-  // every incompressible state up to this Hencky norm |ln U| is strongly elliptic, as far as sampled; infinity: none found
+  // every incompressible state up to this Hencky norm |ln U| is strongly elliptic, as far as
+  // sampled; infinity: none found
   double safe_hencky = 0;
-  double hencky_end = 0;  // least Hencky norm of the samples at which the law has no number; infinity: none found
+  double hencky_end =
+      0;  // least Hencky norm of the samples at which the law has no number; infinity: none found
 };
 
 struct StabilityOptions {
@@ -44,10 +48,11 @@ struct StabilityOptions {
 StabilityMap stability_map(const Material& material, const StabilityOptions& options);
 
 // one path, one direction of the material as it is
-PathStability path_stability(const Material& material, Path path, const std::vector<double>& amount);
+PathStability path_stability(const Material& material, Path path,
+                             const std::vector<double>& amount);
 
-// Largest Hencky norm below which no sampled state has lost strong ellipticity, looked for up to `most`; a direction is followed as
-// far as the law has numbers.
+// Largest Hencky norm below which no sampled state has lost strong ellipticity, looked for up to
+// `most`; a direction is followed as far as the law has numbers.
 struct HenckyReach {
   double safe = 0, end = 0;  // of StabilityMap
 };

@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
-#include "mechanics/material/existence.hpp"
-#include "mechanics/mesh/directions.hpp"
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/stress.hpp"
+#include "mechanics/material/existence.hpp"
+#include "mechanics/mesh/directions.hpp"
 
 namespace langer {
 
@@ -32,7 +32,8 @@ struct Sample {
   double scale;  // size of what cancels in the slope
 };
 
-// Energy over q = (ln lambda_z, g), with derivatives; a q that is imposed has slope 0 and curvature 1.
+// Energy over q = (ln lambda_z, g), with derivatives; a q that is imposed has slope 0 and
+// curvature 1.
 //   W' = P:F',  P = F S;   W'' = F'S:F' + E':D:E' + P:F'',  E' = sym F^T F'
 struct Sheet {
   const Material& material;
@@ -56,15 +57,18 @@ struct Sheet {
       s.slope[i] = P.cwiseProduct(dF[i]).sum();
     }
     for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) s.curvature(i, j) = (dF[i] * S).cwiseProduct(dF[j]).sum() + dE[i].dot(s.r.D * dE[j]);
+      for (int j = 0; j < 2; ++j)
+        s.curvature(i, j) = (dF[i] * S).cwiseProduct(dF[j]).sum() + dE[i].dot(s.r.D * dE[j]);
     s.curvature(0, 0) += P(2, 2) * F(2, 2) + P(1, 1) * F(1, 1);
-    s.scale = (P * F.transpose()).cwiseAbs().maxCoeff() + s.curvature.diagonal().cwiseAbs().maxCoeff();
+    s.scale =
+        (P * F.transpose()).cwiseAbs().maxCoeff() + s.curvature.diagonal().cwiseAbs().maxCoeff();
     for (int i = 0; i < 2; ++i)
       if (!(i == 0 ? free_width : free_shear)) {
         s.slope[i] = 0;
         s.curvature.row(i).setZero(), s.curvature.col(i).setZero(), s.curvature(i, i) = 1;
       }
-    if (!std::isfinite(s.r.W) || !s.slope.allFinite() || !s.curvature.allFinite()) return std::nullopt;
+    if (!std::isfinite(s.r.W) || !s.slope.allFinite() || !s.curvature.allFinite())
+      return std::nullopt;
     return s;
   }
 };
@@ -81,13 +85,16 @@ Vec2 step(const Sample& s) {
 
 bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
-  constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps, acceptable = 1e6 * eps;
+  constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps,
+                   acceptable = 1e6 * eps;
   std::optional<Sample> s = sheet.at(q);
   const auto steepness = [](const Sample& one) {
-    return one.scale > 0 ? one.slope.cwiseAbs().maxCoeff() / one.scale : 0;  // without any stiffness every state is as good
+    return one.scale > 0 ? one.slope.cwiseAbs().maxCoeff() / one.scale
+                         : 0;  // without any stiffness every state is as good
   };
   bool downhill = true;
-  for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough); ++iteration) {
+  for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough);
+       ++iteration) {
     Vec2 d = step(*s);
     downhill = false;
     for (int halving = 0; halving < 40 && !downhill; ++halving, d /= 2) {
@@ -105,18 +112,21 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
 
 // every fibre along x: width and thickness of a pull are equal by symmetry
 bool axial(std::span<const Vec3> a) {
-  return std::all_of(a.begin(), a.end(), [](const Vec3& one) { return one[1] == 0 && one[2] == 0; });
+  return std::all_of(a.begin(), a.end(),
+                     [](const Vec3& one) { return one[1] == 0 && one[2] == 0; });
 }
 
 }  // namespace
 
-PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind, double first, double second,
-                       OffAxisShear shear, const PointMemory* memory) {
+PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind,
+                       double first, double second, OffAxisShear shear, const PointMemory* memory) {
   const bool slides = kind == TestKind::simple_shear;
   const double lambda_x = slides ? 1 : first;
   double lambda_z = kind == TestKind::biaxial ? second : kind == TestKind::equibiaxial ? first : 1;
   PlaneState state;
-  if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) || !std::isless(std::abs(first), largest_stretch)) return state;
+  if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) ||
+      !std::isless(std::abs(first), largest_stretch))
+    return state;
   if (kind == TestKind::uniaxial) lambda_z = 1 / std::sqrt(lambda_x);
   Vec2 q(std::log(lambda_z), slides ? first : 0);
   const bool off_axis = !axial(a), free_width = kind == TestKind::uniaxial && off_axis;
@@ -131,7 +141,8 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
   } else {
     state.F = gradient(lambda_x, lambda_z, q[1]);
     const Mat3 C = right_cauchy_green(state.F);
-    const Response r = memory ? incremental(material, C, a, *memory, false) : isochoric(material, C, a, false);
+    const Response r =
+        memory ? incremental(material, C, a, *memory, false) : isochoric(material, C, a, false);
     S = r.S, state.W = r.W;
   }
   state.sigma = cauchy(state.F, S, 1);
@@ -140,7 +151,8 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
   return state;
 }
 
-std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind, StressMeasure measure) {
+std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind,
+                                      StressMeasure measure) {
   // F and sigma in the plane; the thickness carries nothing
   const double fx = state.F(0, 0), fz = state.F(2, 2), g = state.F(0, 2);
   const double xx = state.sigma(0, 0), zz = state.sigma(2, 2), xz = state.sigma(0, 2);
@@ -153,7 +165,8 @@ std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind, St
       return {slides ? xz / fz : (xx - g / fz * xz) / fx, slides ? 0 : zz / fz};
     case StressMeasure::second_piola:
       // S = F^-1 P
-      return {slides ? (xz - g / fz * zz) / (fx * fz) : (xx - 2 * g / fz * xz + g * g / (fz * fz) * zz) / (fx * fx),
+      return {slides ? (xz - g / fz * zz) / (fx * fz)
+                     : (xx - 2 * g / fz * xz + g * g / (fz * fz) * zz) / (fx * fx),
               slides ? 0 : zz / (fz * fz)};
   }
   return {};

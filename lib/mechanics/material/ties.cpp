@@ -14,7 +14,8 @@ namespace langer {
 
 namespace {
 
-// a number at the beginning of the text, which it leaves; nothing, and the text as it was, where there is none
+// a number at the beginning of the text, which it leaves; nothing, and the text as it was, where
+// there is none
 std::optional<double> number_at(std::string_view& text) {
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -31,14 +32,16 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
     if (c != ' ' && c != '\t') plain += c;
   std::string_view text = plain;
   Tie tie{key, "", 1, 0};
-  if (!text.empty() && (text[0] == '-' || text[0] == '+')) tie.factor = text[0] == '-' ? -1 : 1, text.remove_prefix(1);
+  if (!text.empty() && (text[0] == '-' || text[0] == '+'))
+    tie.factor = text[0] == '-' ? -1 : 1, text.remove_prefix(1);
   if (!text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.')) {
     const auto factor = number_at(text);
     if (!factor || text.empty() || text[0] != '*') return std::nullopt;
     tie.factor *= *factor, text.remove_prefix(1);
   }
   const auto of_key = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '[' || c == ']';
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '[' ||
+           c == ']';
   };
   const auto end = std::find_if_not(text.begin(), text.end(), of_key);
   tie.of.assign(text.begin(), end);
@@ -56,9 +59,12 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
 }
 
 std::string tie_text(const Tie& tie) {
-  std::string text = tie.factor == 1 ? "" : tie.factor == -1 ? "-" : fmt::format("{} * ", tie.factor);
+  std::string text = tie.factor == 1    ? ""
+                     : tie.factor == -1 ? "-"
+                                        : fmt::format("{} * ", tie.factor);
   text += tie.of;
-  if (tie.offset != 0) text += fmt::format(" {} {}", tie.offset < 0 ? '-' : '+', std::abs(tie.offset));
+  if (tie.offset != 0)
+    text += fmt::format(" {} {}", tie.offset < 0 ? '-' : '+', std::abs(tie.offset));
   return text;
 }
 
@@ -67,14 +73,16 @@ ResolvedTies resolved(const std::vector<Tie>& ties) {
   for (const Tie& tie : ties) {
     Tie whole = tie;
     for (std::size_t steps = 0; steps <= ties.size(); ++steps) {
-      const auto next = std::find_if(ties.begin(), ties.end(), [&](const Tie& t) { return t.key == whole.of; });
+      const auto next =
+          std::find_if(ties.begin(), ties.end(), [&](const Tie& t) { return t.key == whole.of; });
       if (next == ties.end()) break;
       if (steps == ties.size()) {
         if (result.circle.empty()) result.circle = tie.key;
         break;
       }
       //   f (f' x + o') + o
-      whole.offset += whole.factor * next->offset, whole.factor *= next->factor, whole.of = next->of;
+      whole.offset += whole.factor * next->offset, whole.factor *= next->factor,
+          whole.of = next->of;
     }
     result.ties.push_back(whole);
   }
@@ -82,13 +90,15 @@ ResolvedTies resolved(const std::vector<Tie>& ties) {
 }
 
 TiedNumbers::TiedNumbers(Material& material, const std::vector<Tie>& ties) {
-  const std::vector<MaterialParameter> all = ties.empty() ? std::vector<MaterialParameter>() : parameters(material);
+  const std::vector<MaterialParameter> all =
+      ties.empty() ? std::vector<MaterialParameter>() : parameters(material);
   const auto number = [&](const std::string& key) {
     for (const MaterialParameter& p : all)
       if (p.key == key) return p.value;
     throw std::logic_error("the law has no parameter " + key);
   };
-  for (const Tie& tie : ties) all_.push_back({number(tie.key), number(tie.of), tie.factor, tie.offset});
+  for (const Tie& tie : ties)
+    all_.push_back({number(tie.key), number(tie.of), tie.factor, tie.offset});
 }
 
 void TiedNumbers::follow() const {

@@ -1,4 +1,5 @@
-// Numbers of a law that follow others: fibres[1].alpha = -fibres[0].alpha, fibres[1].hgo.c1 = fibres[0].hgo.c1.
+// Numbers of a law that follow others: fibres[1].alpha = -fibres[0].alpha, fibres[1].hgo.c1 =
+// fibres[0].hgo.c1.
 //   key = factor * of + offset;   written  [-][factor *] of [+ offset | - offset]
 #pragma once
 
@@ -15,17 +16,20 @@ struct Tie {
   double factor = 1, offset = 0;
 };
 
-std::optional<Tie> parse_tie(const std::string& key, const std::string& text);  // nothing where the text is no such sum
-std::string tie_text(const Tie& tie);                                           // of what stands right of the equals sign
+std::optional<Tie> parse_tie(const std::string& key,
+                             const std::string& text);  // nothing where the text is no such sum
+std::string tie_text(const Tie& tie);                   // of what stands right of the equals sign
 
-// Chains followed to their ends, so that no tie follows a tied number. `circle`: a key that follows itself, if there is one.
+// Chains followed to their ends, so that no tie follows a tied number. `circle`: a key that follows
+// itself, if there is one.
 struct ResolvedTies {
   std::vector<Tie> ties;
   std::string circle;
 };
 ResolvedTies resolved(const std::vector<Tie>& ties);
 
-// Pointers into a material: what to set after the numbers that are followed. Ties must be resolved, keys known to the law.
+// Pointers into a material: what to set after the numbers that are followed. Ties must be resolved,
+// keys known to the law.
 class TiedNumbers {
  public:
   TiedNumbers(Material& material, const std::vector<Tie>& ties);

@@ -14,7 +14,8 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
-// Energy at ln lambda = (x, y, z), y = ln J - x - z, with derivatives in (ln J, z); tau is the Kirchhoff stress.
+// Energy at ln lambda = (x, y, z), y = ln J - x - z, with derivatives in (ln J, z); tau is the
+// Kirchhoff stress.
 //   dW/dlnJ = tau_y    dW/dz = tau_z - tau_y
 struct Pulled {
   double W;
@@ -36,7 +37,8 @@ struct Pull {
     const Response r = isochoric(material, c.asDiagonal(), a);
     const Vec3 tau = c.cwiseProduct(r.S.head<3>());
     //   dtau_i/dln lambda_j = 2 tau_i [i = j] + c_i D_ij c_j
-    const Mat3 M = c.asDiagonal() * r.D.topLeftCorner<3, 3>() * c.asDiagonal() + Mat3((2 * tau).asDiagonal());
+    const Mat3 M =
+        c.asDiagonal() * r.D.topLeftCorner<3, 3>() * c.asDiagonal() + Mat3((2 * tau).asDiagonal());
     Pulled s;
     s.W = r.W;
     s.tau_x_minus_y = tau[0] - tau[1];
@@ -60,9 +62,12 @@ struct Pull {
   }
 };
 
-bool small(const Vec2& g, const Vec2& scale, double relative) { return (g.cwiseAbs().array() <= relative * scale.array()).all(); }
+bool small(const Vec2& g, const Vec2& scale, double relative) {
+  return (g.cwiseAbs().array() <= relative * scale.array()).all();
+}
 
-// Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of the stretches by a fifth
+// Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of
+// the stretches by a fifth
 Vec2 step(const Pulled& s) {
   Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.H);
   const Vec2 along = eigen.eigenvectors().transpose() * s.g;
@@ -74,7 +79,8 @@ Vec2 step(const Pulled& s) {
 
 Uniaxial state(const Material& material, double lambda, bool incompressible) {
   // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
-  constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps, acceptable = 1e6 * eps;
+  constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps,
+                   acceptable = 1e6 * eps;
   Uniaxial u;
   u.stretch[0] = lambda;
   if (!possible_stretch(lambda)) return u;
@@ -82,13 +88,15 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
   double ln_J = 0, z = -0.5 * pull.x;
   std::optional<Pulled> s = pull.at(ln_J, z);
   bool downhill = true;
-  for (int iteration = 0; s && downhill && iteration < 100 && !small(s->g, s->scale, enough); ++iteration) {
+  for (int iteration = 0; s && downhill && iteration < 100 && !small(s->g, s->scale, enough);
+       ++iteration) {
     Vec2 d = step(*s);
     downhill = false;
     for (int halving = 0; halving < 40 && !downhill; ++halving, d /= 2) {
       const auto next = pull.at(ln_J + d[0], z + d[1]);
       // near the minimum W has no digits left to compare, there the slope decides
-      downhill = next && (next->W < s->W || next->g.cwiseQuotient(s->scale).norm() < 0.5 * s->g.cwiseQuotient(s->scale).norm());
+      downhill = next && (next->W < s->W || next->g.cwiseQuotient(s->scale).norm() <
+                                                0.5 * s->g.cwiseQuotient(s->scale).norm());
       if (!downhill) continue;
       ln_J += d[0], z += d[1];
       s = next;
@@ -105,18 +113,25 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
 
 }  // namespace
 
-Uniaxial uniaxial(const Material& material, double lambda) { return state(material, lambda, false); }
-Uniaxial uniaxial_incompressible(const Material& material, double lambda) { return state(material, lambda, true); }
+Uniaxial uniaxial(const Material& material, double lambda) {
+  return state(material, lambda, false);
+}
+Uniaxial uniaxial_incompressible(const Material& material, double lambda) {
+  return state(material, lambda, true);
+}
 
-std::optional<std::vector<double>> uniaxial_curve(const Material& material, std::span<const double> strain, StressMeasure measure,
-                                                  Dilatation dilatation) {
+std::optional<std::vector<double>> uniaxial_curve(const Material& material,
+                                                  std::span<const double> strain,
+                                                  StressMeasure measure, Dilatation dilatation) {
   std::vector<double> stress;
   stress.reserve(strain.size());
   for (double e : strain) {
     const Uniaxial u = state(material, 1 + e, dilatation == Dilatation::incompressible);
     if (!u.converged) return std::nullopt;
     const double nominal = u.sigma * (1 + u.J_minus_1) / (1 + e);
-    stress.push_back(measure == StressMeasure::cauchy ? u.sigma : measure == StressMeasure::nominal ? nominal : nominal / (1 + e));
+    stress.push_back(measure == StressMeasure::cauchy    ? u.sigma
+                     : measure == StressMeasure::nominal ? nominal
+                                                         : nominal / (1 + e));
   }
   return stress;
 }

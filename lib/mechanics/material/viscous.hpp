@@ -1,10 +1,12 @@
-// Finite linear viscoelasticity on the isochoric stress: branches beside the law, which is what is left after all have relaxed.
+// Finite linear viscoelasticity on the isochoric stress: branches beside the law, which is what is
+// left after all have relaxed.
 //                                                                            [S87], [H00] section 6.10
 //   S = S_vol + S_iso + sum Q_i,   Q_i' + Q_i / tau_i = gamma_i S_i',   S_i: S_iso of the terms that the branch belongs to
 // Over an increment, exact where S_i is linear in time, else of second order [TPG70]:
 //   Q_i(n+1) = keep Q_i(n) + follow (S_i(n+1) - S_i(n)),   keep = exp(-x),  follow = gamma_i (1 - exp(-x)) / x,  x = seconds / tau_i
-// short increments: 1 + sum gamma_i times the stress; long ones: the law alone. Q_i are second Piola-Kirchhoff stresses, which
-// rotations leave alone. With H = sum keep Q_i(n) - follow S_i(n), known when the increment begins,
+// short increments: 1 + sum gamma_i times the stress; long ones: the law alone. Q_i are second
+// Piola-Kirchhoff stresses, which rotations leave alone. With H = sum keep Q_i(n) - follow S_i(n),
+// known when the increment begins,
 //   S_iso + sum Q_i = (1 + sum follow) S_iso + H        and the tangent is (1 + sum follow) D_iso, term by term
 #pragma once
 
@@ -26,18 +28,20 @@ struct ViscousBranch {
   static void fields(auto& v) {
     v(&ViscousBranch::tau, "tau", unit::s, "relaxation time", required, positive);
     v(&ViscousBranch::gamma, "gamma", unit::none,
-      "stress of the branch at once after a step, over that of the terms it belongs to after all has relaxed", required,
-      at_least(0));
+      "stress of the branch at once after a step, over that of the terms it belongs to after all has relaxed",
+      required, at_least(0));
     v(&ViscousBranch::of, "of", unit::none, "energy terms that it belongs to");
   }
 };
 
-// A continuous spectrum [F93]: relaxation 1 + c integral over tau from tau1 to tau2 of exp(-t/tau) / tau
+// A continuous spectrum [F93]: relaxation 1 + c integral over tau from tau1 to tau2 of exp(-t/tau)
+// / tau
 struct Spectrum {
   double c = 0, tau1 = 0, tau2 = 0;
   BranchOf of = BranchOf::all;
   static void fields(auto& v) {
-    v(&Spectrum::c, "c", unit::none, "density: gamma of the branches of a decade together, over ln 10", required, at_least(0));
+    v(&Spectrum::c, "c", unit::none,
+      "density: gamma of the branches of a decade together, over ln 10", required, at_least(0));
     v(&Spectrum::tau1, "tau1", unit::s, "shortest relaxation time", required, positive);
     v(&Spectrum::tau2, "tau2", unit::s, "longest relaxation time", required, positive);
     v(&Spectrum::of, "of", unit::none, "energy terms that it belongs to");
@@ -59,8 +63,9 @@ inline BranchStep branch_step(const ViscousBranch& branch, double seconds) {
   const double x = seconds / branch.tau;
   return {std::exp(-x), branch.gamma * (x > 0 ? -std::expm1(-x) / x : 1)};
 }
-// What another rule of second order, the midpoint rule exp(-x/2) in place of (1 - exp(-x))/x, would make of the same change of
-// stress: their difference tells the error of the increment, less than that where the stress changes evenly.
+// What another rule of second order, the midpoint rule exp(-x/2) in place of (1 - exp(-x))/x, would
+// make of the same change of stress: their difference tells the error of the increment, less than
+// that where the stress changes evenly.
 inline double branch_step_error(const ViscousBranch& branch, double seconds) {
   const double x = seconds / branch.tau;
   return branch.gamma * (x > 0 ? std::abs(-std::expm1(-x) / x - std::exp(-x / 2)) : 0);
@@ -71,6 +76,8 @@ struct Amplified {
   double matrix = 1, fibres = 1;
 };
 void amplify(Amplified& amplified, BranchOf of, double follow);
-inline Amplified only(BranchOf of) { return {of == BranchOf::fibres ? 0. : 1., of == BranchOf::matrix ? 0. : 1.}; }
+inline Amplified only(BranchOf of) {
+  return {of == BranchOf::fibres ? 0. : 1., of == BranchOf::matrix ? 0. : 1.};
+}
 
 }  // namespace langer

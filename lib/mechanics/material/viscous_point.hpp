@@ -1,4 +1,4 @@
-// One viscous point led through states of its own, as homogeneous tests are.                           material/viscous.hpp
+// One viscous point led through states of its own, as homogeneous tests are. material/viscous.hpp
 #pragma once
 
 #include <span>
@@ -14,16 +14,18 @@ struct PointMemory {
   Vec6 H = Vec6::Zero();
 };
 
-// of the increment: a potential W of S, not the stored energy;  W = matrix W_matrix + fibres W_fibres + H : E,  D = 4 d2W/dC2
-Response incremental(const Material& material, const Mat3& C, std::span<const Vec3> a, const PointMemory& memory,
-                     bool with_tangent = true);
+// of the increment: a potential W of S, not the stored energy;  W = matrix W_matrix + fibres
+// W_fibres + H : E,  D = 4 d2W/dC2
+Response incremental(const Material& material, const Mat3& C, std::span<const Vec3> a,
+                     const PointMemory& memory, bool with_tangent = true);
 
 class ViscousPoint {
  public:
-  ViscousPoint(const Material& material, std::vector<Vec3> fibres);  // at rest; refers to the material
-  PointMemory begin(double seconds);                                 // an increment
-  void accept(const Mat3& F);                                        // its end
-  Vec6 branches() const;                                             // sum Q_i [MPa]
+  ViscousPoint(const Material& material,
+               std::vector<Vec3> fibres);  // at rest; refers to the material
+  PointMemory begin(double seconds);       // an increment
+  void accept(const Mat3& F);              // its end
+  Vec6 branches() const;                   // sum Q_i [MPa]
 
  private:
   const Material& material_;

@@ -1,4 +1,5 @@
-// Laws of volume change: U(J), an alternative each. One more is its header and its name in the list.
+// Laws of volume change: U(J), an alternative each. One more is its header and its name in the
+// list.
 //   of_change(J - 1) -> U, dU/dJ = mean stress p [MPa], d2U/dJ2;   at J = 1 the latter is the bulk modulus
 #pragma once
 
@@ -15,10 +16,13 @@ using Volume = std::variant<QuadraticVolume, LogarithmicVolume, SimoTaylorVolume
 
 template <class T>
 Energy<T> volume_energy(const Volume& volume, const T& J_minus_1) {
-  return std::visit([&](const auto& law) { return law.of_change(nan_outside_domain(law, J_minus_1)); }, volume);
+  return std::visit(
+      [&](const auto& law) { return law.of_change(nan_outside_domain(law, J_minus_1)); }, volume);
 }
 
-inline double bulk_modulus(const Volume& volume) { return volume_energy(volume, 0.).ddW; }  // at rest [MPa]
+inline double bulk_modulus(const Volume& volume) {
+  return volume_energy(volume, 0.).ddW;
+}  // at rest [MPa]
 
 // p = kappa (J - 1) for every J
 inline bool linear_pressure(const Volume& volume) {

@@ -1,6 +1,7 @@
-// Yeoh's polynomial  W = a1 x + a2 x^2 + a3 x^3,  x = I1_bar - 3.                      [A23] eq. 13, [Y93]
-// YeohI2 is the same polynomial of I2_bar - 3: the terms C4..C6 of the law (44).
-// Coefficients in MPa; a negative a1 means a negative shear modulus at rest (allowed, reported by fit).
+// Yeoh's polynomial  W = a1 x + a2 x^2 + a3 x^3,  x = I1_bar - 3.                      [A23] eq.
+// 13, [Y93] YeohI2 is the same polynomial of I2_bar - 3: the terms C4..C6 of the law (44).
+// Coefficients in MPa; a negative a1 means a negative shear modulus at rest (allowed, reported by
+// fit).
 #pragma once
 
 #include "core/base/fields.hpp"
@@ -18,7 +19,8 @@ struct Yeoh {
   static constexpr Invariant of = Invariant::I1_bar;
   double a1 = 0, a2 = 0, a3 = 0;
   static void fields(auto& v) {
-    v(&Yeoh::a1, "a1", unit::MPa, "coefficient of (I1_bar - 3): half the initial shear modulus", required);
+    v(&Yeoh::a1, "a1", unit::MPa, "coefficient of (I1_bar - 3): half the initial shear modulus",
+      required);
     v(&Yeoh::a2, "a2", unit::MPa, "coefficient of (I1_bar - 3)^2");
     v(&Yeoh::a3, "a3", unit::MPa, "coefficient of (I1_bar - 3)^3");
   }

@@ -14,7 +14,8 @@ std::vector<int> corners_at(std::span<const int> cell, const std::array<int, 3>&
   std::vector<int> corners;
   for (std::size_t c = 0; c < 8; ++c) {
     bool near = true;
-    for (std::size_t k = 0; k < 3; ++k) near = near && (place[k] == 1 || (place[k] == 2) == (Hex8::corner[c][k] > 0));
+    for (std::size_t k = 0; k < 3; ++k)
+      near = near && (place[k] == 1 || (place[k] == 2) == (Hex8::corner[c][k] > 0));
     if (near) corners.push_back(cell[c]);
   }
   return corners;
@@ -40,7 +41,8 @@ void each_middle(std::span<const int> cell, const On& on) {
 
 }  // namespace
 
-CutMesh::CutMesh(Mesh mesh) : mesh_(std::move(mesh)), level_(static_cast<std::size_t>(mesh_.n_cells()), 0) {
+CutMesh::CutMesh(Mesh mesh)
+    : mesh_(std::move(mesh)), level_(static_cast<std::size_t>(mesh_.n_cells()), 0) {
   if (mesh_.type != CellType::hex8 || mesh_.section || !mesh_.hanging.empty())
     throw std::logic_error("cells of this mesh cannot be cut");
 }
@@ -69,8 +71,10 @@ int CutMesh::middle(const std::vector<int>& corners) {
     mesh_.X.push_back(X / static_cast<double>(corners.size()));
     const int node = mesh_.n_nodes() - 1;
     for (auto& [name, set] : mesh_.node_sets)
-      if (corners.size() < 8 && std::all_of(corners.begin(), corners.end(),
-                                            [&, &nodes = set](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); }))
+      if (corners.size() < 8 &&
+          std::all_of(corners.begin(), corners.end(), [&, &nodes = set](int n) {
+            return std::binary_search(nodes.begin(), nodes.end(), n);
+          }))
         set.push_back(node);  // the largest so far
     return node;
   };
@@ -123,10 +127,12 @@ void CutMesh::cut(std::vector<char> marked) {
     std::vector<Facet> parts;
     for (const Facet& f : facets)
       for (int child = 0; child < (marked[f.cell] ? 8 : 1); ++child)
-        if (!marked[f.cell] || (child >> f.local / 2 & 1) == f.local % 2) parts.push_back({first[f.cell] + child, f.local});
+        if (!marked[f.cell] || (child >> f.local / 2 & 1) == f.local % 2)
+          parts.push_back({first[f.cell] + child, f.local});
     facets = std::move(parts);
   }
-  mesh_.connectivity = std::move(to.connectivity), mesh_.body = std::move(to.body), mesh_.frames = std::move(to.frames);
+  mesh_.connectivity = std::move(to.connectivity), mesh_.body = std::move(to.body),
+  mesh_.frames = std::move(to.frames);
   level_ = std::move(level);
   find_hanging();
 }
@@ -137,7 +143,9 @@ void CutMesh::find_hanging() {
     each_middle(mesh_.cell(e), [&](const std::vector<int>& corners) {
       if (corners.size() == 2) {
         const auto at = edges_.find(key_of<2>(corners));
-        if (at != edges_.end()) found[at->second] = {at->second, {at->first[0], at->first[1], at->first[0], at->first[1]}};
+        if (at != edges_.end())
+          found[at->second] = {at->second,
+                               {at->first[0], at->first[1], at->first[0], at->first[1]}};
       } else {
         const auto at = facets_.find(key_of<4>(corners));
         if (at != facets_.end()) found[at->second] = {at->second, at->first};
@@ -156,7 +164,8 @@ bool has_part_of(const CutRegion& region, const Mesh& mesh, int e) {
   if (!region.round) return true;
   const Vec3 middle = 0.5 * (region.from + region.to), half = 0.5 * (region.to - region.from);
   double sum = 0;  // of the nearest point, in half axes
-  for (int k : {0, 2}) sum += std::pow((std::clamp(middle[k], low[k], high[k]) - middle[k]) / half[k], 2);
+  for (int k : {0, 2})
+    sum += std::pow((std::clamp(middle[k], low[k], high[k]) - middle[k]) / half[k], 2);
   return sum < 1;
 }
 

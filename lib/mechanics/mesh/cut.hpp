@@ -1,4 +1,5 @@
-// Cells cut into eight, beside others that are not: where results ask for short cells, and nowhere else.
+// Cells cut into eight, beside others that are not: where results ask for short cells, and nowhere
+// else.
 //   2:1      cells that share a node differ by one cut at most; what that asks for is cut too. So an edge or a facet of a larger cell has
 //            one node in its middle at most, and none of those that it hangs on hangs itself (Mesh::hanging, mesh/hanging.hpp)
 //   places   new nodes lie in the middles of edges, facets and cells: the body keeps the surface that it had

@@ -12,24 +12,29 @@ namespace {
 
 // bit by bit: files tell -0 from 0
 bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // from e_x towards e_z, which is about -e_y
-Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) { return Eigen::AngleAxisd(-radians(angle_deg), frame.col(1)) * a; }
+Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) {
+  return Eigen::AngleAxisd(-radians(angle_deg), frame.col(1)) * a;
+}
 
 }  // namespace
 
 void Directions::append(std::vector<Vec3> a) {
-  if (stored_.empty() || !same_bits(stored_.back(), a)) first_.push_back(n_cells_), stored_.push_back(std::move(a));
+  if (stored_.empty() || !same_bits(stored_.back(), a))
+    first_.push_back(n_cells_), stored_.push_back(std::move(a));
   ++n_cells_;
 }
 
 std::span<const Vec3> Directions::of(int cell) const {
   if (cell >= n_cells_) return {};
-  return stored_[static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), cell) - first_.begin() - 1)];
+  return stored_[static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), cell) -
+                                          first_.begin() - 1)];
 }
 
 Directions Directions::of_cells(std::span<const int> cells) const {
@@ -51,12 +56,15 @@ Vec3 fibre_direction(double alpha_deg, const Mat3& frame) {
 
 Directions make_directions(const Mesh& mesh, const std::vector<std::vector<double>>& angles,
                            const std::vector<FirstFamily>& fields) {
-  const auto is_there = [](const FirstFamily& field) { return !std::holds_alternative<std::monostate>(field); };
+  const auto is_there = [](const FirstFamily& field) {
+    return !std::holds_alternative<std::monostate>(field);
+  };
   Directions directions(std::any_of(fields.begin(), fields.end(), is_there));
   const FirstFamily no_field;
   std::vector<std::size_t> cells_before(angles.size(), 0);  // of the same body
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const std::size_t body = angles.size() > 1 ? static_cast<std::size_t>(mesh.body[e]) : 0, i = cells_before[body]++;
+    const std::size_t body = angles.size() > 1 ? static_cast<std::size_t>(mesh.body[e]) : 0,
+                      i = cells_before[body]++;
     const Mat3 frame = mesh.frames.empty() ? Mat3(Mat3::Identity()) : mesh.frames[e];
     const FirstFamily& first = fields.empty() ? no_field : fields[body];
     std::vector<Vec3> a;

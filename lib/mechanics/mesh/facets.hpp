@@ -9,7 +9,8 @@
 
 namespace langer {
 
-// as mesh/reference.hpp orders them: corners counter-clockwise from outside, middles of edges, the middle
+// as mesh/reference.hpp orders them: corners counter-clockwise from outside, middles of edges, the
+// middle
 std::vector<int> facet_nodes(const Mesh& mesh, const Facet& facet);
 // its corners only, ascending: the same for the two cells that share it; a triangle's begin with -1
 std::array<int, 4> facet_key(const Mesh& mesh, const Facet& facet);

@@ -1,4 +1,5 @@
-// The orthonormal frame of each cell, in which the fibres' angle is measured.                     [A23] eq. 1, section 4.4
+// The orthonormal frame of each cell, in which the fibres' angle is measured. [A23] eq. 1,
+// section 4.4
 //   global         the coordinate axes
 //   element_edges  as the cell's own numbering has it: e_x along its first edge (node 0 to 1, mean of the four xi edges), e_y the
 //                  part of its second edge (node 0 to 3) normal to e_x, e_z = e_x x e_y. The block meshes number the second

@@ -9,13 +9,15 @@ namespace langer {
 
 MovingNodes::MovingNodes(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.hanging.empty()) return;
-  if (mesh.type != CellType::hex8) throw std::logic_error("nodes hang in a mesh of other cells than hex8");
+  if (mesh.type != CellType::hex8)
+    throw std::logic_error("nodes hang in a mesh of other cells than hex8");
   std::vector<const HangingNode*> hangs(mesh.X.size(), nullptr);
   for (const HangingNode& h : mesh.hanging) hangs[h.node] = &h;
   row_.assign(mesh.n_cells(), -1);
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const auto nodes = mesh.cell(e);
-    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return hangs[n] != nullptr; })) take(e, hangs);
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return hangs[n] != nullptr; }))
+      take(e, hangs);
   }
 }
 
@@ -25,19 +27,26 @@ void MovingNodes::take(int e, const std::vector<const HangingNode*>& hangs) {
   std::vector<int> others;  // ascending
   for (std::size_t a = 0; a < 8; ++a) {
     moves[a] = hangs[own[a]] ? -1 : own[a];
-    if (hangs[own[a]]) others.insert(others.end(), hangs[own[a]]->of.begin(), hangs[own[a]]->of.end());
+    if (hangs[own[a]])
+      others.insert(others.end(), hangs[own[a]]->of.begin(), hangs[own[a]]->of.end());
   }
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());
-  std::erase_if(others, [&](int n) { return std::find(moves.begin(), moves.end(), n) != moves.end(); });
+  std::erase_if(others,
+                [&](int n) { return std::find(moves.begin(), moves.end(), n) != moves.end(); });
   std::size_t next = 0;
   for (int& n : moves)
     if (n < 0 && next < others.size()) n = others[next++];
-  const bool one_for_each = next == others.size() && std::find(moves.begin(), moves.end(), -1) == moves.end();
-  const bool hang_again = std::any_of(others.begin(), others.end(), [&](int n) { return hangs[n] != nullptr; });
-  if (!one_for_each || hang_again) throw std::logic_error("a cell beside cells more than twice as long");
+  const bool one_for_each =
+      next == others.size() && std::find(moves.begin(), moves.end(), -1) == moves.end();
+  const bool hang_again =
+      std::any_of(others.begin(), others.end(), [&](int n) { return hangs[n] != nullptr; });
+  if (!one_for_each || hang_again)
+    throw std::logic_error("a cell beside cells more than twice as long");
   MatX C = MatX::Zero(8, 8);
-  const auto slot = [&](int n) { return std::find(moves.begin(), moves.end(), n) - moves.begin(); };
+  const auto slot = [&](int n) {
+    return std::find(moves.begin(), moves.end(), n) - moves.begin();
+  };
   for (Eigen::Index a = 0; a < 8; ++a) {
     const HangingNode* h = hangs[own[static_cast<std::size_t>(a)]];
     if (!h)
@@ -53,10 +62,13 @@ std::span<const int> MovingNodes::of(int e) const {
   return row_.empty() || row_[e] < 0 ? mesh_.cell(e) : std::span<const int>(nodes_[row_[e]]);
 }
 
-const MatX* MovingNodes::weights(int e) const { return row_.empty() || row_[e] < 0 ? nullptr : &weights_[row_[e]]; }
+const MatX* MovingNodes::weights(int e) const {
+  return row_.empty() || row_[e] < 0 ? nullptr : &weights_[row_[e]];
+}
 
 const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node) {
-  const auto at = std::lower_bound(hanging.begin(), hanging.end(), node, [](const HangingNode& h, int n) { return h.node < n; });
+  const auto at = std::lower_bound(hanging.begin(), hanging.end(), node,
+                                   [](const HangingNode& h, int n) { return h.node < n; });
   return at != hanging.end() && at->node == node ? &*at : nullptr;
 }
 
@@ -64,7 +76,8 @@ std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
   std::sort(nodes.begin(), nodes.end());
   const std::vector<int> own = nodes;
   for (const HangingNode& h : mesh.hanging)
-    if (std::all_of(h.of.begin(), h.of.end(), [&](int n) { return std::binary_search(own.begin(), own.end(), n); }))
+    if (std::all_of(h.of.begin(), h.of.end(),
+                    [&](int n) { return std::binary_search(own.begin(), own.end(), n); }))
       nodes.push_back(h.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -79,7 +92,8 @@ std::string hanging_fault(const Mesh& mesh) {
     before = h.node;
     Vec3 middle = Vec3::Zero();
     double size = 0;
-    for (int n : h.of) middle += 0.25 * mesh.X[n], size = std::max(size, (mesh.X[n] - mesh.X[h.of[0]]).norm());
+    for (int n : h.of)
+      middle += 0.25 * mesh.X[n], size = std::max(size, (mesh.X[n] - mesh.X[h.of[0]]).norm());
     if (!((middle - mesh.X[h.node]).norm() <= 1e-6 * size))
       return fmt::format("node {}, which is not in the middle of those it hangs on", h.node);
   }

@@ -1,6 +1,7 @@
-// What moves a cell beside larger ones. A hanging node has no displacement of its own: u = (u_a + u_b) / 2 in the middle of an edge,
-// the mean of four in that of a facet (Mesh::hanging). A cell with m of them has m corners of others in their place, those of the larger
-// cell that it was cut from; so it has eight nodes that move it, and as shape functions
+// What moves a cell beside larger ones. A hanging node has no displacement of its own: u = (u_a +
+// u_b) / 2 in the middle of an edge, the mean of four in that of a facet (Mesh::hanging). A cell
+// with m of them has m corners of others in their place, those of the larger cell that it was cut
+// from; so it has eight nodes that move it, and as shape functions
 //   N'_b = sum_a C_ab N_a,   u_a = sum_b C_ab u_b   at its own eight nodes
 // with which forces, tangents and dilatations are those of any other cell.
 #pragma once
@@ -52,7 +53,8 @@ void spread_to_hanging(const Mesh& mesh, Values& values) {
 // these, ascending, and those that hang on no others than these
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes);
 
-// "", or why nothing can hang so: other cells than hex8, nodes in no order, away from the middle, on some that hang themselves
+// "", or why nothing can hang so: other cells than hex8, nodes in no order, away from the middle,
+// on some that hang themselves
 std::string hanging_fault(const Mesh& mesh);
 
 }  // namespace langer

@@ -20,16 +20,20 @@
 
 namespace langer {
 
-// Whatever else depends on the type of a cell stands in its row, the reference cell (mesh/reference.hpp).
+// Whatever else depends on the type of a cell stands in its row, the reference cell
+// (mesh/reference.hpp).
 enum class CellType { hex8, hex27, tet15 };
 constexpr auto names(CellType) { return std::array{"hex8", "hex27", "tet15"}; }
-constexpr int nodes_per_cell(CellType type) { return std::array{8, 27, 15}[static_cast<std::size_t>(type)]; }
+constexpr int nodes_per_cell(CellType type) {
+  return std::array{8, 27, 15}[static_cast<std::size_t>(type)];
+}
 struct ReferenceCell;
 const ReferenceCell& reference(CellType type);
 
 struct Facet {
   int cell = 0;
-  int local = 0;  // hexahedra: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta; tetrahedra: Tet15::facet
+  int local =
+      0;  // hexahedra: 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta; tetrahedra: Tet15::facet
 };
 
 enum class SectionOf { axisymmetric, plane_strain };

@@ -14,7 +14,8 @@ namespace {
 class Places {
  public:
   Places(const std::vector<Vec3>& X, double width) : X_(X), width_(width) {
-    for (std::size_t i = 0; i < X.size(); ++i) boxes_[key(box(X[i], 0), box(X[i], 1), box(X[i], 2))].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < X.size(); ++i)
+      boxes_[key(box(X[i], 0), box(X[i], 1), box(X[i], 2))].push_back(static_cast<int>(i));
   }
   int at(const Vec3& x, double tolerance) const {
     const Vec3 r = Vec3::Constant(tolerance);

@@ -14,7 +14,8 @@ struct MeshImage {
   std::vector<int> node, cell;   // image of each
 };
 
-// Nothing where a node or cell has no image, or the image belongs to another body. Positions agree within 1e-9 of the size.
+// Nothing where a node or cell has no image, or the image belongs to another body. Positions agree
+// within 1e-9 of the size.
 std::optional<MeshImage> find_image(const Mesh& mesh, const Mat3& turn, const Vec3& centre);
 
 }  // namespace langer

@@ -92,8 +92,11 @@ void turn_outwards(Mesh& mesh, const Vec3& axis, double core, Blocks blocks) {
     for (Mat3 R = quarter; !R.isIdentity(); R = quarter * R)
       if ((edges * R).col(0).dot(out) > (edges * turn).col(0).dot(out)) turn = R;
     if (blocks == Blocks::mirrored) {
-      const Vec3 around = (edges * turn).col(2);  // nearer to z in the blocks at +x and -x, nearer to x in the others
-      if ((std::abs(around[2]) > std::abs(around[0]) ? around[2] : around[0]) < 0) turn = turn * over;
+      const Vec3 around =
+          (edges * turn)
+              .col(2);  // nearer to z in the blocks at +x and -x, nearer to x in the others
+      if ((std::abs(around[2]) > std::abs(around[0]) ? around[2] : around[0]) < 0)
+        turn = turn * over;
     }
     turn_cell(mesh, e, turn);
   }
@@ -104,7 +107,8 @@ void number_in_order(Mesh& mesh) {
   const std::vector<int> nodes = sorted_by_place(mesh.X, unit);
   std::vector<int> number(nodes.size());
   std::vector<Vec3> X;
-  for (std::size_t i = 0; i < nodes.size(); ++i) number[nodes[i]] = static_cast<int>(i), X.push_back(mesh.X[nodes[i]]);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    number[nodes[i]] = static_cast<int>(i), X.push_back(mesh.X[nodes[i]]);
   mesh.X = std::move(X);
   for (int& n : mesh.connectivity) n = number[n];
 
@@ -115,7 +119,8 @@ void number_in_order(Mesh& mesh) {
     centres.push_back(centre);
   }
   std::vector<int> connectivity;
-  for (int e : sorted_by_place(centres, unit)) connectivity.insert(connectivity.end(), mesh.cell(e).begin(), mesh.cell(e).end());
+  for (int e : sorted_by_place(centres, unit))
+    connectivity.insert(connectivity.end(), mesh.cell(e).begin(), mesh.cell(e).end());
   mesh.connectivity = std::move(connectivity);
 }
 
@@ -152,11 +157,13 @@ void make_symmetric(Mesh& mesh, const Vec3& centre) {
   for (const Vec3& x : mesh.X) from_centre.push_back(x - centre);
   const Finder finder(from_centre, unit);
   const auto unchanged = [&](auto image) {
-    return std::all_of(from_centre.begin(), from_centre.end(), [&](const Vec3& x) { return finder.at(image(x)).has_value(); });
+    return std::all_of(from_centre.begin(), from_centre.end(),
+                       [&](const Vec3& x) { return finder.at(image(x)).has_value(); });
   };
   const bool x_mirror = unchanged([](const Vec3& x) { return Vec3(-x[0], x[1], x[2]); });
   const bool z_mirror = unchanged([](const Vec3& x) { return Vec3(x[0], x[1], -x[2]); });
-  const bool exchange = x_mirror && z_mirror && unchanged([](const Vec3& x) { return Vec3(x[2], x[1], x[0]); });
+  const bool exchange =
+      x_mirror && z_mirror && unchanged([](const Vec3& x) { return Vec3(x[2], x[1], x[0]); });
 
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     // the image in the sector x >= 0, z >= 0, x >= z: as far as the mesh has these symmetries

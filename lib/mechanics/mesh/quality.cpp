@@ -41,7 +41,8 @@ double volume(const Mesh& mesh) {
   const ReferenceCell& cell = mesh.cell();
   double volume = 0;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int g = 0; g < cell.n_gauss; ++g) volume += cell.weight[g] * jacobian(mesh, e, cell.gauss[g]).determinant();
+    for (int g = 0; g < cell.n_gauss; ++g)
+      volume += cell.weight[g] * jacobian(mesh, e, cell.gauss[g]).determinant();
   return volume;
 }
 
@@ -59,7 +60,8 @@ Quality shapes(const Mesh& mesh, bool of_section) {
       notice(J.determinant(), e, cell.node[a]);
       if (a >= cell.n_corners) continue;
       const double lengths = J.colwise().norm().prod();  // 0 where two nodes are at one place
-      q.least_scaled_jacobian = std::min(q.least_scaled_jacobian, lengths > 0 ? J.determinant() / lengths : 0);
+      q.least_scaled_jacobian =
+          std::min(q.least_scaled_jacobian, lengths > 0 ? J.determinant() / lengths : 0);
     }
     for (int g = 0; g < cell.n_gauss; ++g) {
       const double det = jacobian(mesh, e, cell.gauss[g]).determinant();
@@ -73,7 +75,8 @@ Quality shapes(const Mesh& mesh, bool of_section) {
       shortest = std::min(shortest, length), longest = std::max(longest, length);
     }
     q.largest_aspect = std::max(q.largest_aspect, shortest > 0 ? longest / shortest : infinity);
-    q.shortest_edge = std::min(q.shortest_edge, shortest), q.longest_edge = std::max(q.longest_edge, longest);
+    q.shortest_edge = std::min(q.shortest_edge, shortest),
+    q.longest_edge = std::max(q.longest_edge, longest);
   }
   return q;
 }
@@ -89,9 +92,12 @@ Quality quality(const Mesh& mesh) {
 
 std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double closer_than) {
   if (mesh.section) return coincident_nodes(as_plate(mesh), closer_than);
-  const double edge = 16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
+  const double edge =
+      16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
   using Cell = std::array<std::int64_t, 3>;
-  const auto hash = [](const Cell& c) { return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791); };
+  const auto hash = [](const Cell& c) {
+    return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+  };
   std::unordered_multimap<std::size_t, int> nodes_of;
   nodes_of.reserve(static_cast<std::size_t>(mesh.n_nodes()));
   for (int i = 0; i < mesh.n_nodes(); ++i) {
@@ -106,7 +112,8 @@ std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double clos
         for (std::int64_t c = low[2]; c <= high[2]; ++c) {
           const auto [from, to] = nodes_of.equal_range(hash({a, b, c}));
           for (auto it = from; it != to; ++it)
-            if ((mesh.X[static_cast<std::size_t>(it->second)] - X).norm() <= closer_than) return std::array{it->second, i};
+            if ((mesh.X[static_cast<std::size_t>(it->second)] - X).norm() <= closer_than)
+              return std::array{it->second, i};
         }
     Cell own;
     for (int k = 0; k < 3; ++k) own[k] = static_cast<std::int64_t>(std::floor(X[k] / edge));
@@ -117,12 +124,14 @@ std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double clos
 
 void refuse_folded(const Quality& q, const std::string& key) {
   if (q.least_jacobian > 0) return;
-  throw Failure(Exit::config, Error{{},
-                                    key,
-                                    fmt::format("cell {} is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})", q.at_cell,
-                                                q.least_jacobian, q.at[0], q.at[1], q.at[2]),
-                                    "a positive Jacobian everywhere",
-                                    "check sizes and radii; more divisions may help"});
+  throw Failure(
+      Exit::config,
+      Error{{},
+            key,
+            fmt::format("cell {} is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})",
+                        q.at_cell, q.least_jacobian, q.at[0], q.at[1], q.at[2]),
+            "a positive Jacobian everywhere",
+            "check sizes and radii; more divisions may help"});
 }
 
 }  // namespace langer

@@ -1,4 +1,5 @@
-// How well shaped the cells are; a mesh with a Jacobian that is not positive is refused. Of a section, in its plane.
+// How well shaped the cells are; a mesh with a Jacobian that is not positive is refused. Of a
+// section, in its plane.
 //   jacobian          dX/dxi (3,3) [mm]: columns along the xi, eta, zeta edges
 //   scaled Jacobian   det of the three normalised edges at a corner: 1 for a brick, <= 0 for a folded cell
 //   aspect            longest edge of a cell over its shortest
@@ -19,7 +20,7 @@ struct Quality {
   double least_scaled_jacobian = 0;
   double largest_aspect = 0;
   double shortest_edge = 0, longest_edge = 0;  // [mm]
-  double volume = 0;                           // [mm^3]; of the whole body that a section stands for
+  double volume = 0;  // [mm^3]; of the whole body that a section stands for
 };
 
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi);

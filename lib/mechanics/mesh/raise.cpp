@@ -21,7 +21,8 @@ std::vector<int> corners_around(const ReferenceCell& cell, std::size_t node) {
   return corners;
 }
 
-// Shape functions of the cell whose nodes are the corners and the middles of edges: of a hexahedron serendipity
+// Shape functions of the cell whose nodes are the corners and the middles of edges: of a hexahedron
+// serendipity
 VecX shape_with_edges(const ReferenceCell& cell, const Vec3& xi) {
   const VecX L = cell.corner_shape(xi);
   VecX N = VecX::Zero(L.size() + static_cast<Eigen::Index>(cell.edge.size()));
@@ -37,8 +38,8 @@ VecX shape_with_edges(const ReferenceCell& cell, const Vec3& xi) {
 
 // given: nodes of each cell that are there; place_of(local, nodes): of the new node `local`
 template <class PlaceOf>
-Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity, const ReferenceCell& cell, std::size_t given,
-            const PlaceOf& place_of) {
+Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity,
+            const ReferenceCell& cell, std::size_t given, const PlaceOf& place_of) {
   std::vector<std::vector<int>> between;  // by node of the new cell
   for (std::size_t a = 0; a < cell.node.size(); ++a) between.push_back(corners_around(cell, a));
   Mesh out;
@@ -64,7 +65,8 @@ Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity, co
 // a new node lies between those corners in equal parts
 Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity, CellType to) {
   const ReferenceCell& cell = reference(to);
-  const auto middle = [&](std::size_t, const std::vector<int>& corners, std::span<const int>) -> Vec3 {
+  const auto middle = [&](std::size_t, const std::vector<int>& corners,
+                          std::span<const int>) -> Vec3 {
     Vec3 x = Vec3::Zero();
     for (int b : corners) x += X[b];
     return x / static_cast<double>(corners.size());
@@ -72,16 +74,19 @@ Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity, Ce
   return raised(X, connectivity, cell, static_cast<std::size_t>(cell.n_corners), middle);
 }
 
-Mesh raised_with_edges(const std::vector<Vec3>& X, const std::vector<int>& connectivity, CellType to) {
+Mesh raised_with_edges(const std::vector<Vec3>& X, const std::vector<int>& connectivity,
+                       CellType to) {
   const ReferenceCell& cell = reference(to);
   std::vector<VecX> share;
   for (const Vec3& xi : cell.node) share.push_back(shape_with_edges(cell, xi));
   const auto middle = [&](std::size_t a, const std::vector<int>&, std::span<const int> nodes) {
     Vec3 x = Vec3::Zero();
-    for (std::size_t b = 0; b < nodes.size(); ++b) x += share[a][static_cast<Eigen::Index>(b)] * X[nodes[b]];
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      x += share[a][static_cast<Eigen::Index>(b)] * X[nodes[b]];
     return x;
   };
-  return raised(X, connectivity, cell, static_cast<std::size_t>(cell.n_corners) + cell.edge.size(), middle);
+  return raised(X, connectivity, cell, static_cast<std::size_t>(cell.n_corners) + cell.edge.size(),
+                middle);
 }
 
 void add_new_middles(Mesh& mesh, int first_new) {
@@ -92,11 +97,13 @@ void add_new_middles(Mesh& mesh, int first_new) {
     std::vector<char> in(mesh.X.size());
     for (int n : nodes) in[n] = 1;
     const auto add = [&](std::span<const int> part) {
-      if (std::any_of(part.begin(), part.end(), [&](int n) { return n < first_new && !in[n]; })) return;
+      if (std::any_of(part.begin(), part.end(), [&](int n) { return n < first_new && !in[n]; }))
+        return;
       for (int n : part) in[n] = 1;
     };
     for (const std::vector<int>& of : outer) {
-      for (std::size_t k = 0; k < n_corners; ++k) add(std::array{of[k], of[(k + 1) % n_corners], of[n_corners + k]});
+      for (std::size_t k = 0; k < n_corners; ++k)
+        add(std::array{of[k], of[(k + 1) % n_corners], of[n_corners + k]});
       add(of);
     }
     for (int e = 0; e < mesh.n_cells(); ++e) add(mesh.cell(e));
@@ -106,13 +113,16 @@ void add_new_middles(Mesh& mesh, int first_new) {
   }
 }
 
-Mesh raised(const Mesh& mesh, CellType to) { return to == mesh.type ? mesh : raised(mesh.X, mesh.connectivity, to); }
+Mesh raised(const Mesh& mesh, CellType to) {
+  return to == mesh.type ? mesh : raised(mesh.X, mesh.connectivity, to);
+}
 
 Mesh between_nodes(const Mesh& mesh) {
   Mesh out;
   out.X = mesh.X;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int a : mesh.cell().parts) out.connectivity.push_back(mesh.cell(e)[static_cast<std::size_t>(a)]);
+    for (int a : mesh.cell().parts)
+      out.connectivity.push_back(mesh.cell(e)[static_cast<std::size_t>(a)]);
   return out;
 }
 

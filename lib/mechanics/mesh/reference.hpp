@@ -6,7 +6,8 @@
 //          every node of a facet has a positive share of a pressure on it (a quadratic facet's corners have none);
 //          corners, middles of the edges 01 12 02 03 13 23, of the facets, of the cell; 14 Gauss points, of degree 5
 // Gauss point g of a hexahedron lies towards node g.
-// A new type of cell: its struct and its word in `Cells` here, its tables in reference.cpp, its name in mesh.hpp.
+// A new type of cell: its struct and its word in `Cells` here, its tables in reference.cpp, its
+// name in mesh.hpp.
 #pragma once
 
 #include <algorithm>
@@ -28,15 +29,19 @@ struct Hex8 {
   // xi_a, eta_a, zeta_a
   static constexpr double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  // nodes of local facet f, counter-clockwise seen from outside; 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4 -zeta, 5 +zeta
-  static constexpr int facet[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+  // nodes of local facet f, counter-clockwise seen from outside; 0 -xi, 1 +xi, 2 -eta, 3 +eta, 4
+  // -zeta, 5 +zeta
+  static constexpr int facet[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                      {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
   using Shape = Eigen::Matrix<double, 8, 1>;
   using Gradient = Eigen::Matrix<double, 8, 3>;
 
   static Shape shape(const Vec3& xi) {
     Shape N;
-    for (int a = 0; a < 8; ++a) N[a] = 0.125 * (1 + corner[a][0] * xi[0]) * (1 + corner[a][1] * xi[1]) * (1 + corner[a][2] * xi[2]);
+    for (int a = 0; a < 8; ++a)
+      N[a] = 0.125 * (1 + corner[a][0] * xi[0]) * (1 + corner[a][1] * xi[1]) *
+             (1 + corner[a][2] * xi[2]);
     return N;
   }
 
@@ -44,7 +49,8 @@ struct Hex8 {
   static Gradient gradient(const Vec3& xi) {
     Gradient dN;
     for (int a = 0; a < 8; ++a) {
-      const double f[3] = {1 + corner[a][0] * xi[0], 1 + corner[a][1] * xi[1], 1 + corner[a][2] * xi[2]};
+      const double f[3] = {1 + corner[a][0] * xi[0], 1 + corner[a][1] * xi[1],
+                           1 + corner[a][2] * xi[2]};
       dN(a, 0) = 0.125 * corner[a][0] * f[1] * f[2];
       dN(a, 1) = 0.125 * corner[a][1] * f[0] * f[2];
       dN(a, 2) = 0.125 * corner[a][2] * f[0] * f[1];
@@ -52,7 +58,9 @@ struct Hex8 {
     return dN;
   }
 
-  static Vec3 gauss(int g) { return Vec3(corner[g][0], corner[g][1], corner[g][2]) / std::sqrt(3.0); }
+  static Vec3 gauss(int g) {
+    return Vec3(corner[g][0], corner[g][1], corner[g][2]) / std::sqrt(3.0);
+  }
   static double weight(int) { return 1; }
 };
 
@@ -61,12 +69,13 @@ struct Hex27 {
   static constexpr int n_nodes = 27;
   static constexpr int n_gauss = 27;
   static constexpr int n_dofs = 81;
-  static constexpr double node[27][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
-                                         {-1, 1, 1},                                          // corners
-                                         {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},  // edges: bottom,
-                                         {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},   // top,
-                                         {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},   // upright
-                                         {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},   {0, 0, -1},  {0, 0, 1},  {0, 0, 0}};
+  static constexpr double node[27][3] = {
+      {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+      {-1, 1, 1},                                          // corners
+      {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},  // edges: bottom,
+      {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},   // top,
+      {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},   // upright
+      {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},   {0, 0, -1},  {0, 0, 1},  {0, 0, 0}};
 
   using Shape = Eigen::Matrix<double, 27, 1>;
   using Gradient = Eigen::Matrix<double, 27, 3>;
@@ -106,10 +115,12 @@ struct FacetPoint {
   Vec3 along_1, along_2;
 };
 
-// A cell of Abaqus and CalculiX that becomes one of ours; letters behind the name (C3D8R, C3D10MH) say nothing of its nodes.
+// A cell of Abaqus and CalculiX that becomes one of ours; letters behind the name (C3D8R, C3D10MH)
+// say nothing of its nodes.
 struct AbaqusCell {
   const char* name;
-  std::vector<int> order;  // our node by theirs: all, the corners, or these and the middles of edges
+  std::vector<int>
+      order;  // our node by theirs: all, the corners, or these and the middles of edges
 };
 
 struct InAbaqus {
@@ -118,7 +129,8 @@ struct InAbaqus {
   std::vector<int> sides;        // our facets by theirs, S1 first
 };
 
-// What a cell, the one of first order with its corners, and its facets are called elsewhere; none: not written there.
+// What a cell, the one of first order with its corners, and its facets are called elsewhere; none:
+// not written there.
 struct CellNames {
   const char *shape, *facet_shape;  // "hexahedra", "quadrangles"
   int vtk;
@@ -135,22 +147,24 @@ struct ReferenceCell {
   CellNames names;
   int n_nodes, n_gauss, n_corners;  // corners are the first nodes
   int facet_corners;
-  int layers;                     // of nodes along zeta; 0 in a tetrahedron, whose edges stand for no direction
+  int layers;  // of nodes along zeta; 0 in a tetrahedron, whose edges stand for no direction
   std::vector<Vec3> node, gauss;  // xi
   std::vector<double> weight;
   std::vector<VecX> N;        // at the Gauss points
   std::vector<Gradients> dN;  // dN_a/dxi_k there
   VecX (*shape)(const Vec3& xi);
   Gradients (*gradient)(const Vec3& xi);
-  VecX (*corner_shape)(const Vec3& xi);  // shape functions of the corners alone: trilinear, in a tetrahedron linear
+  VecX (*corner_shape)(
+      const Vec3& xi);  // shape functions of the corners alone: trilinear, in a tetrahedron linear
   std::vector<std::array<int, 2>> edge;  // its corners
-  std::vector<std::vector<int>> facet;   // nodes: the corners counter-clockwise from outside, then middles of edges in that
-                                         // order, then the middle
+  std::vector<std::vector<int>> facet;   // nodes: the corners counter-clockwise from outside, then
+                                        // middles of edges in that order, then the middle
   std::vector<std::vector<FacetPoint>> facet_points;
-  MatX at_nodes;                   // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of Gauss
-                                   // values, taken at the nodes
+  MatX at_nodes;  // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of
+                  // Gauss values, taken at the nodes
   std::vector<int> nearest_gauss;  // by node
-  std::vector<int> parts;          // hexahedra between neighbouring nodes that together are the cell, eight nodes for each
+  std::vector<int> parts;  // hexahedra between neighbouring nodes that together are the cell, eight
+                           // nodes for each
 
   bool hexahedron() const { return layers > 0; }
   bool second_order() const { return n_nodes > n_corners; }
@@ -161,8 +175,10 @@ const std::vector<ReferenceCell>& reference_cells();
 const ReferenceCell& reference(int n_nodes);  // the one with so many
 
 using Cells = std::tuple<Hex8, Hex27, Tet15>;
-inline constexpr int most_nodes = std::apply([](auto... cell) { return std::max({decltype(cell)::n_nodes...}); }, Cells{});
-inline constexpr int most_gauss = std::apply([](auto... cell) { return std::max({decltype(cell)::n_gauss...}); }, Cells{});
+inline constexpr int most_nodes =
+    std::apply([](auto... cell) { return std::max({decltype(cell)::n_nodes...}); }, Cells{});
+inline constexpr int most_gauss =
+    std::apply([](auto... cell) { return std::max({decltype(cell)::n_gauss...}); }, Cells{});
 inline constexpr int most_dofs = 3 * most_nodes;
 
 // on(Hex8()), or whichever has so many nodes: for loops whose sizes the compiler must know

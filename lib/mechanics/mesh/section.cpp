@@ -68,7 +68,8 @@ void make_section(Mesh& mesh, const Section& section) {
   const int n = static_cast<int>(X.size());
   mesh.X.clear();
   for (int k = 0; k < layers; ++k)
-    for (const Vec3& x : X) mesh.X.emplace_back(x[0], x[1], depth_at(section, x, static_cast<double>(k) / (layers - 1)));
+    for (const Vec3& x : X)
+      mesh.X.emplace_back(x[0], x[1], depth_at(section, x, static_cast<double>(k) / (layers - 1)));
   for (int& node : mesh.connectivity) node = layer[node] * n + front[node];
   mesh.section = section;
 }
@@ -77,14 +78,17 @@ std::string section_fault(const Mesh& mesh) {
   const Section& section = *mesh.section;
   if (!mesh.cell().hexahedron()) return "cells that are no hexahedra";
   const int n = n_front(mesh), layers = mesh.cell().layers;
-  if (!(section.depth > 0 && std::isfinite(section.depth))) return fmt::format("a depth of {}", section.depth);
-  if (mesh.n_nodes() != n * layers) return fmt::format("{} nodes in {} layers", mesh.n_nodes(), layers);
+  if (!(section.depth > 0 && std::isfinite(section.depth)))
+    return fmt::format("a depth of {}", section.depth);
+  if (mesh.n_nodes() != n * layers)
+    return fmt::format("{} nodes in {} layers", mesh.n_nodes(), layers);
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     const Vec3 &X = mesh.X[i], &front = mesh.X[i % n];
     const double z = depth_at(section, front, static_cast<double>(i / n) / (layers - 1));
     if (X[0] != front[0] || X[1] != front[1] || !(std::abs(X[2] - z) <= 1e-12 * std::abs(z)))
       return fmt::format("node {} is not behind node {}", i, i % n);
-    if (section.of == SectionOf::axisymmetric && X[0] < 0) return fmt::format("node {} lies at the radius {} mm", i, X[0]);
+    if (section.of == SectionOf::axisymmetric && X[0] < 0)
+      return fmt::format("node {} lies at the radius {} mm", i, X[0]);
   }
   const auto in_cell = columns(mesh.cell());
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -109,7 +113,8 @@ std::vector<int> through_layers(const Mesh& mesh, const std::vector<int>& nodes)
 
 std::vector<int> in_front(const Mesh& mesh, const std::vector<int>& nodes) {
   std::vector<int> front;
-  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(front), [n = n_front(mesh)](int node) { return node < n; });
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(front),
+               [n = n_front(mesh)](int node) { return node < n; });
   return front;
 }
 
@@ -127,7 +132,8 @@ std::vector<Facet> surface_of(const Mesh& mesh, const std::string& set) {
   if (mesh.section)
     std::erase_if(facets, [&](const Facet& facet) {
       const std::vector<int> nodes = facet_nodes(mesh, facet);
-      const auto in_front = std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < n_front(mesh); });
+      const auto in_front =
+          std::count_if(nodes.begin(), nodes.end(), [&](int n) { return n < n_front(mesh); });
       return in_front == 0 || in_front == static_cast<std::ptrdiff_t>(nodes.size());
     });
   return facets;

@@ -30,32 +30,40 @@ std::vector<int> all_nodes(const Mesh& mesh) {
 
 namespace {
 
-std::vector<int> nearest_node(const Mesh& mesh, const NearestNode& nearest, const std::vector<int>& among) {
+std::vector<int> nearest_node(const Mesh& mesh, const NearestNode& nearest,
+                              const std::vector<int>& among) {
   const Vec3 to = vector(nearest.to);
   const double tolerance = relative_tolerance * size(mesh);
   int best = -1;
   double least = 0;
   for (int n : among)
-    if (const double distance = (mesh.X[n] - to).norm(); best < 0 || distance < least - tolerance) best = n, least = distance;
+    if (const double distance = (mesh.X[n] - to).norm(); best < 0 || distance < least - tolerance)
+      best = n, least = distance;
   return best < 0 ? std::vector<int>{} : std::vector<int>{best};
 }
 
-bool holds(const OnPlane& plane, const Vec3& x, double tolerance) { return std::abs(x[index(plane.axis)] - plane.at) <= tolerance; }
+bool holds(const OnPlane& plane, const Vec3& x, double tolerance) {
+  return std::abs(x[index(plane.axis)] - plane.at) <= tolerance;
+}
 
 bool holds(const InBox& box, const Vec3& x, double tolerance) {
-  return ((x - vector(box.from)).array() >= -tolerance).all() && ((vector(box.to) - x).array() >= -tolerance).all();
+  return ((x - vector(box.from)).array() >= -tolerance).all() &&
+         ((vector(box.to) - x).array() >= -tolerance).all();
 }
 
 bool holds(const InCylinder& cylinder, const Vec3& x, double tolerance) {
   Vec3 across = x - vector(cylinder.through);
   across[index(cylinder.axis)] = 0;
-  return across.norm() <= cylinder.radius + tolerance && across.norm() >= cylinder.beyond.value_or(0) - tolerance;
+  return across.norm() <= cylinder.radius + tolerance &&
+         across.norm() >= cylinder.beyond.value_or(0) - tolerance;
 }
 
 }  // namespace
 
-std::vector<int> select(const Mesh& mesh, const Selection& selection, const std::vector<int>& among) {
-  if (const NearestNode* nearest = std::get_if<NearestNode>(&selection)) return nearest_node(mesh, *nearest, among);
+std::vector<int> select(const Mesh& mesh, const Selection& selection,
+                        const std::vector<int>& among) {
+  if (const NearestNode* nearest = std::get_if<NearestNode>(&selection))
+    return nearest_node(mesh, *nearest, among);
   const double tolerance = relative_tolerance * size(mesh);
   std::vector<int> chosen;
   for (int n : among)
@@ -74,7 +82,8 @@ std::vector<int> select(const Mesh& mesh, const Selection& selection, const std:
 std::vector<Facet> boundary(const Mesh& mesh) {
   std::map<std::array<int, 4>, std::vector<Facet>> by_nodes;
   for (int e = 0; e < mesh.n_cells(); ++e)
-    for (int f = 0; f < mesh.cell().n_facets(); ++f) by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
+    for (int f = 0; f < mesh.cell().n_facets(); ++f)
+      by_nodes[facet_key(mesh, {e, f})].push_back({e, f});
   // a facet of a larger cell and the quarters beside it, around the node in its middle
   std::set<int> middles;
   for (const HangingNode& h : mesh.hanging) {
@@ -83,26 +92,34 @@ std::vector<Facet> boundary(const Mesh& mesh) {
     if (of[0] == of[1]) continue;  // of an edge
     by_nodes.erase(of), middles.insert(h.node);
   }
-  const auto inside = [&](int node) { return middles.count(node) > 0; };
+  const auto inside = [&](int node) {
+    return middles.count(node) > 0;
+  };
   std::vector<Facet> outer;
   for (const auto& [nodes, facets] : by_nodes)
-    if (facets.size() == 1 && (middles.empty() || std::none_of(nodes.begin(), nodes.end(), inside))) outer.push_back(facets[0]);
-  std::sort(outer.begin(), outer.end(),
-            [](const Facet& a, const Facet& b) { return std::pair(a.cell, a.local) < std::pair(b.cell, b.local); });
+    if (facets.size() == 1 && (middles.empty() || std::none_of(nodes.begin(), nodes.end(), inside)))
+      outer.push_back(facets[0]);
+  std::sort(outer.begin(), outer.end(), [](const Facet& a, const Facet& b) {
+    return std::pair(a.cell, a.local) < std::pair(b.cell, b.local);
+  });
   return outer;
 }
 
-std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<int>& nodes) {
+std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& facets,
+                                 const std::vector<int>& nodes) {
   std::vector<Facet> chosen;
   for (const Facet& facet : facets) {
     const auto its = facet_nodes(mesh, facet);
-    if (std::all_of(its.begin(), its.end(), [&](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); }))
+    if (std::all_of(its.begin(), its.end(),
+                    [&](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); }))
       chosen.push_back(facet);
   }
   return chosen;
 }
 
-std::vector<std::string> side_names() { return {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "bottom", "top"}; }
+std::vector<std::string> side_names() {
+  return {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "bottom", "top"};
+}
 
 void name_sides(Mesh& mesh) {
   const BoundingBox b = bounding_box(mesh.X);
@@ -111,7 +128,8 @@ void name_sides(Mesh& mesh) {
   for (const char* axis : {"x", "y", "z"})
     for (bool high : {false, true}) {
       const std::string name = std::string(axis) + (high ? "_max" : "_min");
-      const std::vector<int> nodes = select(mesh, OnPlane{axis, (high ? b.high : b.low)[index(axis)]}, all);
+      const std::vector<int> nodes =
+          select(mesh, OnPlane{axis, (high ? b.high : b.low)[index(axis)]}, all);
       mesh.facet_sets[name] = facets_within(mesh, outer, nodes);
       mesh.node_sets[name] = nodes;
     }

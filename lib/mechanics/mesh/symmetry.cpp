@@ -17,7 +17,8 @@ Vec3 centroid(const Mesh& mesh, int e) {
   return sum / static_cast<double>(mesh.cell(e).size());
 }
 
-// The place of an orbit that comes first: farthest along x, then z, then y. Ties within rounding go on to the next coordinate.
+// The place of an orbit that comes first: farthest along x, then z, then y. Ties within rounding go
+// on to the next coordinate.
 bool before(const Vec3& a, const Vec3& b, double tolerance) {
   for (int k : {0, 2, 1})
     if (std::abs(a[k] - b[k]) > tolerance) return a[k] > b[k];
@@ -51,7 +52,8 @@ std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& ge
 namespace {
 
 // The first cell of each orbit, with its share.
-void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tolerance, Quotient& q) {
+void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tolerance,
+                Quotient& q) {
   std::vector<int> kept_cell(mesh.n_cells(), -1);
   q.cell_image.resize(mesh.n_cells());
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -72,7 +74,8 @@ void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tol
   for (int& cell : q.cell_image) cell = kept_cell[cell];
 }
 
-// The mesh of the kept cells; returns the kept node of each node of the whole, -1 where no kept cell has it.
+// The mesh of the kept cells; returns the kept node of each node of the whole, -1 where no kept
+// cell has it.
 std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
   q.mesh.type = mesh.type, q.mesh.bodies = mesh.bodies;
   std::vector<int> kept_node(mesh.X.size(), -1);
@@ -103,8 +106,8 @@ std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
 }
 
 // Each node in terms of the kept node of its orbit that comes first.
-void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group, const std::vector<int>& kept_node, double tolerance,
-               Quotient& q) {
+void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group,
+               const std::vector<int>& kept_node, double tolerance, Quotient& q) {
   q.node_share.assign(q.node.size(), 0);
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     int master = -1, orbit = 0;
@@ -112,17 +115,21 @@ void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group, const std::
     Vec3 signs = Vec3::Ones(), allowed = Vec3::Ones();
     for (const Symmetry& g : group) {
       const int other = g.node[n];
-      if (other == static_cast<int>(n)) {  // what it maps onto itself with a change of sign vanishes
+      if (other ==
+          static_cast<int>(n)) {  // what it maps onto itself with a change of sign vanishes
         ++orbit;
         for (int k = 0; k < 3; ++k)
           if (g.signs[k] < 0) allowed[k] = 0;
       }
-      if (kept_node[other] < 0 || (master >= 0 && !before(mesh.X[other], mesh.X[master], tolerance))) continue;
+      if (kept_node[other] < 0 ||
+          (master >= 0 && !before(mesh.X[other], mesh.X[master], tolerance)))
+        continue;
       master = other, kept = kept_node[other], signs = g.signs;
     }
     // the image of a node that other symmetries leave in place has their zeros too
     q.node_image.push_back({kept, signs.cwiseProduct(allowed).asDiagonal()});
-    if (q.node[kept] == static_cast<int>(n)) q.node_share[kept] = static_cast<double>(group.size()) / orbit;
+    if (q.node[kept] == static_cast<int>(n))
+      q.node_share[kept] = static_cast<double>(group.size()) / orbit;
   }
   for (int n : q.node) q.tie.push_back(q.node_image[n]);
 }

@@ -29,7 +29,8 @@ struct Round {
   VecX x;  // all dofs; the free ones follow KINSOL's vector
   VecX f;  // residual on the free rows
   double tolerance = 0;
-  VecX best;  // the iterate with the smallest residual: what KINSOL leaves in its vector may be anything
+  VecX best;  // the iterate with the smallest residual: what KINSOL leaves in its vector may be
+              // anything
   double least = std::numeric_limits<double>::infinity();
   int evaluations = 0, iterations = 0, setups = 0;
   bool fixed_tangent = false;
@@ -42,7 +43,8 @@ struct Round {
 
 // finite, and its square too, which KINSOL computes
 bool measurable(const VecX& f) {
-  return std::all_of(f.begin(), f.end(), [](double one) { return std::isless(std::abs(one), 1e150); });
+  return std::all_of(f.begin(), f.end(),
+                     [](double one) { return std::isless(std::abs(one), 1e150); });
 }
 
 // > 0: KINSOL shortens its step; < 0: it gives up
@@ -51,9 +53,11 @@ int residual(N_Vector u, N_Vector f, void* data) {
   auto& round = *static_cast<Round*>(data);
   if (++round.evaluations > 20 * round.options.iterations) return -1;
   round.place(u);
-  if (!measurable(round.x) || !round.balance.residual(round.x, round.f) || !measurable(round.f)) return 1;
+  if (!measurable(round.x) || !round.balance.residual(round.x, round.f) || !measurable(round.f))
+    return 1;
   map(f) = round.f;
-  if (const double size = round.f.norm(); size < round.least) round.least = size, round.best = round.x;
+  if (const double size = round.f.norm(); size < round.least)
+    round.least = size, round.best = round.x;
   // accelerated iterations go on past the answer, where Anderson's system is singular: end them
   return round.fixed_tangent && round.least <= 0.3 * round.tolerance ? -1 : 0;
 }
@@ -68,7 +72,8 @@ int fixed_point(N_Vector u, N_Vector g, void* data) {
   return map(g).allFinite() ? 0 : 1;
 }
 
-// The matrix is ours and stays ours: KINSOL sees an empty one, and a solver whose set-up is our factorization.
+// The matrix is ours and stays ours: KINSOL sees an empty one, and a solver whose set-up is our
+// factorization.
 int jacobian(N_Vector, N_Vector, SUNMatrix, void*, N_Vector, N_Vector) { return 0; }
 SUNMatrix_ID matrix_id(SUNMatrix) { return SUNMATRIX_CUSTOM; }
 int matrix_zero(SUNMatrix) { return 0; }
@@ -90,7 +95,8 @@ int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunr
   return 0;
 }
 
-// Errors go to the context's handlers from SUNDIALS 7 on, to KINSOL's own before; neither may print: what failed is our report.
+// Errors go to the context's handlers from SUNDIALS 7 on, to KINSOL's own before; neither may
+// print: what failed is our report.
 #if SUNDIALS_VERSION_MAJOR >= 7
 int create(SUNContext* context) {
   const int failed = SUNContext_Create(SUN_COMM_NULL, context);
@@ -137,11 +143,13 @@ void solve_round(Round& round) {
   matrix.value->ops->getid = matrix_id, matrix.value->ops->zero = matrix_zero;
   const Owned<SUNLinearSolver, free_solver> linear{SUNLinSolNewEmpty(context)};
   linear.value->content = &round;
-  linear.value->ops->gettype = solver_type, linear.value->ops->setup = solver_setup, linear.value->ops->solve = solver_solve;
+  linear.value->ops->gettype = solver_type, linear.value->ops->setup = solver_setup,
+  linear.value->ops->solve = solver_solve;
 
   const Owned<void*, free_memory> memory{KINCreate(context)};
   const KinsolOptions& o = round.options;
-  const bool accelerated = o.strategy == KinsolStrategy::picard || o.strategy == KinsolStrategy::fixed_point;
+  const bool accelerated =
+      o.strategy == KinsolStrategy::picard || o.strategy == KinsolStrategy::fixed_point;
   round.fixed_tangent = accelerated;
   if (accelerated && o.anderson > 0) KINSetMAA(memory, std::min<long>(o.anderson, n));
   KINSetNumMaxIters(memory, o.iterations);
@@ -157,17 +165,20 @@ void solve_round(Round& round) {
   }
   // KINSOL tests the largest component; a Newton step longer than this is shortened
   const double root = std::sqrt(static_cast<double>(n));
-  KINSetFuncNormTol(memory, o.strategy == KinsolStrategy::fixed_point ? 1e-14 : 0.3 * round.tolerance / root);
+  KINSetFuncNormTol(
+      memory, o.strategy == KinsolStrategy::fixed_point ? 1e-14 : 0.3 * round.tolerance / root);
   KINSetScaledStepTol(memory, 1e-15);
   KINSetMaxNewtonStep(memory, o.largest_move * root);
   const int strategies[] = {KIN_NONE, KIN_LINESEARCH, KIN_PICARD, KIN_FP};
-  const NoTraps in_kinsol;  // Anderson's acceleration divides zero by zero where nothing changes any more
+  const NoTraps
+      in_kinsol;  // Anderson's acceleration divides zero by zero where nothing changes any more
   KINSol(memory, u, strategies[static_cast<int>(o.strategy)], ones, ones);
 }
 
 }  // namespace
 
-SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x, const KinsolOptions& options) {
+SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
+                   const KinsolOptions& options) {
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);
@@ -178,21 +189,28 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x, 
     ++report.evaluations;
     compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
+      return stop(Outcome::inadmissible,
+                  now.missing.empty() ? "a force is not finite" : now.missing);
     const bool balanced = now.residual <= report.tolerance;
     if (round > 0 && balanced && now.others) return stop(Outcome::converged, "");
     if (round == options.rounds)
-      return stop(Outcome::not_converged,
-                  balanced ? fmt::format("{} after {} rounds of KINSOL", now.missing, round)
-                           : fmt::format("residual {:.2e} N > {:.2e} N after {} rounds of KINSOL ({} iterations)", now.residual,
-                                         report.tolerance, round, report.iterations));
+      return stop(
+          Outcome::not_converged,
+          balanced ? fmt::format("{} after {} rounds of KINSOL", now.missing, round)
+                   : fmt::format(
+                         "residual {:.2e} N > {:.2e} N after {} rounds of KINSOL ({} iterations)",
+                         now.residual, report.tolerance, round, report.iterations));
     if (!take_step(problem, problem.correction(), x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
     ++report.evaluations;
     if (!then.admissible || !std::isfinite(then.residual))
-      return stop(Outcome::inadmissible, then.missing.empty() ? "a force is not finite" : then.missing);
-    Round inner{.balance = balance, .options = options, .x = x, .f = VecX(static_cast<Eigen::Index>(balance.free.size()))};
+      return stop(Outcome::inadmissible,
+                  then.missing.empty() ? "a force is not finite" : then.missing);
+    Round inner{.balance = balance,
+                .options = options,
+                .x = x,
+                .f = VecX(static_cast<Eigen::Index>(balance.free.size()))};
     inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);
     report.iterations += inner.iterations;

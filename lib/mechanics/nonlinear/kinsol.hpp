@@ -1,12 +1,13 @@
 // SUNDIALS' KINSOL in the place of newton(): same problem, same convergence test, same report.
-// Each round is one linearised step, which brings in imposed displacements and solves the contact law, and then KINSOL on
-// the free unknowns with the contact reactions fixed; rounds end when the law holds at equilibrium.
+// Each round is one linearised step, which brings in imposed displacements and solves the contact
+// law, and then KINSOL on the free unknowns with the contact reactions fixed; rounds end when the
+// law holds at equilibrium.
 //   newton       full steps, a new tangent each               linesearch   the same, steps shortened where |f| grows
 //   picard       one tangent per round                        fixed_point  the same as a fixed-point iteration
 // anderson: number of earlier steps that accelerate picard and fixed_point.
-// Guards that KINSOL needs: it takes NaN for success or hangs on it, so a residual that is not finite is reported as
-// recoverable and |f| is evaluated again after every return; its longest step defaults to 1000 |u0| and is set here; its
-// number of evaluations is limited.
+// Guards that KINSOL needs: it takes NaN for success or hangs on it, so a residual that is not
+// finite is reported as recoverable and |f| is evaluated again after every return; its longest step
+// defaults to 1000 |u0| and is set here; its number of evaluations is limited.
 #pragma once
 
 #include "mechanics/nonlinear/free_balance.hpp"
@@ -15,7 +16,9 @@
 namespace langer {
 
 enum class KinsolStrategy { newton, linesearch, picard, fixed_point };
-constexpr auto names(KinsolStrategy) { return std::array{"newton", "linesearch", "picard", "fixed_point"}; }
+constexpr auto names(KinsolStrategy) {
+  return std::array{"newton", "linesearch", "picard", "fixed_point"};
+}
 
 struct KinsolOptions {
   static constexpr const char* key = "kinsol";
@@ -28,15 +31,22 @@ struct KinsolOptions {
   double largest_move = 1;
   static void fields(auto& v) {
     v(&KinsolOptions::strategy, "strategy", unit::none, "how KINSOL iterates");
-    v(&KinsolOptions::anderson, "anderson", unit::none, "earlier steps used by picard and fixed_point", between(0, 50));
-    v(&KinsolOptions::iterations, "iterations", unit::none, "largest number of KINSOL iterations in one round", at_least(1));
-    v(&KinsolOptions::rounds, "rounds", unit::none, "largest number of rounds in one step", at_least(1));
-    v(&KinsolOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
-    v(&KinsolOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
-    v(&KinsolOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
+    v(&KinsolOptions::anderson, "anderson", unit::none,
+      "earlier steps used by picard and fixed_point", between(0, 50));
+    v(&KinsolOptions::iterations, "iterations", unit::none,
+      "largest number of KINSOL iterations in one round", at_least(1));
+    v(&KinsolOptions::rounds, "rounds", unit::none, "largest number of rounds in one step",
+      at_least(1));
+    v(&KinsolOptions::relative, "relative", unit::none,
+      "residual allowed, relative to the reactions", positive, between(0, 0.1));
+    v(&KinsolOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction",
+      at_least(0));
+    v(&KinsolOptions::largest_move, "largest_move", unit::mm,
+      "longest movement of a node in one iteration", positive);
   }
 };
 
-SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x, const KinsolOptions& options);
+SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
+                   const KinsolOptions& options);
 
 }  // namespace langer

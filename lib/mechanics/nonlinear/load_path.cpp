@@ -7,7 +7,8 @@ namespace langer {
 
 namespace {
 
-double shortest_stage(const LoadPathOptions& options, const std::vector<double>& stops, double tiny) {
+double shortest_stage(const LoadPathOptions& options, const std::vector<double>& stops,
+                      double tiny) {
   if (!options.seconds) return 1;
   std::vector<double> ends = stops;
   ends.push_back(0), ends.push_back(1);
@@ -20,9 +21,10 @@ double shortest_stage(const LoadPathOptions& options, const std::vector<double>&
 
 }  // namespace
 
-PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment, const std::vector<double>& stops,
-                     const std::function<SolveReport(double t)>& attempt,
-                     const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted) {
+PathReport load_path(
+    const LoadPathOptions& options, double t, std::optional<double> increment,
+    const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
+    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted) {
   constexpr double tiny = 1e-10;
   PathReport report;
   report.t = t;
@@ -45,7 +47,8 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       next = stop;
     else if (next > stop - 0.5 * dt)
       next = dt <= 0.67 * largest && !shortened ? stop : 0.5 * (t + stop);
-    if (options.steps && !options.seconds && std::abs(std::round(next * *options.steps) - next * *options.steps) < 1e-6)
+    if (options.steps && !options.seconds &&
+        std::abs(std::round(next * *options.steps) - next * *options.steps) < 1e-6)
       next = std::round(next * *options.steps) / *options.steps;
     const SolveReport solved = attempt(next);
     if (!solved.converged()) {
@@ -56,13 +59,16 @@ PathReport load_path(const LoadPathOptions& options, double t, std::optional<dou
       continue;
     }
     // errors grow with the third power of an increment
-    const double fits = solved.time_error > 0 ? 0.9 * std::cbrt(options.time_error / solved.time_error) : 2;
-    if (!options.steps && solved.time_error > options.time_error && fits * (next - t) > shortest * options.smallest) {
+    const double fits =
+        solved.time_error > 0 ? 0.9 * std::cbrt(options.time_error / solved.time_error) : 2;
+    if (!options.steps && solved.time_error > options.time_error &&
+        fits * (next - t) > shortest * options.smallest) {
       ++report.too_long, shortened = true;
       dt = std::max(fits, 0.1) * (next - t);
       continue;
     }
-    report.t = next, ++report.steps, report.iterations += solved.iterations, report.again += solved.again;
+    report.t = next, ++report.steps, report.iterations += solved.iterations,
+    report.again += solved.again;
     const double taken = next - t;
     t = next, shortened = false;
     // where the error of an increment is known it decides

@@ -1,4 +1,5 @@
-// Increments along a path t = 0 ... 1: cut-back, growth and a callback per accepted step. Knows neither Newton nor contact.
+// Increments along a path t = 0 ... 1: cut-back, growth and a callback per accepted step. Knows
+// neither Newton nor contact.
 #pragma once
 
 #include <functional>
@@ -20,20 +21,29 @@ struct LoadPathOptions {
 
   double first_increment() const { return steps ? 1.0 / *steps : first; }
   double largest_increment() const { return steps ? 1.0 / *steps : largest; }
-  double shortest_with_a_jump() const { return largest_increment() / 32; }              // of what adheres (solve/release.hpp)
-  void use_increment(double increment) { steps.reset(), first = largest = increment; }  // for all of the path
+  double shortest_with_a_jump() const {
+    return largest_increment() / 32;
+  }  // of what adheres (solve/release.hpp)
+  void use_increment(double increment) {
+    steps.reset(), first = largest = increment;
+  }  // for all of the path
 
   static void fields(auto& v) {
     v(&LoadPathOptions::steps, "steps", unit::none,
-      "number of equal increments, with seconds of each stage; first and largest follow from it", at_least(1));
+      "number of equal increments, with seconds of each stage; first and largest follow from it",
+      at_least(1));
     v(&LoadPathOptions::first, "first", unit::none,
-      "first increment, as a fraction of the path; with seconds: of the stage, which ends where a history has a kink", positive,
-      between(0, 1));
-    v(&LoadPathOptions::largest, "largest", unit::none, "largest increment, a fraction of the same", positive, between(0, 1));
+      "first increment, as a fraction of the path; with seconds: of the stage, which ends where a history has a kink",
+      positive, between(0, 1));
+    v(&LoadPathOptions::largest, "largest", unit::none, "largest increment, a fraction of the same",
+      positive, between(0, 1));
     v(&LoadPathOptions::smallest, "smallest", unit::none,
-      "increment below which the path is given up; with seconds a fraction of the shortest stage", positive, between(0, 1));
-    v(&LoadPathOptions::easy, "easy", unit::none, "a step with at most this many iterations lets the next one grow", at_least(1));
-    v(&LoadPathOptions::seconds, "seconds", unit::s, "duration of the path; what viscous materials need", positive);
+      "increment below which the path is given up; with seconds a fraction of the shortest stage",
+      positive, between(0, 1));
+    v(&LoadPathOptions::easy, "easy", unit::none,
+      "a step with at most this many iterations lets the next one grow", at_least(1));
+    v(&LoadPathOptions::seconds, "seconds", unit::s,
+      "duration of the path; what viscous materials need", positive);
     v(&LoadPathOptions::time_error, "time_error", unit::none,
       "of viscous materials: error of the branch stresses that an increment may make, over the greatest stresses, both as means over "
       "the body; not with steps",
@@ -41,8 +51,10 @@ struct LoadPathOptions {
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
-    if (!steps && first > largest) found.push_back({"first", "larger than largest", "first <= largest", ""});
-    if (smallest > first_increment()) found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
+    if (!steps && first > largest)
+      found.push_back({"first", "larger than largest", "first <= largest", ""});
+    if (smallest > first_increment())
+      found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
     return found;
   }
 };
@@ -59,10 +71,12 @@ struct PathReport {
 };
 
 // attempt(t): solve at t from the last accepted state; the callee keeps or restores its state.
-// accepted(t, increment taken, next increment, report): false stops the path (the report is then not complete).
-// stops: values of t that must be hit (kinks of the path); 1 is always one. With seconds they end the stages.
-PathReport load_path(const LoadPathOptions& options, double t, std::optional<double> increment, const std::vector<double>& stops,
-                     const std::function<SolveReport(double t)>& attempt,
-                     const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted);
+// accepted(t, increment taken, next increment, report): false stops the path (the report is then
+// not complete). stops: values of t that must be hit (kinks of the path); 1 is always one. With
+// seconds they end the stages.
+PathReport load_path(
+    const LoadPathOptions& options, double t, std::optional<double> increment,
+    const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
+    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted);
 
 }  // namespace langer

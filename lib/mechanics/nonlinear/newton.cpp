@@ -13,9 +13,11 @@ void compare(const Assessment& now, double absolute, double relative, SolveRepor
   report.tolerance = std::max(report.asked, now.floor);
 }
 
-bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report) {
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move,
+               SolveReport& report) {
   if (!dx || !dx->allFinite()) {
-    report.outcome = Outcome::singular, report.why = "the tangent is singular, or the body is unstable in many directions at once";
+    report.outcome = Outcome::singular,
+    report.why = "the tangent is singular, or the body is unstable in many directions at once";
     return false;
   }
   const double longest = dx->lpNorm<Eigen::Infinity>();
@@ -23,7 +25,8 @@ bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, d
   int halvings = 0;
   while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
   if (halvings > 8) {
-    report.outcome = Outcome::inadmissible, report.why = "no admissible step: elements would be turned inside out";
+    report.outcome = Outcome::inadmissible,
+    report.why = "no admissible step: elements would be turned inside out";
     return false;
   }
   problem.moved(*dx, step);
@@ -37,9 +40,12 @@ namespace {
 class OldTangent {
  public:
   explicit OldTangent(double price) : price_(price) {}
-  // an increment in which nothing moves, as of a viscous body that is held: its contacts are found, its residual is small, and stays
-  // about the same when the first correction has moved the branch stresses into the volume
-  void begins(const Assessment& first) { rests_ = first.others && first.residual < 0.1 * first.reference; }
+  // an increment in which nothing moves, as of a viscous body that is held: its contacts are found,
+  // its residual is small, and stays about the same when the first correction has moved the branch
+  // stresses into the volume
+  void begins(const Assessment& first) {
+    rests_ = first.others && first.residual < 0.1 * first.reference;
+  }
   void renewed() { used_ = 0, of_before_ = false; }
   void that_of_before() { used_ = 1, of_before_ = true; }
   bool used() const { return used_ > 0; }
@@ -47,9 +53,11 @@ class OldTangent {
   bool serves(double residual, double wanted) {
     const double share = before_ > 0 ? residual / before_ : 1;  // what the last correction left
     before_ = residual;
-    if (used_ == 0) return any_ && (share < 0.1 || rests_);  // not while a long step still finds its contacts
+    if (used_ == 0)
+      return any_ && (share < 0.1 || rests_);  // not while a long step still finds its contacts
     if (of_before_ && share >= 0.1) return false;
-    // where switches of fibres turn on and off, an old tangent may undo what a new one did, for ever
+    // where switches of fibres turn on and off, an old tangent may undo what a new one did, for
+    // ever
     if (share > 0.3) return any_ = false;
     if (used_ > price_ + 2) return false;
     if (residual <= wanted) return true;  // something else is missing
@@ -83,24 +91,29 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     ++report.evaluations;
     compare(now, options.absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible, now.missing.empty() ? "a force is not finite" : now.missing);
+      return stop(Outcome::inadmissible,
+                  now.missing.empty() ? "a force is not finite" : now.missing);
     if (report.evaluations == 1) old.begins(now);
     const double wanted =
-        old.used() ? std::max({options.absolute, strict * options.relative * now.reference, now.floor}) : report.tolerance;
+        old.used()
+            ? std::max({options.absolute, strict * options.relative * now.reference, now.floor})
+            : report.tolerance;
     const bool balanced = now.residual <= wanted;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     std::optional<VecX> dx;
     const bool first = at_hand && report.iterations == 0;
-    if (reuses && ((old.serves(now.residual, wanted) && report.iterations > 0) || first)) dx = problem.correction_again();
+    if (reuses && ((old.serves(now.residual, wanted) && report.iterations > 0) || first))
+      dx = problem.correction_again();
     if (dx && first) {
       old.that_of_before(), ++report.iterations;
     } else if (dx) {
       old.corrected(), ++report.again;
     } else {
       if (report.iterations == options.iterations)
-        return stop(Outcome::not_converged, balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
-                                                     : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations", now.residual,
-                                                                   report.tolerance, report.iterations));
+        return stop(Outcome::not_converged,
+                    balanced ? fmt::format("{} after {} iterations", now.missing, report.iterations)
+                             : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
+                                           now.residual, report.tolerance, report.iterations));
       dx = problem.correction();
       old.renewed(), ++report.iterations;
     }

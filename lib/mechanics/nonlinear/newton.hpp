@@ -1,15 +1,17 @@
-// Newton-Raphson on a problem given as functions: it knows no mechanics.               [A23] section 2.5
+// Newton-Raphson on a problem given as functions: it knows no mechanics.               [A23]
+// section 2.5
 //   assess(x, with_tangent)   residual and tangent at x; what is missing to convergence
 //   correction()              dx of the problem linearised at the last assessed x; empty where it cannot be solved
 //   correction_again()        dx at the last assessed x by the tangent of the last correction(); empty where that does not serve
 //   begins_again              there is one of the state before, which serves for the first correction: who has made it anyway
 //   admissible(x)             cheap test that x can be assessed (det F > 0)
 //   moved(dx, step)           told before x becomes x + step dx
-// There is no test that the residual decreases: near incompressibility the first residuals of a step are huge by nature.
-// After a correction others with the same tangent follow (modified Newton) for as long as they are cheaper: each takes off about the
-// same part of the residual, and a new tangent costs `price` of them. What they leave is as large as the residual says, where
-// Newton's own correction would have left its square: they have to reach a thousandth of the usual tolerance; who asks for less than
-// that gets what he asks for.
+// There is no test that the residual decreases: near incompressibility the first residuals of a
+// step are huge by nature. After a correction others with the same tangent follow (modified Newton)
+// for as long as they are cheaper: each takes off about the same part of the residual, and a new
+// tangent costs `price` of them. What they leave is as large as the residual says, where Newton's
+// own correction would have left its square: they have to reach a thousandth of the usual
+// tolerance; who asks for less than that gets what he asks for.
 #pragma once
 
 #include <functional>
@@ -18,8 +20,8 @@
 #include <vector>
 
 #include "core/base/fields.hpp"
-#include "mechanics/linear/linear_by.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/linear/linear_by.hpp"
 
 namespace langer {
 
@@ -28,15 +30,17 @@ struct Assessment {
   double residual = 0;   // norm [N]
   double reference = 0;  // the force it is compared with [N]
   double floor = 0;      // what rounding alone leaves of it [N]
-  bool others = true;    // conditions beside the residual hold (contact law, prescribed values reached)
-  std::string missing;   // which of them does not
+  bool others =
+      true;  // conditions beside the residual hold (contact law, prescribed values reached)
+  std::string missing;  // which of them does not
 };
 
 struct Problem {
   std::function<Assessment(const VecX& x, bool with_tangent)> assess;
   std::function<std::optional<VecX>()> correction;
-  std::function<std::optional<VecX>()> correction_again;  // none: every correction takes a new tangent
-  double price = 0;                                       // of correction() in units of correction_again()
+  std::function<std::optional<VecX>()>
+      correction_again;  // none: every correction takes a new tangent
+  double price = 0;      // of correction() in units of correction_again()
   bool begins_again = false;
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
@@ -51,15 +55,19 @@ struct NewtonOptions {
   bool reuse_tangent = true;
   LinearBy linear = LinearBy::automatic;
   static void fields(auto& v) {
-    v(&NewtonOptions::iterations, "iterations", unit::none, "largest number of tangents in one step", at_least(1));
-    v(&NewtonOptions::relative, "relative", unit::none, "residual allowed, relative to the reactions", positive, between(0, 0.1));
-    v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction", at_least(0));
+    v(&NewtonOptions::iterations, "iterations", unit::none,
+      "largest number of tangents in one step", at_least(1));
+    v(&NewtonOptions::relative, "relative", unit::none,
+      "residual allowed, relative to the reactions", positive, between(0, 0.1));
+    v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction",
+      at_least(0));
     v(&NewtonOptions::reuse_tangent, "reuse_tangent", unit::none,
       "within a step, correct with the last tangent for as long as that is cheaper than a new one; false: a new one each time");
     v(&NewtonOptions::linear, "linear", unit::none,
       "direct: by a factor of the tangent; iterative: by multigrid and GMRES, in less memory and time where the body is large, without a look at the "
       "stability of the equilibrium; auto: iterative from 100 000 free dofs on, where the scene and the installation allow it");
-    v(&NewtonOptions::largest_move, "largest_move", unit::mm, "longest movement of a node in one iteration", positive);
+    v(&NewtonOptions::largest_move, "largest_move", unit::mm,
+      "longest movement of a node in one iteration", positive);
   }
 };
 
@@ -80,8 +88,10 @@ struct SolveReport {
 // residual, reference and both tolerances of a state
 void compare(const Assessment& now, double absolute, double relative, SolveReport& report);
 
-// A correction, shortened where it is too long or would turn elements inside out; false: `report` says why.
-bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move, SolveReport& report);
+// A correction, shortened where it is too long or would turn elements inside out; false: `report`
+// says why.
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move,
+               SolveReport& report);
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options);
 

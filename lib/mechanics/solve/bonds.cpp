@@ -7,9 +7,11 @@ namespace langer {
 
 Bonds::Bonds(const std::vector<RigidContact>& contacts)
     : contacts_(contacts),
-      any_(std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& c) { return c.adhesion.has_value(); })) {
+      any_(std::any_of(contacts.begin(), contacts.end(),
+                       [](const RigidContact& c) { return c.adhesion.has_value(); })) {
   if (!any_) return;
-  for (const RigidContact& contact : contacts) now_.emplace_back(contact.adhesion ? contact.nodes.size() : 0);
+  for (const RigidContact& contact : contacts)
+    now_.emplace_back(contact.adhesion ? contact.nodes.size() : 0);
 }
 
 BondStates Bonds::at_rest(const std::vector<Vec3>& X) const {
@@ -19,14 +21,17 @@ BondStates Bonds::at_rest(const std::vector<Vec3>& X) const {
     states.emplace_back(now_[k].size());
     for (std::size_t i = 0; i < now_[k].size(); ++i) {
       const RigidContact& contact = contacts_[k];
-      if (shape_at(contact.shape, X[contact.nodes[i]] - indenter_displacement(contact, 0)).gap <= touch)
+      if (shape_at(contact.shape, X[contact.nodes[i]] - indenter_displacement(contact, 0)).gap <=
+          touch)
         states[k][i] = {1, -indenter_displacement(contact, 0), true};
     }
   }
   return states;
 }
 
-void Bonds::begin(const BondStates& start, double seconds) { start_ = start, seconds_ = seconds, damping_ = 0; }
+void Bonds::begin(const BondStates& start, double seconds) {
+  start_ = start, seconds_ = seconds, damping_ = 0;
+}
 
 void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c) {
   for (std::size_t k = 0; k < now_.size(); ++k) {
@@ -36,9 +41,11 @@ void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vecto
       if (!start_[k][i].made) continue;
       const int node = contact.nodes[i];
       const Vec3 v = u.segment<3>(3 * node) - c[k];
-      const double rate = contact.adhesion->viscosity > 0 && seconds_ > 0 ? contact.adhesion->viscosity / seconds_ : 0;
-      Adhesive& now = now_[k][i] =
-          adhesive(*contact.adhesion, shape_at(contact.shape, X[node] + v), v, start_[k][i], rate + damping_);
+      const double rate = contact.adhesion->viscosity > 0 && seconds_ > 0
+                              ? contact.adhesion->viscosity / seconds_
+                              : 0;
+      Adhesive& now = now_[k][i] = adhesive(*contact.adhesion, shape_at(contact.shape, X[node] + v),
+                                            v, start_[k][i], rate + damping_);
       const double area = contact.area[i];
       now.force *= area, now.tangent *= area, now.stored *= area, now.dissipated *= area;
     }
@@ -66,7 +73,8 @@ Vec3 Bonds::sum(std::size_t contact) const {
 
 void Bonds::add_forces(VecX& f) const {
   for (std::size_t k = 0; k < now_.size(); ++k)
-    for (std::size_t i = 0; i < now_[k].size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += now_[k][i].force;
+    for (std::size_t i = 0; i < now_[k].size(); ++i)
+      f.segment<3>(3 * contacts_[k].nodes[i]) += now_[k][i].force;
 }
 
 double Bonds::squared_norm() const {
@@ -94,7 +102,9 @@ double Bonds::dissipated_since(const BondStates& from) const {
   double sum = 0;
   for (std::size_t k = 0; k < now_.size(); ++k)
     for (std::size_t i = 0; i < now_[k].size(); ++i)
-      if (from[k][i].made) sum += contacts_[k].adhesion->work * contacts_[k].area[i] * (from[k][i].beta - now_[k][i].beta);
+      if (from[k][i].made)
+        sum += contacts_[k].adhesion->work * contacts_[k].area[i] *
+               (from[k][i].beta - now_[k][i].beta);
   return sum;
 }
 
@@ -106,7 +116,8 @@ double Bonds::loosened() const {
   return most;
 }
 
-BondStates Bonds::after(const std::vector<std::vector<Vec3>>& r, const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
+BondStates Bonds::after(const std::vector<std::vector<Vec3>>& r,
+                        const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
                         const std::vector<Vec3>& c) const {
   BondStates next = start_;
   for (std::size_t k = 0; k < now_.size(); ++k)

@@ -1,5 +1,6 @@
-// Adhesive bonds of all contacts in an increment: what they bear where the trial stands, and what they become.
-// They are forces on the body beside the reactions of the contact law, which hold for what is left without them.
+// Adhesive bonds of all contacts in an increment: what they bear where the trial stands, and what
+// they become. They are forces on the body beside the reactions of the contact law, which hold for
+// what is left without them.
 #pragma once
 
 #include <vector>
@@ -30,7 +31,8 @@ class Bonds {
   // What the bonds bear at u, c: by contact, the indenter's displacement.
   void evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c);
 
-  // Within an increment: bonds go on from where they are now; and what takes their place in b/dt [N/mm].
+  // Within an increment: bonds go on from where they are now; and what takes their place in b/dt
+  // [N/mm].
   void go_on();
   void damp(double viscous) { damping_ = viscous; }
 
@@ -38,8 +40,12 @@ class Bonds {
     return any_ && !now_[contact].empty() && now_[contact][candidate].beta > 0;
   }
   // of a candidate [N], [N/mm]; only of contacts with adhesion
-  const Vec3& force(std::size_t contact, std::size_t candidate) const { return now_[contact][candidate].force; }
-  const Mat3& tangent(std::size_t contact, std::size_t candidate) const { return now_[contact][candidate].tangent; }
+  const Vec3& force(std::size_t contact, std::size_t candidate) const {
+    return now_[contact][candidate].force;
+  }
+  const Mat3& tangent(std::size_t contact, std::size_t candidate) const {
+    return now_[contact][candidate].tangent;
+  }
   bool of(std::size_t contact) const { return any_ && !now_[contact].empty(); }
   std::vector<Vec3> forces(std::size_t contact) const;
   Vec3 sum(std::size_t contact) const;
@@ -47,12 +53,13 @@ class Bonds {
   double squared_norm() const;
   double stored() const;                                  // [N mm]
   double dissipated_since(const BondStates& from) const;  // by loss of intensity, w A [N mm]
-  double dissipated() const;                              // since begin() or go_on(), viscous work included
-  double loosened() const;                                // largest change of an intensity since then
+  double dissipated() const;  // since begin() or go_on(), viscous work included
+  double loosened() const;    // largest change of an intensity since then
 
-  // The states with which the next increment begins: candidates that bear a reaction r have bonded; with healing those that bore
-  // none before, r_0, do so anew, where they are.
-  BondStates after(const std::vector<std::vector<Vec3>>& r, const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
+  // The states with which the next increment begins: candidates that bear a reaction r have bonded;
+  // with healing those that bore none before, r_0, do so anew, where they are.
+  BondStates after(const std::vector<std::vector<Vec3>>& r,
+                   const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
                    const std::vector<Vec3>& c) const;
 
  private:

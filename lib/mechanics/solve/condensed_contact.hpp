@@ -1,4 +1,5 @@
-// Candidates of contact condensed to their own unknowns: what forces on them move them, by the body's last factor.
+// Candidates of contact condensed to their own unknowns: what forces on them move them, by the
+// body's last factor.
 #pragma once
 
 #include <vector>
@@ -14,15 +15,18 @@ struct Near {
   Vec3 r, move;  // local: present reaction, movement without any change of reaction
 };
 
-// A force change s on the body moves the near candidates by  d = move + W s  and leaves the reactions  r = present + s - E d.
+// A force change s on the body moves the near candidates by  d = move + W s  and leaves the
+// reactions  r = present + s - E d.
 struct Condensed {
-  MatX B, W;                     // of forces on the rows of last(); compliance
-  VecX move, present, q, mu;     // q: positions without movement
-  std::vector<Mat3> T, E;        // the law feels q + T d; force that follows the movement: turning frame, and springs
-  bool follows = false;          // some E is not 0
-  VecX along;                    // under force control: of its candidates its direction, of others 0; else empty
-  std::vector<Mat3> springs;     // their part of E, where there are any
-  VecX start_moves;              // under force control: what slip is measured from, per travel; empty without friction
+  MatX B, W;                  // of forces on the rows of last(); compliance
+  VecX move, present, q, mu;  // q: positions without movement
+  std::vector<Mat3> T,
+      E;  // the law feels q + T d; force that follows the movement: turning frame, and springs
+  bool follows = false;  // some E is not 0
+  VecX along;  // under force control: of its candidates its direction, of others 0; else empty
+  std::vector<Mat3> springs;  // their part of E, where there are any
+  VecX start_moves;  // under force control: what slip is measured from, per travel; empty without
+                     // friction
   MatX slipping(MatX M) const {  // T times the rows of each contact
     for (std::size_t p = 0; p < T.size(); ++p) {
       const auto row = 3 * static_cast<Eigen::Index>(p);
@@ -32,6 +36,7 @@ struct Condensed {
   }
 };
 
-Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near);
+Condensed condensed(const ContactState& state, const TangentFactor& factor,
+                    const std::vector<Near>& near);
 
 }  // namespace langer

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "mechanics/linear/krylov.hpp"
 #include "core/tensor/dense.hpp"
+#include "mechanics/linear/krylov.hpp"
 
 namespace langer {
 
@@ -15,7 +15,9 @@ namespace {
 constexpr int left_to_gmres = 4;  // candidates that do something else than in the factor
 
 // across e
-Eigen::Matrix2d across(const Eigen::Vector2d& e) { return Eigen::Matrix2d::Identity() - e * e.transpose(); }
+Eigen::Matrix2d across(const Eigen::Vector2d& e) {
+  return Eigen::Matrix2d::Identity() - e * e.transpose();
+}
 
 }  // namespace
 
@@ -29,14 +31,16 @@ bool ContactInTangent::serves(const std::vector<RigidContact>& contacts) {
   return true;
 }
 
-ContactInTangent::ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, double stiffness)
+ContactInTangent::ContactInTangent(const Equilibrium& body,
+                                   const std::vector<RigidContact>& contacts, double stiffness)
     : pattern_(body.pattern()), rho_(stiffness > 0 ? stiffness : 1) {
   const Dofs& dofs = body.dofs();
   begins_.assign(static_cast<std::size_t>(pattern_.n), -1);
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (std::size_t i = 0; i < contacts[k].nodes.size(); ++i) {
       Candidate c;
-      c.contact = static_cast<int>(k), c.candidate = static_cast<int>(i), c.node = contacts[k].nodes[i], c.mu = contacts[k].mu;
+      c.contact = static_cast<int>(k), c.candidate = static_cast<int>(i),
+      c.node = contacts[k].nodes[i], c.mu = contacts[k].mu;
       for (int axis = 0; axis < 3; ++axis)
         if (const int row = dofs.equation[3 * c.node + axis]; row >= 0) {
           if (c.n == 0) c.first = row;
@@ -48,10 +52,12 @@ ContactInTangent::ContactInTangent(const Equilibrium& body, const std::vector<Ri
     }
   for (int column = 0; column < pattern_.n; ++column)
     for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
-      if (const int row = pattern_.row[at]; row > column && begins_[row] >= 0) row_blocks_.push_back({at, begins_[row]});
+      if (const int row = pattern_.row[at]; row > column && begins_[row] >= 0)
+        row_blocks_.push_back({at, begins_[row]});
 }
 
-// Q and G. Where some of its directions are held, n has to do with what is left of it in the others.
+// Q and G. Where some of its directions are held, n has to do with what is left of it in the
+// others.
 void ContactInTangent::own_axes(Candidate& c) const {
   Eigen::Matrix<double, 3, 3> in_free = Mat3::Zero();  // (n, 3): rows of the frame that are free
   for (int i = 0; i < c.n; ++i) in_free.row(i) = c.frame.row(c.axis[i]);
@@ -72,8 +78,10 @@ void ContactInTangent::linearise_at(const ContactState& state, bool with_frames)
   for (Candidate& c : candidates_) {
     const auto k = static_cast<std::size_t>(c.contact);
     const Vec3 r = state.r[k][static_cast<std::size_t>(c.candidate)];
-    const Vec3 x = state.X[c.node] + state.u.segment<3>(3 * c.node), x0 = state.X[c.node] + state.u_start[k].segment<3>(3 * c.node);
-    const LinearisedContact law = linearise(state.contacts[k], x, x0, state.c[k], state.c_start[k], r);
+    const Vec3 x = state.X[c.node] + state.u.segment<3>(3 * c.node),
+               x0 = state.X[c.node] + state.u_start[k].segment<3>(3 * c.node);
+    const LinearisedContact law =
+        linearise(state.contacts[k], x, x0, state.c[k], state.c_start[k], r);
     c.frame = law.frame, c.q = law.q, c.present = law.frame.transpose() * r;
     if (!with_frames) continue;
     c.T = law.T, c.D = law.D;
@@ -81,7 +89,8 @@ void ContactInTangent::linearise_at(const ContactState& state, bool with_frames)
   }
 }
 
-// What it does, and along which direction it slips, by its reaction and position; of frictionless contact slip is all that is closed.
+// What it does, and along which direction it slips, by its reaction and position; of frictionless
+// contact slip is all that is closed.
 void ContactInTangent::judge(Candidate& c, const Vec3& r, const Vec3& x) const {
   const double A = r[0] - rho_ * x[0];
   c.status = ContactStatus::open, c.k = 0, c.e.setZero();
@@ -154,20 +163,23 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
     y[c.first] = -c.q[0] / c.G(0, 0), is_given[c.first] = 1;
     if (c.status != ContactStatus::stick || c.n == 1) continue;
     const MatX S = c.T.bottomRightCorner<2, 2>() * c.G.block(1, 1, 2, c.n - 1);
-    const Eigen::Vector2d left = c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * (c.G.block<2, 1>(1, 0) * y[c.first]);
+    const Eigen::Vector2d left =
+        c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * (c.G.block<2, 1>(1, 0) * y[c.first]);
     y.segment(c.first + 1, c.n - 1) = -PivotedQr(S).solve(left);
     for (int m = 1; m < c.n; ++m) is_given[c.first + m] = 1;
   }
   return y;
 }
 
-// symmetric part of the system in the own axes, given movements taken out; with_contact: of several ranks one adds it
+// symmetric part of the system in the own axes, given movements taken out; with_contact: of several
+// ranks one adds it
 std::vector<double> ContactInTangent::matrix(bool with_friction, bool with_contact) const {
   std::vector<double> values = K_;
   for (const Candidate& c : candidates_) {
     if (!with_contact || c.status != ContactStatus::slip || c.n == 1) continue;
     Mat3 follows = -c.D;
-    if (with_friction && c.friction()) follows.bottomRightCorner<2, 2>() += c.k * across(c.e) * c.T.bottomRightCorner<2, 2>();
+    if (with_friction && c.friction())
+      follows.bottomRightCorner<2, 2>() += c.k * across(c.e) * c.T.bottomRightCorner<2, 2>();
     const Mat3 own = c.G.transpose() * (0.5 * (follows + follows.transpose())) * c.G;
     for (int j = 1; j < c.n; ++j)
       for (int i = j; i < c.n; ++i) values[pattern_.column_start[c.first + j] + i - j] += own(i, j);
@@ -196,7 +208,8 @@ VecX ContactInTangent::times(const VecX& y) const {
 }
 
 // s: of its reaction, where the body moves by y; constants 0: the part that is linear in y
-Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& Ky, double constants) const {
+Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& Ky,
+                                 double constants) const {
   if (c.status == ContactStatus::open) return -constants * c.present;
   const auto own = y.segment(c.first, c.n);
   const Vec3 moved = c.G.leftCols(c.n) * own, follows = c.D * moved;
@@ -205,7 +218,8 @@ Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& 
   Vec3 s = Vec3::Zero(), by_normal(1, 0, 0);
   s.tail<2>() = -constants * c.present.tail<2>();
   if (c.friction()) {
-    const Eigen::Vector2d x_t = constants * c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * moved.tail<2>();
+    const Eigen::Vector2d x_t =
+        constants * c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * moved.tail<2>();
     s.tail<2>() += constants * c.mu * c.present[0] * c.e - c.k * across(c.e) * x_t;
     by_normal.tail<2>() = c.mu * c.e;
   }
@@ -214,12 +228,14 @@ Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& 
 }
 
 // what is missing to balance on the rows whose movement is not given
-VecX ContactInTangent::missing(const VecX& y, const VecX& Ky, double constants, const std::vector<char>& is_given) const {
+VecX ContactInTangent::missing(const VecX& y, const VecX& Ky, double constants,
+                               const std::vector<char>& is_given) const {
   VecX out = constants * rhs_ - Ky;
   for (const Candidate& c : candidates_) {
     if (c.status == ContactStatus::stick) continue;
     Vec3 force = change_of(c, y, Ky, constants);
-    if (c.status == ContactStatus::slip) force += c.D * (c.G.leftCols(c.n) * y.segment(c.first, c.n));
+    if (c.status == ContactStatus::slip)
+      force += c.D * (c.G.leftCols(c.n) * y.segment(c.first, c.n));
     out.segment(c.first, c.n) += c.G.leftCols(c.n).transpose() * force;
   }
   for (Eigen::Index row = 0; row < out.size(); ++row)
@@ -228,7 +244,9 @@ VecX ContactInTangent::missing(const VecX& y, const VecX& Ky, double constants, 
 }
 
 // exact: the factor is that of this system
-std::optional<ContactInTangent::Solved> ContactInTangent::solution(const LinearSolver& linear, bool exact, int& solutions) const {
+std::optional<ContactInTangent::Solved> ContactInTangent::solution(const LinearSolver& linear,
+                                                                   bool exact,
+                                                                   int& solutions) const {
   std::vector<char> is_given;
   Solved at{given(is_given), {}};
   at.Ky = times(at.y);
@@ -247,11 +265,13 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(const LinearS
         if (is_given[static_cast<std::size_t>(row)]) own[row] = 0;
       VecX out = -missing(own, times(own), 0, is_given);
       for (Eigen::Index row = 0; row < own.size(); ++row)
-        if (is_given[static_cast<std::size_t>(row)]) out[row] = K_[pattern_.column_start[row]] * v[row];
+        if (is_given[static_cast<std::size_t>(row)])
+          out[row] = K_[pattern_.column_start[row]] * v[row];
       return out;
     };
     constexpr double accurate = 1e-10, enough = 1e-5;
-    z = solve_near_identity([&](const VecX& v) { return by_factor(system(v)); }, by_factor(b), accurate, 40);
+    z = solve_near_identity([&](const VecX& v) { return by_factor(system(v)); }, by_factor(b),
+                            accurate, 40);
     if (!((b - system(z)).norm() <= enough * b.norm())) return std::nullopt;
   }
   if (!z.allFinite()) return std::nullopt;
@@ -261,22 +281,27 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(const LinearS
   return at;
 }
 
-ContactInTangent::Answer ContactInTangent::answer_of(const Solved& solved, const ContactState& state) const {
+ContactInTangent::Answer ContactInTangent::answer_of(const Solved& solved,
+                                                     const ContactState& state) const {
   Answer out{turned(solved.y, true), state.r};
-  for (auto& of_contact : out.r) std::fill(of_contact.begin(), of_contact.end(), Vec3(Vec3::Zero()));
+  for (auto& of_contact : out.r)
+    std::fill(of_contact.begin(), of_contact.end(), Vec3(Vec3::Zero()));
   for (const Candidate& c : candidates_) {
     if (c.status == ContactStatus::open) continue;
     Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     if (!(r[0] > 0)) continue;
     const double tangential = r.tail<2>().norm(), most = c.mu * r[0];
-    if (tangential > most || (c.friction() && tangential > 0)) r.tail<2>() *= most / tangential;  // on the cone, exactly
+    if (tangential > most || (c.friction() && tangential > 0))
+      r.tail<2>() *= most / tangential;  // on the cone, exactly
     out.r[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)] = c.frame * r;
   }
   return out;
 }
 
-std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state, const std::vector<double>& K,
-                                                                const VecX& rhs, const LinearSolver& linear,
+std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state,
+                                                                const std::vector<double>& K,
+                                                                const VecX& rhs,
+                                                                const LinearSolver& linear,
                                                                 const Factorize& factorize) {
   linearise_at(state, true);
   K_ = K;
@@ -287,15 +312,17 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   int solutions = 0;
   bool factored = false;
   for (int step = 0; step < 20; ++step) {
-    const auto differ =
-        std::count_if(candidates_.begin(), candidates_.end(), [](const Candidate& c) { return c.status != c.factored; });
+    const auto differ = std::count_if(candidates_.begin(), candidates_.end(),
+                                      [](const Candidate& c) { return c.status != c.factored; });
     const bool anew = !factored || differ > left_to_gmres;
     if (anew) {
       if (!factorize(matrix(true))) return std::nullopt;
       factored = true, friction_in_factor_ = false;
-      for (Candidate& c : candidates_) c.factored = c.status, friction_in_factor_ = friction_in_factor_ || c.friction();
+      for (Candidate& c : candidates_)
+        c.factored = c.status, friction_in_factor_ = friction_in_factor_ || c.friction();
     }
-    const bool friction = std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& c) { return c.friction(); });
+    const bool friction = std::any_of(candidates_.begin(), candidates_.end(),
+                                      [](const Candidate& c) { return c.friction(); });
     const auto solved = solution(linear, !friction && (anew || differ == 0), solutions);
     if (!solved && anew) return std::nullopt;
     if (!solved) {
@@ -322,7 +349,8 @@ int ContactInTangent::changes(const Solved& solved) {
   return some;
 }
 
-std::optional<ContactInTangent::Answer> ContactInTangent::solve_again(const ContactState& state, const VecX& rhs,
+std::optional<ContactInTangent::Answer> ContactInTangent::solve_again(const ContactState& state,
+                                                                      const VecX& rhs,
                                                                       const LinearSolver& linear) {
   linearise_at(state, false);
   rhs_ = turned(rhs, false);
@@ -341,19 +369,23 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve_again(const Cont
   return answer;
 }
 
-std::vector<double> ContactInTangent::constrained(const ContactState& state, const std::vector<double>& K,
-                                                  const std::vector<std::vector<ContactStatus>>& status) {
+std::vector<double> ContactInTangent::constrained(
+    const ContactState& state, const std::vector<double>& K,
+    const std::vector<std::vector<ContactStatus>>& status) {
   linearise_at(state, true);
   K_ = K;
   turn(K_);
-  for (Candidate& c : candidates_) c.status = status[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)];
+  for (Candidate& c : candidates_)
+    c.status = status[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)];
   return matrix(false);
 }
 
 bool ContactInTangent::factored(const std::vector<std::vector<ContactStatus>>& status) const {
-  return !friction_in_factor_ && std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& c) {
-    return c.factored == status[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)];
-  });
+  return !friction_in_factor_ &&
+         std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& c) {
+           return c.factored == status[static_cast<std::size_t>(c.contact)]
+                                      [static_cast<std::size_t>(c.candidate)];
+         });
 }
 
 }  // namespace langer

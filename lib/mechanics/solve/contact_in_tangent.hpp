@@ -1,4 +1,5 @@
-// Contact of many candidates in the sparse tangent itself: nothing is formed over pairs of candidates.            [AC91], [HSW08]
+// Contact of many candidates in the sparse tangent itself: nothing is formed over pairs of
+// candidates.            [AC91], [HSW08]
 //   K d = rhs + sum N (s + D N^T d),   r = present + s       N: frame (n, t1, t2) of a candidate; law and D as in contact/contact.hpp
 // The rows of a candidate are turned into its own frame. Then
 //   closed   its movement along n is known, and leaves the system; r_n is what is left of its row
@@ -6,9 +7,10 @@
 //   slips    r_t = mu r_n e - k (1 - e e^T) x_t,  e along r_t - rho x_t:  the part with k and what turns with n join the matrix, that
 //            with r_n is not symmetric and is found by GMRES, which the factor preconditions
 //   open     r = 0
-// Semismooth Newton: who is closed, sticks or slips is judged from the answer (Alart-Curnier form), until nobody changes. A few changes
-// are left to GMRES, many take another factor. Closed gaps are exact in every answer; the direction of slip is that of the answer before,
-// so that it is found together with the movement of the body.
+// Semismooth Newton: who is closed, sticks or slips is judged from the answer (Alart-Curnier form),
+// until nobody changes. A few changes are left to GMRES, many take another factor. Closed gaps are
+// exact in every answer; the direction of slip is that of the answer before, so that it is found
+// together with the movement of the body.
 #pragma once
 
 #include <functional>
@@ -24,10 +26,13 @@ namespace langer {
 
 class ContactInTangent {
  public:
-  // Candidates on it can be told apart: none belongs to two contacts, none is under force control or adheres.
+  // Candidates on it can be told apart: none belongs to two contacts, none is under force control
+  // or adheres.
   static bool serves(const std::vector<RigidContact>& contacts);
-  // refers to the body's pattern; stiffness: of the order of what the body opposes to a movement of one node [N/mm]
-  ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts, double stiffness);
+  // refers to the body's pattern; stiffness: of the order of what the body opposes to a movement of
+  // one node [N/mm]
+  ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+                   double stiffness);
 
   struct Answer {
     VecX move;    // of the free rows [mm]
@@ -36,17 +41,23 @@ class ContactInTangent {
   };
   using Factorize = std::function<bool(const std::vector<double>& values)>;
   // Nothing where the system is singular. factorize: into `linear`; how often, `factors` tells.
-  std::optional<Answer> solve(const ContactState& state, const std::vector<double>& K, const VecX& rhs, const LinearSolver& linear,
+  std::optional<Answer> solve(const ContactState& state, const std::vector<double>& K,
+                              const VecX& rhs, const LinearSolver& linear,
                               const Factorize& factorize);
-  // The same without a factor, with the tangent of the body as `mixed` has split it; dp: change of its pressures [MPa]. Nothing where
-  // that does not converge. Without candidates it solves for the body alone.
-  std::optional<Answer> solve(const ContactState& state, const Equilibrium& body, const VecX& rhs, MixedTangent& mixed, VecX& dp);
+  // The same without a factor, with the tangent of the body as `mixed` has split it; dp: change of
+  // its pressures [MPa]. Nothing where that does not converge. Without candidates it solves for the
+  // body alone.
+  std::optional<Answer> solve(const ContactState& state, const Equilibrium& body, const VecX& rhs,
+                              MixedTangent& mixed, VecX& dp);
   // What was solved before has no say any more: an interrupted path goes on with the same digits.
   void begin_increment() { settled_ = candidates_.empty(); }
-  // With the K, the frames and the factor of the last solve(). Nothing where a candidate changes what it does.
-  std::optional<Answer> solve_again(const ContactState& state, const VecX& rhs, const LinearSolver& linear);
+  // With the K, the frames and the factor of the last solve(). Nothing where a candidate changes
+  // what it does.
+  std::optional<Answer> solve_again(const ContactState& state, const VecX& rhs,
+                                    const LinearSolver& linear);
 
-  // The tangent for movements that keep closed candidates closed and sticking ones in place; slipping ones glide without friction.
+  // The tangent for movements that keep closed candidates closed and sticking ones in place;
+  // slipping ones glide without friction.
   std::vector<double> constrained(const ContactState& state, const std::vector<double>& K,
                                   const std::vector<std::vector<ContactStatus>>& status);
   // whether the last factor is that of constrained()
@@ -85,9 +96,11 @@ class ContactInTangent {
   VecX times(const VecX& y) const;
   VecX force_of(MixedTangent& mixed, const VecX& y, const VecX* q = nullptr) const;
   Vec3 change_of(const Candidate& c, const VecX& y, const VecX& Ky, double constants) const;
-  VecX missing(const VecX& y, const VecX& Ky, double constants, const std::vector<char>& is_given) const;
+  VecX missing(const VecX& y, const VecX& Ky, double constants,
+               const std::vector<char>& is_given) const;
   std::optional<Solved> solution(const LinearSolver& linear, bool exact, int& solutions) const;
-  std::optional<Solved> solution(MixedTangent& mixed, double relative, MixedSolver::Answer& from, VecX& dp) const;
+  std::optional<Solved> solution(MixedTangent& mixed, double relative, MixedSolver::Answer& from,
+                                 VecX& dp) const;
   void turn_dyads(const std::vector<int>& cell_rows, std::vector<double>& b) const;
   bool precondition(MixedTangent& mixed);
   Answer answer_of(const Solved& solved, const ContactState& state) const;

@@ -1,4 +1,5 @@
-// Contact in the tangent where the body is solved iteratively: law and candidates act on displacements and pressures together.
+// Contact in the tangent where the body is solved iteratively: law and candidates act on
+// displacements and pressures together.
 #include <Eigen/Dense>
 #include <algorithm>
 
@@ -31,20 +32,24 @@ bool ContactInTangent::precondition(MixedTangent& mixed) {
   for (Eigen::Index k = 0; k < rigid.cols(); ++k) rigid.col(k) = turned(rigid.col(k), false);
   std::string why;
   const Ranks* ranks = mixed.solver().ranks();
-  return mixed.solver().precondition(matrix(true, !ranks || ranks->first()), mixed.b(), mixed.D(), is_given, rigid, why);
+  return mixed.solver().precondition(matrix(true, !ranks || ranks->first()), mixed.b(), mixed.D(),
+                                     is_given, rigid, why);
 }
 
 // A y + B^T q
 VecX ContactInTangent::force_of(MixedTangent& mixed, const VecX& y, const VecX* q) const {
   VecX force = times(y);
   if (q) mixed.solver().spread_own(mixed.b(), *q, force);
-  if (const Ranks* ranks = mixed.solver().ranks()) ranks->sum(force.data(), static_cast<std::size_t>(force.size()));
+  if (const Ranks* ranks = mixed.solver().ranks())
+    ranks->sum(force.data(), static_cast<std::size_t>(force.size()));
   return force;
 }
 
-// K_ is A here, and Ky of what is returned A y + B^T q. from: y and q of a solution with other states of the candidates, and then of
-// this one.
-std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent& mixed, double relative, MixedSolver::Answer& from,
+// K_ is A here, and Ky of what is returned A y + B^T q. from: y and q of a solution with other
+// states of the candidates, and then of this one.
+std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent& mixed,
+                                                                   double relative,
+                                                                   MixedSolver::Answer& from,
                                                                    VecX& dp) const {
   const MixedSolver& solver = mixed.solver();
   const std::vector<double>& b = mixed.b();
@@ -55,7 +60,8 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
     for (Eigen::Index row = 0; row < d.size(); ++row)
       if (is_given[static_cast<std::size_t>(row)]) d[row] = 0;
   };
-  const VecX f = missing(at.y, at.Ky, 1, is_given), g = mixed.known_strain() - solver.gather(b, at.y);
+  const VecX f = missing(at.y, at.Ky, 1, is_given),
+             g = mixed.known_strain() - solver.gather(b, at.y);
   const VecX diagonal = solver.diagonal_of(K_);
   const auto product = [&](const VecX& d, const VecX& q, VecX& of_f, VecX& of_g) {
     VecX own = d;
@@ -78,9 +84,11 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
   return at;
 }
 
-// Multigrid is made anew where more than a few candidates do something else than in it, each of which costs some products, or where
-// many products tell that it is old.
-std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state, const Equilibrium& body, const VecX& rhs,
+// Multigrid is made anew where more than a few candidates do something else than in it, each of
+// which costs some products, or where many products tell that it is old.
+std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state,
+                                                                const Equilibrium& body,
+                                                                const VecX& rhs,
                                                                 MixedTangent& mixed, VecX& dp) {
   constexpr int few = 4, many_products = 25;
   linearise_at(state, true);
@@ -96,8 +104,8 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   settled_ = true;
   bool old = false;
   for (int step = 0; step < 30; ++step) {
-    const auto differ =
-        std::count_if(candidates_.begin(), candidates_.end(), [](const Candidate& c) { return c.status != c.factored; });
+    const auto differ = std::count_if(candidates_.begin(), candidates_.end(),
+                                      [](const Candidate& c) { return c.status != c.factored; });
     const bool anew = !mixed.solver().preconditioned() || differ > few || old;
     if (anew) {
       if (!precondition(mixed)) return std::nullopt;

@@ -3,18 +3,19 @@
 #include <Eigen/Dense>
 #include <limits>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/contact/supported_problem.hpp"
 #include "mechanics/solve/condensed_contact.hpp"
-#include "core/tensor/dense.hpp"
 
 namespace langer {
 
 namespace {
 
-// Far candidates cannot close in this linear step: their gap exceeds what the whole movement could take away. Those with springs
-// are all needed, to take the springs out.
-// travel: of the indenter under force control, which may take as much of the gap as well
-std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor, const VecX& move, double travel) {
+// Far candidates cannot close in this linear step: their gap exceeds what the whole movement could
+// take away. Those with springs are all needed, to take the springs out. travel: of the indenter
+// under force control, which may take as much of the gap as well
+std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor,
+                                  const VecX& move, double travel) {
   std::vector<Near> near;
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const RigidContact& contact = state.contacts[k];
@@ -22,7 +23,8 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
     const double further = static_cast<int>(k) == state.controlled ? travel : 0;
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
-      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node), x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
+      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node),
+                 x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
       Vec3 d = Vec3::Zero();
       for (int j = 0; j < 3; ++j) {
         const int row = factor.last_of(3 * node + j);
@@ -30,7 +32,9 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
       }
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
       const bool bonded = state.bonds && state.bonds->holds(k, i);
-      if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
+      if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) &&
+          shape_at(contact.shape, x - c).gap > reach)
+        continue;
       Near n{k, i, linearise(contact, x, x0, c, c0, state.r[k][i]), {}, {}};
       if (bonded) n.law.D += n.law.frame.transpose() * state.bonds->tangent(k, i) * n.law.frame;
       n.r = n.law.frame.transpose() * state.r[k][i];
@@ -43,24 +47,42 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
 
 }  // namespace
 
-Condensed condensed(const ContactState& state, const TangentFactor& factor, const std::vector<Near>& near) {
-  const auto m = static_cast<Eigen::Index>(near.size()), n_last = static_cast<Eigen::Index>(factor.last().size());
-  Condensed out{MatX::Zero(n_last, 3 * m), {}, VecX(3 * m), VecX(3 * m), VecX(3 * m), VecX(m), {}, {}, false, {}, {}, {}};
-  const auto node_of = [&](const Near& n) { return state.contacts[n.contact].nodes[n.candidate]; };
-  std::vector<int> sharing(factor.last().size(), 0);  // candidates of several contacts share a node's springs
+Condensed condensed(const ContactState& state, const TangentFactor& factor,
+                    const std::vector<Near>& near) {
+  const auto m = static_cast<Eigen::Index>(near.size()),
+             n_last = static_cast<Eigen::Index>(factor.last().size());
+  Condensed out{MatX::Zero(n_last, 3 * m),
+                {},
+                VecX(3 * m),
+                VecX(3 * m),
+                VecX(3 * m),
+                VecX(m),
+                {},
+                {},
+                false,
+                {},
+                {},
+                {}};
+  const auto node_of = [&](const Near& n) {
+    return state.contacts[n.contact].nodes[n.candidate];
+  };
+  std::vector<int> sharing(factor.last().size(),
+                           0);  // candidates of several contacts share a node's springs
   for (Eigen::Index p = 0; p < m; ++p)
     for (int j = 0; j < 3; ++j)
       if (const int row = factor.last_of(3 * node_of(near[p]) + j); row >= 0)
         out.B.row(row).segment<3>(3 * p) = near[p].law.frame.row(j), ++sharing[row];
   for (Eigen::Index p = 0; p < m; ++p) {
     const Near& n = near[p];
-    out.move.segment<3>(3 * p) = n.move, out.present.segment<3>(3 * p) = n.r, out.q.segment<3>(3 * p) = n.law.q;
+    out.move.segment<3>(3 * p) = n.move, out.present.segment<3>(3 * p) = n.r,
+                            out.q.segment<3>(3 * p) = n.law.q;
     out.mu[p] = state.contacts[n.contact].mu;
     Mat3 E = n.law.D;
     if (factor.with_springs()) {
       Mat3 springs = Mat3::Zero();
       for (int j = 0; j < 3; ++j)
-        if (const int row = factor.last_of(3 * node_of(n) + j); row >= 0) springs(j, j) = factor.gamma() / sharing[row];
+        if (const int row = factor.last_of(3 * node_of(n) + j); row >= 0)
+          springs(j, j) = factor.gamma() / sharing[row];
       const Mat3 turned = n.law.frame.transpose() * springs * n.law.frame;
       E += turned;
       if (state.controlled >= 0) out.springs.push_back(turned);
@@ -75,7 +97,8 @@ Condensed condensed(const ContactState& state, const TangentFactor& factor, cons
   for (Eigen::Index p = 0; p < m; ++p) {
     const Near& n = near[p];
     if (static_cast<int>(n.contact) != state.controlled) continue;
-    out.along.segment<3>(3 * p) = n.law.frame.transpose() * state.contacts[n.contact].control->along;
+    out.along.segment<3>(3 * p) =
+        n.law.frame.transpose() * state.contacts[n.contact].control->along;
     if (state.start_moves.empty()) continue;
     out.start_moves.segment<3>(3 * p) = n.law.frame.transpose() * state.start_moves[n.candidate];
     out.start_moves[3 * p] = 0;  // the gap knows no start
@@ -116,7 +139,8 @@ class Law {
 
   // r: to start from
   Answer at(double travel, const VecX& r) const {
-    const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along) : c_.move;  // of the nodes past the indenter
+    const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along)
+                                          : c_.move;  // of the nodes past the indenter
     const VecX b = without_change(travel, move);
     const VecX q = c_.start_moves.size() > 0 ? VecX(c_.q - travel * c_.start_moves) : c_.q;
     Answer answer{VecX(c_.move.size()), r};
@@ -126,11 +150,15 @@ class Law {
       if (answer.solved && c_.follows) answer.s = lu_.solve(answer.r - b);
       if (answer.solved || !c_.follows) return answer;
     }
-    answer.s = VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
-    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, q + c_.slipping(move), b, c_.mu}, answer.s);
+    answer.s =
+        VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
+    const LocalReport local =
+        solve_supported({c_.slipping(c_.W), A_, q + c_.slipping(move), b, c_.mu}, answer.s);
     answer.r = b + A_ * answer.s;
-    for (std::size_t p = 0; p < c_.E.size(); ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
-      if (local.status[p] == ContactStatus::open) answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
+    for (std::size_t p = 0; p < c_.E.size();
+         ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
+      if (local.status[p] == ContactStatus::open)
+        answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
     take(local, answer);
     return answer;
   }
@@ -163,7 +191,8 @@ class Law {
     for (std::size_t p = 0; p < c_.E.size() && c_.follows; ++p)
       if (const auto row = 3 * static_cast<Eigen::Index>(p); !c_.E[p].isZero(0))
         b.segment<3>(row) -= c_.E[p] * move.segment<3>(row);
-    for (std::size_t p = 0; p < c_.springs.size(); ++p) {  // springs stand still when the indenter moves
+    for (std::size_t p = 0; p < c_.springs.size();
+         ++p) {  // springs stand still when the indenter moves
       const auto row = 3 * static_cast<Eigen::Index>(p);
       b.segment<3>(row) -= travel * (c_.springs[p] * c_.along.segment<3>(row));
     }
@@ -186,11 +215,13 @@ Answer without_indenter(const Law& law, const Condensed& c) {
   VecX none = c.present;
   for (Eigen::Index i = 0; i < none.size(); i += 3)
     if (!c.along.segment<3>(i).isZero(0)) none.segment<3>(i).setZero();
-  return law.at(-1e3 * (1 + c.q.lpNorm<Eigen::Infinity>() + c.move.lpNorm<Eigen::Infinity>()), none);
+  return law.at(-1e3 * (1 + c.q.lpNorm<Eigen::Infinity>() + c.move.lpNorm<Eigen::Infinity>()),
+                none);
 }
 
-// The travel at which the indenter bears the given force: the root of a function that does not fall, and is linear while no contact
-// changes. Secants within the bounds known so far; the cone law holds exactly at each.
+// The travel at which the indenter bears the given force: the root of a function that does not
+// fall, and is linear while no contact changes. Secants within the bounds known so far; the cone
+// law holds exactly at each.
 Pushed pushed_by(const Law& law, const Condensed& c, double force) {
   constexpr double exact = 1e-12, enough = 1e-9, infinite = std::numeric_limits<double>::infinity();
   double low = -infinite, high = infinite;
@@ -221,7 +252,8 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
     const double furthest = last ? 100 * std::abs(here.travel - last->travel) : 1e-3;
     const double step = slope > 0 ? std::abs(here.miss) / slope : furthest;
     next += here.miss < 0 ? std::min(step, furthest) : -std::min(step, furthest);
-    if (std::isfinite(low) && std::isfinite(high) && (!(next > low && next < high) || i % 8 == 7)) next = 0.5 * (low + high);
+    if (std::isfinite(low) && std::isfinite(high) && (!(next > low && next < high) || i % 8 == 7))
+      next = 0.5 * (low + high);
     if (std::isfinite(low) && high - low <= 1e-16 * (1 + std::abs(low))) break;
     last = here;
   }
@@ -232,7 +264,8 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
 
 }  // namespace
 
-std::optional<ContactChange> linearised_contact(const ContactState& state, const TangentFactor& factor, const VecX& move) {
+std::optional<ContactChange> linearised_contact(const ContactState& state,
+                                                const TangentFactor& factor, const VecX& move) {
   ContactChange change{VecX::Zero(static_cast<Eigen::Index>(factor.last().size())), state.r};
   for (double travel = 0.1;; travel = 2 * change.travel) {
     const std::vector<Near> near = near_candidates(state, factor, move, travel);
@@ -240,7 +273,8 @@ std::optional<ContactChange> linearised_contact(const ContactState& state, const
     if (near.empty()) return std::nullopt;
     const Condensed c = condensed(state, factor, near);
     const Law law(c);
-    const Pushed found = state.controlled < 0 ? Pushed{law.at(0, c.present), 0} : pushed_by(law, c, state.force);
+    const Pushed found =
+        state.controlled < 0 ? Pushed{law.at(0, c.present), 0} : pushed_by(law, c, state.force);
     const Answer& answer = found.answer;
     if (!answer.s.allFinite() || !answer.r.allFinite()) return std::nullopt;
     if (state.controlled >= 0 && !answer.solved) return std::nullopt;
@@ -249,7 +283,8 @@ std::optional<ContactChange> linearised_contact(const ContactState& state, const
     change.force = c.B * answer.s;
     change.sweeps += answer.sweeps;
     for (std::size_t p = 0; p < near.size(); ++p)
-      change.r[near[p].contact][near[p].candidate] = near[p].law.frame * answer.r.segment<3>(3 * static_cast<Eigen::Index>(p));
+      change.r[near[p].contact][near[p].candidate] =
+          near[p].law.frame * answer.r.segment<3>(3 * static_cast<Eigen::Index>(p));
     return change;
   }
 }

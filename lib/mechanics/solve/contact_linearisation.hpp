@@ -1,7 +1,9 @@
-// The contact law linearised where an increment stands, on the compliance of the body: the reactions after the next movement.
+// The contact law linearised where an increment stands, on the compliance of the body: the
+// reactions after the next movement.
 //                                                                                      [A23] eqs 22-32
-// The body's last factor gives what forces on the candidates move them; the law on those that may close is condensed to them
-// (contact/local_problem.hpp), and where springs hold the body they are taken out again (contact/supported_problem.hpp).
+// The body's last factor gives what forces on the candidates move them; the law on those that may
+// close is condensed to them (contact/local_problem.hpp), and where springs hold the body they are
+// taken out again (contact/supported_problem.hpp).
 #pragma once
 
 #include <optional>
@@ -19,7 +21,9 @@ struct ContactChange {
   int sweeps = 0;
 };
 
-// move: of the rows of factor.last() without any change of reaction [mm]. Nothing where no finite answer is found.
-std::optional<ContactChange> linearised_contact(const ContactState& state, const TangentFactor& factor, const VecX& move);
+// move: of the rows of factor.last() without any change of reaction [mm]. Nothing where no finite
+// answer is found.
+std::optional<ContactChange> linearised_contact(const ContactState& state,
+                                                const TangentFactor& factor, const VecX& move);
 
 }  // namespace langer

@@ -14,7 +14,9 @@ bool Statics::factorize() {
 
 TangentFactor& Statics::condensed_factor() {
   if (!contact_in_tangent()) return factor_;
-  if (!beside_) beside_ = std::make_unique<TangentFactor>(equilibrium_, contacts_, options_.threads, ContactBy::compliance);
+  if (!beside_)
+    beside_ = std::make_unique<TangentFactor>(equilibrium_, contacts_, options_.threads,
+                                              ContactBy::compliance);
   return *beside_;
 }
 
@@ -31,8 +33,8 @@ bool Statics::factorize_accepted() {
   bool solvable = false;
   if (&factor == &factor_) {
     solvable = factorize();
-    of_accepted_ =
-        solvable && factor.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
+    of_accepted_ = solvable && factor.kind() == TangentFactor::Kind::whole &&
+                   equilibrium_.formulation() != Formulation::displacement;
     if (of_accepted_) equilibrium_.keep_dilatations();
   } else {
     const Stopwatch watch(cost_.factor);
@@ -50,12 +52,14 @@ void Statics::need_tangent() {
   K_current_ = true;
 }
 
-// From counts, not from a clock: the same scene takes the same way on every machine. The rates are those of one thread of a
-// machine of 2020 (`langer-bench indentation`); what counts is their ratio.
+// From counts, not from a clock: the same scene takes the same way on every machine. The rates are
+// those of one thread of a machine of 2020 (`langer-bench indentation`); what counts is their
+// ratio.
 double Statics::price() const {
   const LinearSolver::Size size = factor_.size();
   const ReferenceCell& cell = equilibrium_.mesh().cell();
-  const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss, n = cell.n_nodes;
+  const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss,
+               n = cell.n_nodes;
   const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
   const double tangents = 4e-9 * points * n * n, forces = 15e-9 * points * n;
   return (factor + tangents + through_factor + forces) / (through_factor + forces);
@@ -70,9 +74,10 @@ std::optional<VecX> Statics::correction() {
     du = corrected_with_contact(rhs);
   else if (!factorize())
     return std::nullopt;
-  // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed equations
-  factor_serves_ =
-      !iterative() && factor_.kind() == TangentFactor::Kind::whole && equilibrium_.formulation() != Formulation::displacement;
+  // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed
+  // equations
+  factor_serves_ = !iterative() && factor_.kind() == TangentFactor::Kind::whole &&
+                   equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   return contact_in_tangent() ? du : corrected(rhs);
 }
@@ -87,7 +92,8 @@ std::optional<VecX> Statics::correction_again() {
 
 VecX Statics::with_prescribed(const VecX& free) const {
   VecX du = remaining_prescribed(u_);
-  for (Eigen::Index row = 0; row < free.size(); ++row) du[equilibrium_.dofs().free[row]] = free[row];
+  for (Eigen::Index row = 0; row < free.size(); ++row)
+    du[equilibrium_.dofs().free[row]] = free[row];
   return du;
 }
 
@@ -100,8 +106,9 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
     const Stopwatch watch(cost_.solve);
     mixed->linearise(equilibrium_, remaining_prescribed(u_));
     const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
-    answer = factor_.in_tangent()->solve({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_, rhs,
-                                         *mixed, dp_);
+    answer = factor_.in_tangent()->solve(
+        {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_, rhs, *mixed,
+        dp_);
     if (!answer && equilibrium_.division()) return std::nullopt;  // shorter increments are left
     if (!answer) factor_.take_factor(equilibrium_), dp_.resize(0);
   }
@@ -124,7 +131,8 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
   return with_prescribed(answer->move);
 }
 
-// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to the whole for a few iterations.
+// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to
+// the whole for a few iterations.
 VecX Statics::with_free_rims(const VecX& rhs) {
   constexpr double accurate = 1e-6;  // of the correction
   LinearSolver& linear = factor_.linear();
@@ -155,9 +163,9 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       const Stopwatch watch(cost_.contact);
       const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
       const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
-      change = linearised_contact(
-          {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_, controlled_, force, start_moves(), &bonds_}, factor_,
-          half.last);
+      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
+                                   controlled_, force, start_moves(), &bonds_},
+                                  factor_, half.last);
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
@@ -166,7 +174,8 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
       move = linear.finish(half, change->force);
     } else {  // where springs cancel against forces, they had better do so before the elimination
       VecX all = rhs;
-      for (std::size_t i = 0; i < factor_.last().size(); ++i) all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < factor_.last().size(); ++i)
+        all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
       move = linear.solve(all);
     }
   }

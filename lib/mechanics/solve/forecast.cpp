@@ -6,8 +6,9 @@
 #include "core/base/memory.hpp"
 #include "core/base/stopwatch.hpp"
 
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
-                       const double*, const int*, const double*, double*, const int*);
+extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*,
+                       const double*, const int*, const double*, const int*, const double*, double*,
+                       const int*);
 
 namespace langer {
 
@@ -16,7 +17,9 @@ double multiplication_rate() {
   const std::vector<double> a(n * n, 0.5), b(n * n, 0.25);
   std::vector<double> c(n * n, 0);
   const double one = 1;
-  const auto multiply = [&] { dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &one, c.data(), &n); };
+  const auto multiply = [&] {
+    dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &one, c.data(), &n);
+  };
   multiply();  // wakes the library
   const double start = cpu_seconds();
   double now = start;
@@ -25,25 +28,33 @@ double multiplication_rate() {
   return 2.0 * n * n * n * products / (now - start);
 }
 
-double forecast_bytes(const LinearSolver::Size& size) { return resident_bytes() + size.factor_bytes; }
+double forecast_bytes(const LinearSolver::Size& size) {
+  return resident_bytes() + size.factor_bytes;
+}
 
 namespace {
 
 // candidates inside their indenters, were the body not to give way, where most of them are
-double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts, std::vector<double> times) {
+double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts,
+                    std::vector<double> times) {
   double most = 0;
   times.push_back(1);
   for (double t : times) {
     double covered = 0;
     for (const RigidContact& contact : contacts)
-      for (int node : contact.nodes) covered += shape_at(contact.shape, mesh.X[node] - indenter_displacement(contact, t)).gap < 0;
+      for (int node : contact.nodes)
+        covered +=
+            shape_at(contact.shape, mesh.X[node] - indenter_displacement(contact, t)).gap < 0;
     most = std::max(most, covered);
   }
   return most;
 }
 
-// small supernodes and the scatter between them: 0.24 of the product's rate at 0.2 GFLOP, 0.51 at 7, 0.77 at 600
-double efficiency(double flops) { return std::clamp(0.385 + 0.062 * std::log(std::max(1e-9 * flops, 1e-9)), 0.15, 0.85); }
+// small supernodes and the scatter between them: 0.24 of the product's rate at 0.2 GFLOP, 0.51 at
+// 7, 0.77 at 600
+double efficiency(double flops) {
+  return std::clamp(0.385 + 0.062 * std::log(std::max(1e-9 * flops, 1e-9)), 0.15, 0.85);
+}
 
 void with_factor(double rate, Forecast& out) {
   out.factor = out.size.flops / (efficiency(out.size.flops) * rate);
@@ -51,8 +62,8 @@ void with_factor(double rate, Forecast& out) {
   out.solving = 2 * 8 * out.size.factor_nonzeros / 10e9;
 }
 
-// Multigrid made anew in nearly every iteration where candidates come and go, else once in an increment; 25 products with them, 15
-// without: measured on the indentation
+// Multigrid made anew in nearly every iteration where candidates come and go, else once in an
+// increment; 25 products with them, 15 without: measured on the indentation
 void without_factor(const MixedSolver& mixed, bool contact, double rate, Forecast& out) {
   const LinearSolver::Size schur = mixed.schur_size();
   const double anew = 1.5e-7 * out.size.nonzeros + schur.flops / (efficiency(schur.flops) * rate);
@@ -62,8 +73,9 @@ void without_factor(const MixedSolver& mixed, bool contact, double rate, Forecas
 
 }  // namespace
 
-Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, const CorrectionsBy& by) {
+Forecast forecast(Equilibrium& body, const LinearSolver::Size& size,
+                  const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
+                  const std::vector<double>& stops, const CorrectionsBy& by) {
   Forecast out;
   out.size = size;
   const VecX rest = VecX::Zero(body.dofs().n);
@@ -81,21 +93,26 @@ Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::
   const double covered = most_covered(body.mesh(), contacts, stops);
   if (by.mixed) {
     out.bytes += 8 * out.size.nonzeros;  // the tangent in the candidates' axes
-  } else if (by.in_tangent) {            // the tangent turned into the candidates' axes, and once more with what they do
+  } else if (by.in_tangent) {  // the tangent turned into the candidates' axes, and once more with
+                               // what they do
     out.contact = 30 * out.size.nonzeros / 1e9 + 2 * out.solving;
     out.bytes += 2 * 8 * out.size.nonzeros;
   } else {
-    // Full matrices over the contacts. While they grow one after the other two thirds of those covered come to be, over the path 0.43 of
-    // the entries; 290 operations for each n^3 where all of them close at once: measured.
+    // Full matrices over the contacts. While they grow one after the other two thirds of those
+    // covered come to be, over the path 0.43 of the entries; 290 operations for each n^3 where all
+    // of them close at once: measured.
     out.contact = std::max(4e4 * std::pow(covered, 2), 290 * std::pow(covered, 3)) / rate;
     double candidates = 0;
-    for (const RigidContact& contact : contacts) candidates += static_cast<double>(contact.nodes.size());
+    for (const RigidContact& contact : contacts)
+      candidates += static_cast<double>(contact.nodes.size());
     out.bytes += 8 * 9 * (6 * covered * covered + 2 * covered * candidates);
   }
   if (body.division()) body.division()->ranks->sum(&out.bytes, 1);
-  const bool friction = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& c) { return c.mu > 0; });
-  // 2.3 iterations in steps of 0.01 of the path, 3.7 in steps of 0.1; with tangents used again 1.3 and 2.4, and 6 to 8 corrections
-  // with them, and with friction 3.8 in steps of 0.25: measured on the indentation
+  const bool friction =
+      std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& c) { return c.mu > 0; });
+  // 2.3 iterations in steps of 0.01 of the path, 3.7 in steps of 0.1; with tangents used again 1.3
+  // and 2.4, and 6 to 8 corrections with them, and with friction 3.8 in steps of 0.25: measured on
+  // the indentation
   const auto attempt = [&](double) {
     SolveReport report;
     report.outcome = Outcome::converged, report.iterations = 4;

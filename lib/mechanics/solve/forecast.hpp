@@ -1,5 +1,5 @@
-// What a run will take, told before it: memory from the analysis of its own tangent, time from its own operation counts
-// and from how fast this machine multiplies matrices and assembles this body.
+// What a run will take, told before it: memory from the analysis of its own tangent, time from its
+// own operation counts and from how fast this machine multiplies matrices and assembles this body.
 #pragma once
 
 #include "mechanics/assembly/equilibrium.hpp"
@@ -12,22 +12,26 @@ namespace langer {
 
 struct Forecast {
   LinearSolver::Size size;
-  double bytes = 0;                              // largest memory of the whole run
-  double assembly = 0, factor = 0, solving = 0;  // CPU seconds per iteration, one thread; factor: or what stands in its place
-  int steps = 0;                                 // if none is cut back
-  double iterations = 0;                         // about; each with a tangent
-  double again = 0;                              // corrections with their tangents
-  double contact = 0;                            // CPU seconds per iteration and per correction
-  double files = 0;                              // CPU seconds of start and files, all steps
+  double bytes = 0;  // largest memory of the whole run
+  double assembly = 0, factor = 0,
+         solving = 0;  // CPU seconds per iteration, one thread; factor: or what stands in its place
+  int steps = 0;       // if none is cut back
+  double iterations = 0;  // about; each with a tangent
+  double again = 0;       // corrections with their tangents
+  double contact = 0;     // CPU seconds per iteration and per correction
+  double files = 0;       // CPU seconds of start and files, all steps
   double per_iteration() const { return assembly + factor + solving; }
-  double seconds() const { return iterations * (per_iteration() + contact) + again * (0.4 * assembly + solving + contact) + files; }
+  double seconds() const {
+    return iterations * (per_iteration() + contact) + again * (0.4 * assembly + solving + contact) +
+           files;
+  }
 };
 
 // bytes alone, without timing anything
 double forecast_bytes(const LinearSolver::Size& size);
 
-// How corrections are found. reuses: with a tangent that is there already, too; in_tangent: contact stands in it
-// (Statics::contact_in_tangent); mixed: without a factor, none otherwise
+// How corrections are found. reuses: with a tangent that is there already, too; in_tangent: contact
+// stands in it (Statics::contact_in_tangent); mixed: without a factor, none otherwise
 struct CorrectionsBy {
   bool reuses = false, in_tangent = false;
   const MixedSolver* mixed = nullptr;
@@ -35,8 +39,9 @@ struct CorrectionsBy {
 
 // Of a body divided among ranks: the memory of all, the time of each; all of them call it.
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
-Forecast forecast(Equilibrium& body, const LinearSolver::Size& size, const std::vector<RigidContact>& contacts,
-                  const LoadPathOptions& path, const std::vector<double>& stops, const CorrectionsBy& by);
+Forecast forecast(Equilibrium& body, const LinearSolver::Size& size,
+                  const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
+                  const std::vector<double>& stops, const CorrectionsBy& by);
 
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 

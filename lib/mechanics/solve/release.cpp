@@ -18,8 +18,10 @@ double hardest_work(const std::vector<RigidContact>& contacts) {
   return work;
 }
 
-// Bonds come loose in parts, each an equilibrium: less damped while that is easy, more where it is not.
-SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve, const std::function<void(int)>& jumping) {
+// Bonds come loose in parts, each an equilibrium: less damped while that is easy, more where it is
+// not.
+SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
+                   const std::function<void(int)>& jumping) {
   constexpr int parts = 400;
   constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
   const double work = hardest_work(statics.contacts());
@@ -50,20 +52,23 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve, 
       damping *= 0.5;
     if (damping < undamped * work) damping = 0;
   }
-  all.outcome = Outcome::not_converged, all.why = "the bonds of the adhesion find no state in which they rest";
+  all.outcome = Outcome::not_converged,
+  all.why = "the bonds of the adhesion find no state in which they rest";
   return all;
 }
 
 }  // namespace
 
-SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, const std::function<SolveReport()>& solve,
+SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
+                                 const std::function<SolveReport()>& solve,
                                  const std::function<void(int)>& jumping) {
   const double from = statics.accepted().t;
   SolveReport report = solve();
   const double loosened = report.converged() ? statics.bonds().loosened() : 0;
   if (report.converged() && loosened <= most_loosened) return report;
   if (t - from > shortest) {
-    if (report.converged()) report.why = "bonds of the adhesion lose more than half of their intensity in one increment";
+    if (report.converged())
+      report.why = "bonds of the adhesion lose more than half of their intensity in one increment";
     report.outcome = Outcome::not_converged;
     return report;
   }
@@ -79,7 +84,8 @@ SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest, co
   if (!jump.converged()) return jump;
   const double of_loads = statics.work_of_loads(u);
   statics.jumped(before - at_begin + of_loads,
-                 before - statics.stored() + of_loads - statics.bonds().dissipated_since(statics.accepted().bonds));
+                 before - statics.stored() + of_loads -
+                     statics.bonds().dissipated_since(statics.accepted().bonds));
   return jump;
 }
 

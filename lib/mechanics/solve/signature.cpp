@@ -1,24 +1,26 @@
-// Inertia of the constrained tangent: from the Schur complement on the contact candidates that the factor already holds, or
-// from an L D L^T where there is none.
+// Inertia of the constrained tangent: from the Schur complement on the contact candidates that the
+// factor already holds, or from an L D L^T where there is none.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
-#include "mechanics/solve/statics.hpp"
 #include "core/tensor/dense.hpp"
+#include "mechanics/solve/statics.hpp"
 
 namespace langer {
 
 namespace {
 
-// What contact does to one node: directions that are held, and r_n times the curvature of the indenter there.
+// What contact does to one node: directions that are held, and r_n times the curvature of the
+// indenter there.
 struct NodeContact {
   std::vector<Vec3> held;
   Mat3 turning = Mat3::Zero();
 };
 
-std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector<Vec3>& X, std::size_t n_nodes) {
+std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector<Vec3>& X,
+                                       std::size_t n_nodes) {
   std::vector<NodeContact> out(n_nodes);
   const BodyState& state = statics.accepted();
   const Bonds& bonds = statics.bonds();
@@ -37,7 +39,8 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
         out[node].held.push_back(frame.col(1)), out[node].held.push_back(frame.col(2));
       } else {
         const Mat3 along = Mat3::Identity() - shape.normal * shape.normal.transpose();
-        out[node].turning += std::max(0.0, state.r[k][i].dot(shape.normal)) * along * shape.curvature * along;
+        out[node].turning +=
+            std::max(0.0, state.r[k][i].dot(shape.normal)) * along * shape.curvature * along;
       }
     }
   }
@@ -62,14 +65,17 @@ Signature signs(const MatX& M, bool zero_energy_too) {
   if (positive_definite(M) && (!zero_energy_too || M.rows() > largest)) return {};
   const VecX e = symmetric_eigenvalues(M);
   const double small = 1e-8 * e.cwiseAbs().maxCoeff();
-  return {static_cast<int>((e.array() < -small).count()), static_cast<int>((e.array().abs() <= small).count())};
+  return {static_cast<int>((e.array() < -small).count()),
+          static_cast<int>((e.array().abs() <= small).count())};
 }
 
 }  // namespace
 
 void Statics::need_factor_of_accepted(double within) {
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
-  if (factor_.kind() != TangentFactor::Kind::none && (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= within * moved) return;
+  if (factor_.kind() != TangentFactor::Kind::none &&
+      (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= within * moved)
+    return;
   const TangentFactor::Counts needed = factor_.counts();
   need_tangent();
   factorize();
@@ -82,13 +88,15 @@ Signature Statics::signature_with_contact() {
   std::vector<std::vector<ContactStatus>> status;
   for (ContactDefect& defect : defects()) status.push_back(std::move(defect.status));
   ContactInTangent& contact = *factor_.in_tangent();
-  const bool recent = factor_.kind() != TangentFactor::Kind::none && factored_at_.size() == now_.u.size() &&
+  const bool recent = factor_.kind() != TangentFactor::Kind::none &&
+                      factored_at_.size() == now_.u.size() &&
                       (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
   if (recent && factor_.kind() == TangentFactor::Kind::whole && contact.factored(status)) return {};
   need_tangent();
-  const std::vector<Vec3> c = indenters(now_.t, now_.travel), c_start = indenters(before_.t, before_.travel);
-  const std::vector<double> values =
-      contact.constrained({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_.K(), status);
+  const std::vector<Vec3> c = indenters(now_.t, now_.travel),
+                          c_start = indenters(before_.t, before_.travel);
+  const std::vector<double> values = contact.constrained(
+      {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_.K(), status);
   const TangentFactor::Counts needed = factor_.counts();
   {
     const Stopwatch watch(cost_.factor);
@@ -96,7 +104,9 @@ Signature Statics::signature_with_contact() {
     factor_.factorize_with_contact(values);
   }
   factor_.uncount(needed);
-  return factor_.kind() == TangentFactor::Kind::whole ? Signature{} : Signature{factor_.linear().negative_pivots(values), 0};
+  return factor_.kind() == TangentFactor::Kind::whole
+             ? Signature{}
+             : Signature{factor_.linear().negative_pivots(values), 0};
 }
 
 Signature Statics::signature() {
@@ -106,8 +116,10 @@ Signature Statics::signature() {
   need_factor_of_accepted(0.02);
   if (factor_.kind() == Kind::whole && contacts_.empty()) return {};
   const auto contacts = contacts_.empty() ? std::vector<NodeContact>(equilibrium_.mesh().n_nodes())
-                                          : node_contacts(*this, equilibrium_.mesh().X, equilibrium_.mesh().n_nodes());
-  const bool turning = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return !c.turning.isZero(0); });
+                                          : node_contacts(*this, equilibrium_.mesh().X,
+                                                          equilibrium_.mesh().n_nodes());
+  const bool turning = std::any_of(contacts.begin(), contacts.end(),
+                                   [](const auto& c) { return !c.turning.isZero(0); });
   if (factor_.kind() == Kind::whole && !turning) return {};
   if (factor_.kind() != Kind::indefinite)
     if (auto S = factor_.linear().schur()) {
@@ -118,7 +130,8 @@ Signature Statics::signature() {
         int row[3];
         bool is_free[3], candidate = false;
         for (int j = 0; j < 3; ++j)
-          row[j] = factor_.last_of(3 * node + j), is_free[j] = row[j] >= 0, candidate = candidate || is_free[j];
+          row[j] = factor_.last_of(3 * node + j), is_free[j] = row[j] >= 0,
+          candidate = candidate || is_free[j];
         if (!candidate) continue;
         const MatX basis = left_of(contacts[node], is_free);
         for (int i = 0; i < 3; ++i)
@@ -136,7 +149,8 @@ Signature Statics::signature() {
   std::vector<double> K = equilibrium_.K();
   const Pattern& pattern = equilibrium_.pattern();
   double stiffest = 0;
-  for (int row = 0; row < dofs.n_free(); ++row) stiffest = std::max(stiffest, std::abs(K[pattern.column_start[row]]));
+  for (int row = 0; row < dofs.n_free(); ++row)
+    stiffest = std::max(stiffest, std::abs(K[pattern.column_start[row]]));
   for (int node = 0; node < equilibrium_.mesh().n_nodes(); ++node) {
     Mat3 block = -contacts[node].turning;
     for (const Vec3& h : contacts[node].held) block += 1e4 * stiffest * h * h.transpose();

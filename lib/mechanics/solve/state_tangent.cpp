@@ -10,7 +10,9 @@
 namespace langer {
 
 StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
-    : statics_(statics), factor_(statics.condensed_factor()), solvable_(statics.factorize_accepted()) {
+    : statics_(statics),
+      factor_(statics.condensed_factor()),
+      solvable_(statics.factorize_accepted()) {
   if (!solvable_ || statics_.contacts_.empty()) return;
   const BodyState& was = statics_.before_;
   expected_ = was.u + statics_.extrapolated_ * (was.u - earlier.u);
@@ -24,24 +26,35 @@ void StateTangent::take_candidates() {
   const auto defects = statics_.defects();
   for (std::size_t k = 0; k < statics_.contacts_.size(); ++k) {
     const RigidContact& contact = statics_.contacts_[k];
-    const Vec3 c = indenter_displacement(contact, now.t, now.travel), c0 = indenter_displacement(contact, before.t, before.travel);
+    const Vec3 c = indenter_displacement(contact, now.t, now.travel),
+               c0 = indenter_displacement(contact, before.t, before.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const ContactStatus status = defects[k].status[i];
       if (status == ContactStatus::open && !factor_.with_springs()) continue;
       const int node = contact.nodes[i];
-      const Vec3 x = X[node] + now.u.segment<3>(3 * node), x0 = X[node] + statics_.u_start_[k].segment<3>(3 * node);
+      const Vec3 x = X[node] + now.u.segment<3>(3 * node),
+                 x0 = X[node] + statics_.u_start_[k].segment<3>(3 * node);
       Near n{k, i, linearise(contact, x, x0, c, c0, now.r[k][i]), {}, Vec3::Zero()};
       n.r = n.law.frame.transpose() * now.r[k][i];
       slip_.push_back(n.law.q.tail<2>().norm());
       near_.push_back(n), status_.push_back(status);
-      pushed_ = pushed_ || (static_cast<int>(k) == statics_.controlled_ && status != ContactStatus::open);
+      pushed_ =
+          pushed_ || (static_cast<int>(k) == statics_.controlled_ && status != ContactStatus::open);
     }
   }
   if (near_.empty()) return;
   const std::vector<Vec3> c(statics_.contacts_.size(), Vec3::Zero());
-  ContactState state{statics_.contacts_, X, now.u, statics_.u_start_, c, c, now.r, pushed_ ? statics_.controlled_ : -1};
+  ContactState state{statics_.contacts_,
+                     X,
+                     now.u,
+                     statics_.u_start_,
+                     c,
+                     c,
+                     now.r,
+                     pushed_ ? statics_.controlled_ : -1};
   if (pushed_ && statics_.starts_with_travel())
-    state.start_moves = change_of_slips_with_travel(*statics_.controlled(), increment_move(), statics_.options_.gap_tolerance);
+    state.start_moves = change_of_slips_with_travel(*statics_.controlled(), increment_move(),
+                                                    statics_.options_.gap_tolerance);
   c_ = condensed(state, factor_, near_);
 }
 
@@ -61,25 +74,29 @@ StateTangent::Rows StateTangent::rows_of(std::size_t p, double typical) const {
   } else {
     // r_t = -mu r_n s:  r_t' + mu r_n' s + mu r_n (1 - s s^T) x_t'/|x_t| = -mu' r_n s
     const Eigen::Vector2d s = -near_[p].r.tail<2>().normalized();
-    const double turning = mu * near_[p].r[0] / std::max(slip_[p], std::numeric_limits<double>::min());
+    const double turning =
+        mu * near_[p].r[0] / std::max(slip_[p], std::numeric_limits<double>::min());
     const double scale = 1 / (1 / typical + turning);
     rows.r.bottomRightCorner<2, 2>() = scale * Eigen::Matrix2d::Identity();
     rows.r.bottomLeftCorner<2, 1>() = scale * mu * s;
-    rows.x.bottomRightCorner<2, 2>() = scale * turning * (Eigen::Matrix2d::Identity() - s * s.transpose());
+    rows.x.bottomRightCorner<2, 2>() =
+        scale * turning * (Eigen::Matrix2d::Identity() - s * s.transpose());
   }
   return rows;
 }
 
 void StateTangent::take_rows() {
   const auto m = static_cast<Eigen::Index>(near_.size()), n = 3 * m + (pushed_ ? 1 : 0);
-  const double typical = std::max(c_.W.diagonal().sum() / static_cast<double>(3 * m), std::numeric_limits<double>::min());
+  const double typical = std::max(c_.W.diagonal().sum() / static_cast<double>(3 * m),
+                                  std::numeric_limits<double>::min());
   MatX M = MatX::Zero(n, n);
   for (Eigen::Index p = 0; p < m; ++p) {
     const auto q = static_cast<std::size_t>(p);
     const Rows& rows = rows_.emplace_back(rows_of(q, typical));
     M.block(3 * p, 0, 3, 3 * m) = (rows.x * c_.T[q] - rows.r * c_.E[q]) * c_.W.middleRows<3>(3 * p);
     M.block<3, 3>(3 * p, 3 * p) += rows.r;
-    // a node that cannot move along an axis has no compliance there: what it sticks by there is nothing
+    // a node that cannot move along an axis has no compliance there: what it sticks by there is
+    // nothing
     const RigidContact& contact = statics_.contacts_[near_[q].contact];
     for (int j = 0; j < 3; ++j)
       if (factor_.last_of(3 * contact.nodes[near_[q].candidate] + j) < 0) {
@@ -91,7 +108,8 @@ void StateTangent::take_rows() {
     const Vec3 along = c_.along.segment<3>(3 * p);
     const Mat3 springs = c_.springs.empty() ? Mat3(Mat3::Zero()) : c_.springs[q];
     M.block<3, 1>(3 * p, 3 * m) = (rows.r * (c_.E[q] - springs) - rows.x * c_.T[q]) * along;
-    if (c_.start_moves.size() > 0) M.block<3, 1>(3 * p, 3 * m) -= rows.x * c_.start_moves.segment<3>(3 * p);
+    if (c_.start_moves.size() > 0)
+      M.block<3, 1>(3 * p, 3 * m) -= rows.x * c_.start_moves.segment<3>(3 * p);
     M.row(3 * m).segment<3>(3 * p) += typical * along.transpose();
     M.row(3 * m).head(3 * m) -= typical * (along.transpose() * springs) * c_.W.middleRows<3>(3 * p);
   }
@@ -118,17 +136,22 @@ IncrementMove StateTangent::increment_move() const {
 }
 
 // Of the two states before; an indenter's travel in this increment is an unknown of its own.
-std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, const StateDerivative& earlier) const {
+std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
+                                                const StateDerivative& earlier) const {
   std::vector<Vec3> out(near_.size(), Vec3::Zero());
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const RigidContact& contact = statics_.contacts_[n.contact];
     if (contact.mu == 0 || status_[p] == ContactStatus::open) continue;
     const int node = contact.nodes[n.candidate];
-    const Vec3 d_u0 = before.u.segment<3>(3 * node), d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
-    const Vec3 d_c0 = contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
+    const Vec3 d_u0 = before.u.segment<3>(3 * node),
+               d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
+    const Vec3 d_c0 =
+        contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const Approach d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
-    const Vec3 from = change_of_slips_from(contact, increment_move().of(contact, node), d, statics_.options_.gap_tolerance) - d_c0;
+    const Vec3 from = change_of_slips_from(contact, increment_move().of(contact, node), d,
+                                           statics_.options_.gap_tolerance) -
+                      d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }
@@ -138,17 +161,20 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before, c
 Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near) const {
   Vec3 moved = Vec3::Zero();
   if (change.prescribed.size() > 0)
-    moved += change.prescribed.segment<3>(3 * statics_.contacts_[near.contact].nodes[near.candidate]);
+    moved +=
+        change.prescribed.segment<3>(3 * statics_.contacts_[near.contact].nodes[near.candidate]);
   if (!change.indenters.empty()) moved -= change.indenters[near.contact];
   return near.law.frame.transpose() * moved;
 }
 
-VecX StateTangent::right_hand_side(const ParameterChange& change, const std::vector<Vec3>& history) const {
+VecX StateTangent::right_hand_side(const ParameterChange& change,
+                                   const std::vector<Vec3>& history) const {
   VecX h = VecX::Zero(3 * static_cast<Eigen::Index>(near_.size()) + (pushed_ ? 1 : 0));
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const auto row = 3 * static_cast<Eigen::Index>(p);
-    h.segment<3>(row) -= rows_[p].x * history[p] + (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
+    h.segment<3>(row) -= rows_[p].x * history[p] +
+                         (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
     const double d_mu = change.mu.empty() ? 0 : change.mu[n.contact];
     if (d_mu == 0 || status_[p] != ContactStatus::slip) continue;
     const Eigen::Vector2d s = -n.r.tail<2>().normalized();
@@ -173,7 +199,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
     half = linear.start(rhs), last = half.last;
   } else {
     const VecX all = linear.solve(rhs);
-    for (Eigen::Index i = 0; i < last.size(); ++i) last[i] = all[factor.last()[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < last.size(); ++i)
+      last[i] = all[factor.last()[static_cast<std::size_t>(i)]];
   }
   const VecX d = local_of(last);
   VecX b = h;
@@ -181,7 +208,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
     const auto row = 3 * static_cast<Eigen::Index>(p);
     b.segment<3>(row) += (rows_[p].r * c_.E[p] - rows_[p].x * c_.T[p]) * d.segment<3>(row);
     if (pushed_ && !c_.springs.empty())
-      b[b.size() - 1] += typical_[p] * c_.along.segment<3>(row).dot(c_.springs[p] * d.segment<3>(row));
+      b[b.size() - 1] +=
+          typical_[p] * c_.along.segment<3>(row).dot(c_.springs[p] * d.segment<3>(row));
   }
   const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
@@ -193,7 +221,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
     out.move = linear.finish(half, force);
   } else {
     VecX all = rhs;
-    for (std::size_t i = 0; i < factor.last().size(); ++i) all[factor.last()[i]] += force[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < factor.last().size(); ++i)
+      all[factor.last()[i]] += force[static_cast<Eigen::Index>(i)];
     out.move = linear.solve(all);
   }
   return out.move.allFinite() ? std::optional(out) : std::nullopt;
@@ -216,7 +245,8 @@ void StateTangent::add(const Change& change, StateDerivative& to) const {
 StateDerivative StateTangent::of_rest() const {
   StateDerivative d;
   d.u = VecX::Zero(statics_.equilibrium_.dofs().n);
-  for (const RigidContact& contact : statics_.contacts_) d.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  for (const RigidContact& contact : statics_.contacts_)
+    d.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   return d;
 }
 
@@ -224,7 +254,8 @@ VecX StateTangent::on_free_rows(const StateDerivative& d) const {
   Equilibrium& body = statics_.equilibrium_;
   VecX all = VecX::Zero(body.dofs().n);
   for (std::size_t k = 0; k < d.r.size(); ++k)
-    for (std::size_t i = 0; i < d.r[k].size(); ++i) all.segment<3>(3 * statics_.contacts_[k].nodes[i]) += d.r[k][i];
+    for (std::size_t i = 0; i < d.r[k].size(); ++i)
+      all.segment<3>(3 * statics_.contacts_[k].nodes[i]) += d.r[k][i];
   if (const VecX beside = body.beside_K(statics_.now_.u, d.u); beside.size() > 0) all -= beside;
   return statics_.on_free_rows(all) - body.K_times(statics_.on_free_rows(d.u));
 }
@@ -239,14 +270,17 @@ VecX StateTangent::on_free_rows(const ParameterChange& change) const {
   return statics_.on_free_rows(all);
 }
 
-std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& change, const StateDerivative& before,
-                                                        const StateDerivative& earlier, double enough) const {
+std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& change,
+                                                        const StateDerivative& before,
+                                                        const StateDerivative& earlier,
+                                                        double enough) const {
   constexpr double exact = 1e-12;
   if (!solvable_) return std::nullopt;
   StateDerivative out = of_rest();
   if (change.prescribed.size() > 0) out.u = change.prescribed;
   const VecX f = -on_free_rows(change);
-  VecX rhs = f, h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
+  VecX rhs = f,
+       h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
   double size = rhs.norm(), last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {
     const auto next = solve(rhs, h);
@@ -276,15 +310,21 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
   if (!(last <= enough * size)) return std::nullopt;
   if (statics_.controlled_ >= 0 && !pushed_) {  // it rests where it touches
     const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
-    const auto position = [&](int node) { return Vec3(X[node] + statics_.now_.u.segment<3>(3 * node)); };
-    const auto moved = [&](int node) { return Vec3(out.u.segment<3>(3 * node)); };
-    out.travel = change_of_touch(*statics_.controlled(), statics_.now_.t, statics_.now_.travel, position, moved);
+    const auto position = [&](int node) {
+      return Vec3(X[node] + statics_.now_.u.segment<3>(3 * node));
+    };
+    const auto moved = [&](int node) {
+      return Vec3(out.u.segment<3>(3 * node));
+    };
+    out.travel = change_of_touch(*statics_.controlled(), statics_.now_.t, statics_.now_.travel,
+                                 position, moved);
   }
   return out;
 }
 
 std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& changes,
-                                          const std::vector<StateDerivative>& derivatives, std::vector<double>* energies) const {
+                                          const std::vector<StateDerivative>& derivatives,
+                                          std::vector<double>* energies) const {
   Equilibrium& body = statics_.equilibrium_;
   if (energies) energies->assign(derivatives.size(), 0);
   std::vector<VecX> u;

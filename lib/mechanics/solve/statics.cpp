@@ -12,22 +12,24 @@ namespace langer {
 
 namespace {
 
-TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts, const StaticsOptions& options,
-                           double& seconds) {
+TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+                           const StaticsOptions& options, double& seconds) {
   const Stopwatch watch(seconds);
   return {body, contacts, options.threads, options.contact_by, options.linear_by};
 }
 
 }  // namespace
 
-Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options)
+Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts,
+                 const StaticsOptions& options)
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),
       options_(options),
       factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)),
       bonds_(contacts_) {
   now_.u = VecX::Zero(equilibrium_.dofs().n);
-  for (const RigidContact& contact : contacts_) now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  for (const RigidContact& contact : contacts_)
+    now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
   now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
@@ -62,10 +64,12 @@ void Statics::begin(double t) {
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
   equilibrium_.load_to(t);
   equilibrium_.pressures_from(now_.u);
-  const bool pushed = controlled_ >= 0 && controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
+  const bool pushed = controlled_ >= 0 &&
+                      controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
   // then the last movement does not go on
   const bool rests = motion(now_.t) == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
-  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on()) extrapolate(std::min((t - now_.t) / last, 2.0));
+  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on())
+    extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
   if (starts_with_travel()) expected_ = u_;
@@ -90,15 +94,19 @@ void Statics::extrapolate(double s) {
 
 std::vector<Vec3> Statics::indenters(double t, double travel) const {
   std::vector<Vec3> c;
-  for (const RigidContact& contact : contacts_) c.push_back(indenter_displacement(contact, t, travel));
+  for (const RigidContact& contact : contacts_)
+    c.push_back(indenter_displacement(contact, t, travel));
   return c;
 }
 
-// Out of touch no travel balances a force: the first one that does is behind the touch. Without a force it rests there.
+// Out of touch no travel balances a force: the first one that does is behind the touch. Without a
+// force it rests there.
 void Statics::bring_to_touch() {
   const auto k = static_cast<std::size_t>(controlled_);
   if (std::any_of(r_[k].begin(), r_[k].end(), [](const Vec3& r) { return !r.isZero(0); })) return;
-  const auto position = [&](int node) { return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node)); };
+  const auto position = [&](int node) {
+    return Vec3(equilibrium_.mesh().X[node] + u_.segment<3>(3 * node));
+  };
   if (const auto touch = travel_to_touch(contacts_[k], t_, travel_, position)) travel_ = *touch;
 }
 
@@ -110,20 +118,23 @@ void Statics::slip_from_touch() {
 void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
   const IncrementMove move = increment_move(expected);
   for (int node : contacts_[k].nodes)
-    u_start_[k].segment<3>(3 * node) = slips_from(contacts_[k], move.of(contacts_[k], node), options_.gap_tolerance);
+    u_start_[k].segment<3>(3 * node) =
+        slips_from(contacts_[k], move.of(contacts_[k], node), options_.gap_tolerance);
 }
 
 IncrementMove Statics::increment_move(const VecX& expected) const {
   return {equilibrium_.mesh().X, now_.u, expected, now_.t, now_.travel, t_, travel_};
 }
 
-// A node slips from where the way of the indenter has it touch. Where that way is an unknown, the start of the slip follows it: then a
-// pushed indenter and a moved one that go the same way have the same slip.
+// A node slips from where the way of the indenter has it touch. Where that way is an unknown, the
+// start of the slip follows it: then a pushed indenter and a moved one that go the same way have
+// the same slip.
 bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled()->mu > 0; }
 
 std::vector<Vec3> Statics::start_moves() const {
   if (!starts_with_travel()) return {};
-  return change_of_slips_with_travel(*controlled(), increment_move(expected_), options_.gap_tolerance);
+  return change_of_slips_with_travel(*controlled(), increment_move(expected_),
+                                     options_.gap_tolerance);
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }
@@ -146,10 +157,14 @@ double Statics::motion(double t0) const {
   double largest = 0;
   const double travel = t0 == now_.t ? now_.travel : before_.travel;
   for (const RigidContact& contact : contacts_)
-    largest = std::max({largest, (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel)).norm(),
-                        turning(contact, t0, indenter_displacement(contact, t0, travel))});
+    largest = std::max(
+        {largest,
+         (indenter_displacement(contact, t_, travel_) - indenter_displacement(contact, t0, travel))
+             .norm(),
+         turning(contact, t0, indenter_displacement(contact, t0, travel))});
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    largest = std::max(largest, std::abs(p.in_proportion() ? p.value * (t_ - t0) : p.at(t_) - p.at(t0)));
+    largest =
+        std::max(largest, std::abs(p.in_proportion() ? p.value * (t_ - t0) : p.at(t_) - p.at(t0)));
   return largest;
 }
 
@@ -189,13 +204,15 @@ VecX Statics::free_residual() const {
   if (!equilibrium_.loads().empty()) f += equilibrium_.f_ext();
   if (!bonds_.none()) bonds_.add_forces(f);
   for (std::size_t k = 0; k < contacts_.size(); ++k)
-    for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+    for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i)
+      f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   return on_free_rows(f);
 }
 
 double Statics::force_scale() const {
   double sum = 0;
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) sum += std::pow(equilibrium_.f_int()[p.dof], 2);
+  for (const Prescribed& p : equilibrium_.dofs().prescribed)
+    sum += std::pow(equilibrium_.f_int()[p.dof], 2);
   for (const auto& r : r_)
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
   if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
@@ -205,10 +222,12 @@ double Statics::force_scale() const {
 
 bool Statics::contact_law_holds(const VecX& u) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const ContactDefect d =
-        contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k], indenter_displacement(contacts_[k], t_, travel_),
-                       indenter_displacement(contacts_[k], now_.t, now_.travel), r_[k], motion(now_.t));
-    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance || d.cone > options_.law_tolerance)
+    const ContactDefect d = contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k],
+                                           indenter_displacement(contacts_[k], t_, travel_),
+                                           indenter_displacement(contacts_[k], now_.t, now_.travel),
+                                           r_[k], motion(now_.t));
+    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance ||
+        d.cone > options_.law_tolerance)
       return false;
   }
   return true;
@@ -219,7 +238,8 @@ bool Statics::force_is_given() const {
   Vec3 sum = Vec3::Zero();
   double size = control.force.at(t_);
   const double given = size;
-  for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)]) sum += r, size = std::max(size, r.norm());
+  for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)])
+    sum += r, size = std::max(size, r.norm());
   return std::abs(sum.dot(control.along) - given) <= options_.law_tolerance * size;
 }
 
@@ -231,10 +251,11 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   out.admissible = equilibrium_.assemble(u, with_tangent, &du);
   K_current_ = with_tangent;
   if (!out.admissible) {
-    out.missing = equilibrium_.J_min() > 0
-                      ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
-                        "of the step is too far away"
-                      : "an element is turned inside out";
+    out.missing =
+        equilibrium_.J_min() > 0
+            ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
+              "of the step is too far away"
+            : "an element is turned inside out";
     return out;
   }
   if (!bonds_.none()) bonds_.evaluate(equilibrium_.mesh().X, u, indenters(t_, travel_));
@@ -268,7 +289,9 @@ bool Statics::slips_away() const {
   return in_the_way;
 }
 
-bool Statics::admissible(const VecX& u) const { return u.allFinite() && equilibrium_.smallest_J(u) > 0.02; }
+bool Statics::admissible(const VecX& u) const {
+  return u.allFinite() && equilibrium_.smallest_J(u) > 0.02;
+}
 
 void Statics::moved(const VecX& du, double step) {
   const Stopwatch watch(cost_.assembly);
@@ -283,9 +306,11 @@ void Statics::moved(const VecX& du, double step) {
     for (std::size_t i = 0; i < r_[k].size(); ++i) {
       if (r_next_[k][i].isZero(0) && r_[k][i].isZero(0)) continue;
       const int node = contacts_[k].nodes[i];
-      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c, moved_x = x + step * du.segment<3>(3 * node) - dc;
+      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c,
+                 moved_x = x + step * du.segment<3>(3 * node) - dc;
       const Vec3 r = step == 1 ? r_next_[k][i] : Vec3(r_[k][i] + step * (r_next_[k][i] - r_[k][i]));
-      r_[k][i] = turn_with_normal(r, shape_at(contacts_[k].shape, x).normal, shape_at(contacts_[k].shape, moved_x).normal);
+      r_[k][i] = turn_with_normal(r, shape_at(contacts_[k].shape, x).normal,
+                                  shape_at(contacts_[k].shape, moved_x).normal);
     }
   }
   if (controlled_ >= 0) travel_ += step * travel_next_;
@@ -294,36 +319,52 @@ void Statics::moved(const VecX& du, double step) {
 
 Problem Statics::problem() {
   Problem p;
-  p.assess = [this](const VecX& u, bool with_tangent) { return assess(u, with_tangent); };
-  p.correction = [this] { return correction(); };
+  p.assess = [this](const VecX& u, bool with_tangent) {
+    return assess(u, with_tangent);
+  };
+  p.correction = [this] {
+    return correction();
+  };
   if (equilibrium_.formulation() != Formulation::displacement && !iterative()) {
-    p.correction_again = [this] { return correction_again(); };
-    // bonds that let go solve several times within an increment, and only the first time with what the state before left
+    p.correction_again = [this] {
+      return correction_again();
+    };
+    // bonds that let go solve several times within an increment, and only the first time with what
+    // the state before left
     p.price = price(), p.begins_again = factor_serves_ && bonds_.none();
   }
-  p.admissible = [this](const VecX& u) { return admissible(u); };
-  p.moved = [this](const VecX& du, double step) { moved(du, step); };
+  p.admissible = [this](const VecX& u) {
+    return admissible(u);
+  };
+  p.moved = [this](const VecX& du, double step) {
+    moved(du, step);
+  };
   return p;
 }
 
 std::vector<ContactDefect> Statics::defects() const {
   const bool accepted = now_.t == t_;
-  const double t0 = accepted ? before_.t : now_.t, travel0 = accepted ? before_.travel : now_.travel;
+  const double t0 = accepted ? before_.t : now_.t,
+               travel0 = accepted ? before_.travel : now_.travel;
   std::vector<ContactDefect> out;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k],
-                                 indenter_displacement(contacts_[k], t_, travel_), indenter_displacement(contacts_[k], t0, travel0),
-                                 r_[k], motion(t0)));
+                                 indenter_displacement(contacts_[k], t_, travel_),
+                                 indenter_displacement(contacts_[k], t0, travel0), r_[k],
+                                 motion(t0)));
   return out;
 }
 
 VecX Statics::reactions() const {
   VecX out = VecX::Zero(equilibrium_.dofs().n);
-  for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] = equilibrium_.f_int()[p.dof];
+  for (const Prescribed& p : equilibrium_.dofs().prescribed)
+    out[p.dof] = equilibrium_.f_int()[p.dof];
   if (!equilibrium_.loads().empty())
-    for (const Prescribed& p : equilibrium_.dofs().prescribed) out[p.dof] -= equilibrium_.f_ext()[p.dof];
+    for (const Prescribed& p : equilibrium_.dofs().prescribed)
+      out[p.dof] -= equilibrium_.f_ext()[p.dof];
   for (std::size_t k = 0; k < contacts_.size(); ++k)
-    for (std::size_t i = 0; i < r_[k].size(); ++i) out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+    for (std::size_t i = 0; i < r_[k].size(); ++i)
+      out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   if (!bonds_.none()) bonds_.add_forces(out);
   return out;
 }

@@ -2,10 +2,11 @@
 // Holds the last accepted state and the state on trial; gives the nonlinear solvers their Problem.
 //   K dx = -(F_int - F_ext - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs
 //   24-32
-// The increment: its trial state, residual, corrections and how it is accepted. How the tangent is factorized stands in
-// solve/tangent_factor.hpp, the contact law on it in solve/contact_linearisation.hpp.
-// Prescribed displacements and the indenter's movement enter the linear system, never the state first: near
-// incompressibility the other order makes pressures of 1e4 MPa and an indefinite tangent.
+// The increment: its trial state, residual, corrections and how it is accepted. How the tangent is
+// factorized stands in solve/tangent_factor.hpp, the contact law on it in
+// solve/contact_linearisation.hpp. Prescribed displacements and the indenter's movement enter the
+// linear system, never the state first: near incompressibility the other order makes pressures of
+// 1e4 MPa and an indefinite tangent.
 #pragma once
 
 #include <memory>
@@ -32,9 +33,10 @@ struct BodyState {
   BondEnergy in_bonds = {};
 };
 
-// Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions on a curved indenter, for
-// movements of the free dofs that keep closed contacts closed and sticking ones where they are. Slipping ones may glide; what
-// friction adds there is not symmetric and left out. Imposed displacements and the indenter stand still.
+// Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions
+// on a curved indenter, for movements of the free dofs that keep closed contacts closed and
+// sticking ones where they are. Slipping ones may glide; what friction adds there is not symmetric
+// and left out. Imposed displacements and the indenter stand still.
 //   negative  directions in which the body gives way: the equilibrium is unstable; -1: the tangent is singular to the last digit
 //   zero_energy   directions that nothing resists (below 1e-8 of the stiffest); counted with contact only
 struct Signature {
@@ -53,14 +55,16 @@ struct StaticsOptions {
 
 class Statics {
  public:
-  Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options);
+  Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts,
+          const StaticsOptions& options);
 
   void begin(double t);  // put the trial state at the start of an increment to t
   void begin_anew() { begin(t_); }
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
-  // Where indenters adhere: bonds on trial, and what moves the trial within an increment (solve/release.hpp).
+  // Where indenters adhere: bonds on trial, and what moves the trial within an increment
+  // (solve/release.hpp).
   Bonds& bonds() { return bonds_; }
   const Bonds& bonds() const { return bonds_; }
   struct Trial {
@@ -71,21 +75,30 @@ class Statics {
   void back_to(const Trial& trial);
   double stored() const;                         // in body and bonds, of the trial
   double work_of_loads(const VecX& from) const;  // on the way to the trial, as they are now
-  void jumped(double work, double released) { jump_.work_of_jumps = work, jump_.released = released; }
-  double time_error();                 // of the trial, once it is in equilibrium; before accept() of a viscous body
-  void accept();                       // the trial becomes the accepted state
-  void replay(const BodyState& next);  // accepts a state that was found before; a viscous body follows
+  void jumped(double work, double released) {
+    jump_.work_of_jumps = work, jump_.released = released;
+  }
+  double
+  time_error();   // of the trial, once it is in equilibrium; before accept() of a viscous body
+  void accept();  // the trial becomes the accepted state
+  void replay(
+      const BodyState& next);  // accepts a state that was found before; a viscous body follows
   void restore(const BodyState& accepted, const BodyState* before = nullptr);
 
   const BodyState& accepted() const { return now_; }
-  std::vector<ContactDefect> defects() const;  // of the trial state, or of the accepted one right after accept()
+  std::vector<ContactDefect> defects()
+      const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
-  const RigidContact* controlled() const { return controlled_ >= 0 ? &contacts_[static_cast<std::size_t>(controlled_)] : nullptr; }
-  // Of the accepted state, right after accept(). The last factor serves where it was made within a fiftieth of the step's
-  // movement from there; otherwise K is factorized once more. Not where iterative(), which has no signs to show.
+  const RigidContact* controlled() const {
+    return controlled_ >= 0 ? &contacts_[static_cast<std::size_t>(controlled_)] : nullptr;
+  }
+  // Of the accepted state, right after accept(). The last factor serves where it was made within a
+  // fiftieth of the step's movement from there; otherwise K is factorized once more. Not where
+  // iterative(), which has no signs to show.
   Signature signature();
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
-  // tangents so far that were not positive definite without contact, and among them those that were not with contact
+  // tangents so far that were not positive definite without contact, and among them those that were
+  // not with contact
   int n_indefinite() const { return factor_.counts().indefinite; }
   int n_unstable() const { return factor_.counts().unstable; }
   struct Cost {
@@ -93,14 +106,17 @@ class Statics {
     long factorizations = 0, sweeps = 0;
   };
   Cost cost() const;
-  // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it is singular. The next increment
-  // begins with it where it is positive definite and contact is condensed.
+  // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it
+  // is singular. The next increment begins with it where it is positive definite and contact is
+  // condensed.
   bool factorize_accepted();
   const LinearSolver& linear() const { return factor_.linear(); }  // none where iterative()
   LinearSolver::Size size() const { return factor_.size(); }
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
   bool iterative() const { return factor_.iterative(); }
-  const MixedSolver* mixed() const { return factor_.mixed() ? &factor_.mixed()->solver() : nullptr; }
+  const MixedSolver* mixed() const {
+    return factor_.mixed() ? &factor_.mixed()->solver() : nullptr;
+  }
   bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 
  private:
@@ -110,8 +126,9 @@ class Statics {
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
   IncrementMove increment_move(const VecX& expected) const;  // refers to `expected`
-  bool starts_with_travel() const;                           // the slip of an indenter under force control
-  std::vector<Vec3> start_moves() const;                     // by its candidate, what the slip is measured from, per travel
+  bool starts_with_travel() const;  // the slip of an indenter under force control
+  std::vector<Vec3> start_moves()
+      const;  // by its candidate, what the slip is measured from, per travel
   Assessment assess(const VecX& u, bool with_tangent);
   double force_scale() const;  // size of the forces that the residual is compared with [N]
   bool contact_law_holds(const VecX& u) const;
@@ -125,14 +142,17 @@ class Statics {
   void need_tangent();
   bool factorize();
   void need_factor_of_accepted(double within);  // a share of the step's movement
-  TangentFactor& condensed_factor();            // the one of the body, or where contact stands in its tangent one beside it
-  double price() const;                         // of a correction with a new tangent in units of one with the last
+  TangentFactor&
+  condensed_factor();  // the one of the body, or where contact stands in its tangent one beside it
+  double price() const;  // of a correction with a new tangent in units of one with the last
   bool admissible(const VecX& u) const;
   bool slips_away() const;
   void moved(const VecX& du, double step);
-  double motion(double t0) const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
-  double turning(const RigidContact& contact, double t0, const Vec3& c0) const;  // the same of what turns with it
-  std::vector<Vec3> indenters(double t, double travel) const;                    // displacement of each
+  double motion(double t0)
+      const;  // largest movement of an indenter or a prescribed dof from t0 to the trial [mm]
+  double turning(const RigidContact& contact, double t0,
+                 const Vec3& c0) const;                        // the same of what turns with it
+  std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
   void begin_bonds();
   void accept_bonds();
   void bring_to_touch();  // the indenter under force control, where it bears nothing
@@ -152,20 +172,22 @@ class Statics {
   BodyState now_, before_;  // accepted states
   double t_ = 0;            // of the trial
   VecX u_;
-  double extrapolated_ = 0;              // of the movement of the last increment, with which this one was begun
-  VecX expected_;                        // u that it was begun with, where the start of slip follows the travel
-  int controlled_ = -1;                  // contact under force control
+  double extrapolated_ = 0;  // of the movement of the last increment, with which this one was begun
+  VecX expected_;            // u that it was begun with, where the start of slip follows the travel
+  int controlled_ = -1;      // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
-  VecX dp_;                              // of an iterative solution: change of the pressures [MPa]; else empty
-  std::vector<VecX> u_start_;   // by contact, (3 n): what the increment's slip is measured from, the indenter where it began
-  VecX factored_at_;            // u of the tangent that was factorized last
-  bool K_current_ = false;      // K is that of the trial
+  VecX dp_;  // of an iterative solution: change of the pressures [MPa]; else empty
+  std::vector<VecX> u_start_;  // by contact, (3 n): what the increment's slip is measured from, the
+                               // indenter where it began
+  VecX factored_at_;           // u of the tangent that was factorized last
+  bool K_current_ = false;     // K is that of the trial
   bool factor_serves_ = false;  // also for other corrections of this increment
   bool again_ = false;          // the last correction was such a one
   bool of_accepted_ = false;    // the factor is that of the accepted state
   std::unique_ptr<TangentFactor> beside_;
-  bool unsettled_ = false;  // the remainder's modulus is not yet that of where a FreeBalance was left (linear_dilatation)
+  bool unsettled_ = false;  // the remainder's modulus is not yet that of where a FreeBalance was
+                            // left (linear_dilatation)
 };
 
 }  // namespace langer

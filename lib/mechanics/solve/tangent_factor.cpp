@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/assembly/zero_energy_modes.hpp"
 #include "core/base/error.hpp"
+#include "mechanics/assembly/zero_energy_modes.hpp"
 #include "mechanics/mesh/quality.hpp"
 
 namespace langer {
@@ -12,8 +12,9 @@ namespace langer {
 namespace {
 
 constexpr std::size_t many_candidates = 400;
-// flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it, factorizations that follow every change of
-// stick and slip cost more than they save (langer-bench wide, with friction)
+// flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it,
+// factorizations that follow every change of stick and slip cost more than they save (langer-bench
+// wide, with friction)
 constexpr double deep = 8;
 // rows from which on an iterative solution is cheaper than a factor (langer-bench growth)
 constexpr int large = 100000;
@@ -27,33 +28,40 @@ double node_stiffness(const Equilibrium& body) {
 }
 
 bool with_friction(const std::vector<RigidContact>& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& contact) { return contact.mu > 0; });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const RigidContact& contact) { return contact.mu > 0; });
 }
 
 }  // namespace
 
-std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation, const std::vector<RigidContact>& contacts,
-                          bool follows, LinearBy linear_by) {
+std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation,
+                          const std::vector<RigidContact>& contacts, bool follows,
+                          LinearBy linear_by) {
   if (linear_by == LinearBy::direct) return "linear: direct asks for one";
-  if (linear_by == LinearBy::automatic && dofs.n_free() < large) return "it is small, and quickly factorized";
-  if (!contacts.empty() && !zero_energy_modes(mesh, dofs).empty()) return "only contact holds the body";
-  if (!ContactInTangent::serves(contacts)) return "an indenter adheres or is pushed with a given force, or two may touch one node";
+  if (linear_by == LinearBy::automatic && dofs.n_free() < large)
+    return "it is small, and quickly factorized";
+  if (!contacts.empty() && !zero_energy_modes(mesh, dofs).empty())
+    return "only contact holds the body";
+  if (!ContactInTangent::serves(contacts))
+    return "an indenter adheres or is pushed with a given force, or two may touch one node";
   if (follows) return "pressures follow the surface";
   if (formulation != Formulation::mean_dilatation || mesh.cell().n_nodes != 8)
     return "only 8-node hexahedra with a mean dilatation";
   return "";
 }
 
-TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads, ContactBy contact_by,
-                             LinearBy linear_by)
+TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+                             int threads, ContactBy contact_by, LinearBy linear_by)
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
   if (take_iterative(body, contacts, linear_by)) return;
   const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
-  const bool wide = contact_by == ContactBy::tangent || (contact_by == ContactBy::by_cost && candidates >= many_candidates);
-  const bool tangent_serves = wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
+  const bool wide = contact_by == ContactBy::tangent ||
+                    (contact_by == ContactBy::by_cost && candidates >= many_candidates);
+  const bool tangent_serves =
+      wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
   if (tangent_serves && (contact_by == ContactBy::tangent || !with_friction(contacts))) {
     take_into_tangent(body, contacts);
     return;
@@ -67,28 +75,36 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
           last_.push_back(dofs.equation[dof]);
         }
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
-  if (tangent_serves && linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
+  if (tangent_serves &&
+      linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
     last_.clear(), last_of_.clear();
     take_into_tangent(body, contacts);
     return;
   }
   if (last_.empty() || !loose) return;
-  loose_ = node_stiffness(body);  // the weak resistance of contact to a free motion stays visible beside it
+  loose_ = node_stiffness(
+      body);  // the weak resistance of contact to a free motion stays visible beside it
 }
 
-void TangentFactor::take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts) {
+void TangentFactor::take_into_tangent(const Equilibrium& body,
+                                      const std::vector<RigidContact>& contacts) {
   in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
   linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
 }
 
-bool TangentFactor::take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, LinearBy linear_by) {
-  std::string why = why_by_factor(body.mesh(), body.dofs(), body.formulation(), contacts, body.loads().follow(), linear_by);
+bool TangentFactor::take_iterative(const Equilibrium& body,
+                                   const std::vector<RigidContact>& contacts, LinearBy linear_by) {
+  std::string why = why_by_factor(body.mesh(), body.dofs(), body.formulation(), contacts,
+                                  body.loads().follow(), linear_by);
   if (why.empty()) mixed_ = MixedTangent::of(body, threads_, why);
   if (mixed_) {
     in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
   } else if (linear_by == LinearBy::iterative) {
-    throw Failure(Exit::config,
-                  Error{{}, "solver.newton.linear", "found iterative, which does not serve here: " + why, "direct", ""});
+    throw Failure(Exit::config, Error{{},
+                                      "solver.newton.linear",
+                                      "found iterative, which does not serve here: " + why,
+                                      "direct",
+                                      ""});
   }
   return mixed_ != nullptr;
 }
@@ -126,19 +142,22 @@ bool TangentFactor::factorize_supported(const Equilibrium& body) {
   kind_ = Kind::supported;
   const Pattern& pattern = body.pattern();
   double diagonal = 0;  // a column starts with its diagonal
-  for (int row : last_) diagonal += std::abs(body.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
+  for (int row : last_)
+    diagonal += std::abs(body.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
   const auto K_with_springs = [&] {
     std::vector<double> K = body.K();
     for (int row : last_) K[pattern.column_start[row]] += gamma_;
     return K;
   };
   for (double spring : {loose_, diagonal, 30 * diagonal, 1000 * diagonal}) {
-    if (spring == 0 || (supported_ && spring < 0.5 * gamma_)) continue;  // softer springs were not enough in this increment
+    if (spring == 0 || (supported_ && spring < 0.5 * gamma_))
+      continue;  // softer springs were not enough in this increment
     gamma_ = spring;
     if (linear_->factorize(K_with_springs())) return supported_ = true;
   }
-  // The body itself gives way. In a few directions stabilisation springs help; where they are many, the increment was too long: K there
-  // says nothing, and the same point comes within reach by shorter ones.
+  // The body itself gives way. In a few directions stabilisation springs help; where they are many,
+  // the increment was too long: K there says nothing, and the same point comes within reach by
+  // shorter ones.
   kind_ = Kind::indefinite, ++counts_.unstable;
   return supported_ = linear_->factorize_with_springs(K_with_springs());
 }

@@ -1,10 +1,12 @@
-// How the tangent of a body with contact candidates is factorized, and what serves where it is not positive definite.
+// How the tangent of a body with contact candidates is factorized, and what serves where it is not
+// positive definite.
 //   whole       K by Cholesky
 //   supported   K with springs gamma on the diagonal of the candidates, by Cholesky: a body that is not held, or not stable,
 //               without its contacts; linearised_contact() takes the springs out again exactly
 //   indefinite  with stabilisation springs in the body, which LinearSolver takes out; without contact K as it is, by UMFPACK
-// Contact is either condensed to its candidates, which are eliminated last (solve/contact_linearisation.hpp), or where they are many
-// stands in the tangent itself (solve/contact_in_tangent.hpp). Large bodies have no factor at all (linear/mixed_tangent.hpp).
+// Contact is either condensed to its candidates, which are eliminated last
+// (solve/contact_linearisation.hpp), or where they are many stands in the tangent itself
+// (solve/contact_in_tangent.hpp). Large bodies have no factor at all (linear/mixed_tangent.hpp).
 #pragma once
 
 #include <memory>
@@ -19,19 +21,22 @@
 
 namespace langer {
 
-// by_cost: in the tangent where candidates are many, it serves, and factorizations are cheap beside a condensed law (many_candidates
-// and deep in tangent_factor.cpp)
+// by_cost: in the tangent where candidates are many, it serves, and factorizations are cheap beside
+// a condensed law (many_candidates and deep in tangent_factor.cpp)
 enum class ContactBy { by_cost, compliance, tangent };
 
-// Why a body has to be solved by a factor; "" where it may be solved without (if PETSc is at hand). follows: pressures the surface
-std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation, const std::vector<RigidContact>& contacts,
-                          bool follows, LinearBy linear_by);
+// Why a body has to be solved by a factor; "" where it may be solved without (if PETSc is at hand).
+// follows: pressures the surface
+std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formulation,
+                          const std::vector<RigidContact>& contacts, bool follows,
+                          LinearBy linear_by);
 
 class TangentFactor {
  public:
   enum class Kind { none, whole, supported, indefinite };
 
-  // threads: of the BLAS; refers to the pattern of the body. Failure(config) where LinearBy::iterative is asked for and does not serve.
+  // threads: of the BLAS; refers to the pattern of the body. Failure(config) where
+  // LinearBy::iterative is asked for and does not serve.
   TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
                 ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
 
@@ -41,14 +46,16 @@ class TangentFactor {
   bool factorize(const Equilibrium& body);
   // What contact makes of the tangent, where it stands in it: by Cholesky, or by UMFPACK.
   bool factorize_with_contact(const std::vector<double>& values);
-  // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not positive definite.
+  // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not
+  // positive definite.
   bool factorize_fixed_reactions(const Equilibrium& body);
 
   // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
   MixedTangent* mixed() const { return by_factor_ ? nullptr : mixed_.get(); }
   bool iterative() const { return mixed_ != nullptr; }
-  // In the rest of this increment by a factor, which only one rank can make, as the iterative solution did not converge. The next one begins as if nothing had been, so
-  // that an interrupted path goes on with the same digits.
+  // In the rest of this increment by a factor, which only one rank can make, as the iterative
+  // solution did not converge. The next one begins as if nothing had been, so that an interrupted
+  // path goes on with the same digits.
   void take_factor(const Equilibrium& body);
   bool gave_up_iterating() const { return gave_up_; }  // ever
   LinearSolver::Size size() const;
@@ -57,9 +64,11 @@ class TangentFactor {
   ContactInTangent* in_tangent() const { return in_tangent_.get(); }  // none: contact is condensed
   bool with_springs() const { return supported_; }                    // on the candidates
   double gamma() const { return gamma_; }                             // [N/mm]
-  bool held_by_contact() const { return loose_ > 0; }                 // the supports leave rigid motions
-  const std::vector<int>& last() const { return last_; }              // free rows of the candidates, eliminated last
-  int last_of(int dof) const { return last_of_[dof]; }                // index in last(), or -1
+  bool held_by_contact() const { return loose_ > 0; }  // the supports leave rigid motions
+  const std::vector<int>& last() const {
+    return last_;
+  }  // free rows of the candidates, eliminated last
+  int last_of(int dof) const { return last_of_[dof]; }  // index in last(), or -1
 
   const LinearSolver& linear() const { return *linear_; }
   LinearSolver& linear() { return *linear_; }
@@ -70,10 +79,13 @@ class TangentFactor {
     int unstable = 0;    // among them those that were not with contact
   };
   const Counts& counts() const { return counts_; }
-  void uncount(const Counts& before) { counts_.indefinite = before.indefinite, counts_.unstable = before.unstable; }
+  void uncount(const Counts& before) {
+    counts_.indefinite = before.indefinite, counts_.unstable = before.unstable;
+  }
 
  private:
-  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts, LinearBy linear_by);
+  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+                      LinearBy linear_by);
   void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Equilibrium& body);
 

@@ -1,6 +1,7 @@
-// The border to gmsh: plain arrays over one function pointer each. gmsh brings 90 libraries, which take longer to load than
-// many a scene to solve; they live in a module, lib/langer/langer_gmsh.so, that is loaded when a geometry needs it (load.hpp).
-// Types of elements are those of the MSH format; of first order its nodes stand as VTK's do.
+// The border to gmsh: plain arrays over one function pointer each. gmsh brings 90 libraries, which
+// take longer to load than many a scene to solve; they live in a module, lib/langer/langer_gmsh.so,
+// that is loaded when a geometry needs it (load.hpp). Types of elements are those of the MSH
+// format; of first order its nodes stand as VTK's do.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +33,8 @@ struct Model {
   std::vector<Group> groups;
 };
 
-// How a solid is meshed. gmsh puts the new nodes that a split of tetrahedra makes on the surface, which may fold a flat one; `straight`
-// leaves them between the old ones.
+// How a solid is meshed. gmsh puts the new nodes that a split of tetrahedra makes on the surface,
+// which may fold a flat one; `straight` leaves them between the old ones.
 struct SolidOrder {
   bool facets = false;  // triangles (.stl) that enclose it, else a .step
   double edge = 1;      // [mm]
@@ -42,8 +43,8 @@ struct SolidOrder {
 
 // Both throw std::runtime_error: gmsh's last words.
 struct Functions {
-  const char* made_with;                   // version of the source; the program's own, or they do not fit together
-  Model (*read)(const std::string& path);  // a .msh of any version
+  const char* made_with;  // version of the source; the program's own, or they do not fit together
+  Model (*read)(const std::string& path);                            // a .msh of any version
   Model (*solid)(const std::string& path, const SolidOrder& order);  // meshed
 };
 

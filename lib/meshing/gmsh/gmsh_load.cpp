@@ -13,22 +13,27 @@ namespace langer {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& found, const std::string& hint = "") {
+[[noreturn]] void refuse(const std::string& path, const std::string& found,
+                         const std::string& hint = "") {
   throw Failure(Exit::input, Error{{path}, "", found, "", hint});
 }
 
 const gmsh_module::Functions& module_for(const std::string& path) {
   static const gmsh_module::Functions* functions = nullptr;
   if (functions) return *functions;
-  // local: libgmsh has the same Eigen templates inside as we have, which allocate with another alignment
+  // local: libgmsh has the same Eigen templates inside as we have, which allocate with another
+  // alignment
   void* module = dlopen(module_path("gmsh").c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (!module)
-    refuse(
-        path, std::string("gmsh, which such a file needs, cannot be loaded: ") + dlerror(),
-        "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " + module_path("gmsh") + "; or give the mesh as .inp");
-  const auto* found = static_cast<const gmsh_module::Functions*>(dlsym(module, gmsh_module::symbol));
+    refuse(path, std::string("gmsh, which such a file needs, cannot be loaded: ") + dlerror(),
+           "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " +
+               module_path("gmsh") + "; or give the mesh as .inp");
+  const auto* found =
+      static_cast<const gmsh_module::Functions*>(dlsym(module, gmsh_module::symbol));
   if (!found || std::string(found->made_with) != version)
-    refuse(path, "gmsh, which such a file needs, is called by " + module_path("gmsh") + ", which is of another version of Langer",
+    refuse(path,
+           "gmsh, which such a file needs, is called by " + module_path("gmsh") +
+               ", which is of another version of Langer",
            "build or install Langer as a whole");
   return *(functions = found);
 }

@@ -1,5 +1,5 @@
-// What gmsh makes of a file. The module with gmsh is loaded for the first of them, not with the program.
-// Failure(input): gmsh's last words, or which library is missing and what to do.
+// What gmsh makes of a file. The module with gmsh is loaded for the first of them, not with the
+// program. Failure(input): gmsh's last words, or which library is missing and what to do.
 #pragma once
 
 #include <string>

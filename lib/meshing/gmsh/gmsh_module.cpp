@@ -26,7 +26,8 @@ std::vector<Elements> elements(int dim, int entity = -1) {
     Elements of{types[t], "", std::move(tags[t]), std::move(nodes[t])};
     int type_dim = 0, order = 0, n_nodes = 0, n_primary = 0;
     std::vector<double> xi;
-    gmsh::model::mesh::getElementProperties(of.type, of.name, type_dim, order, n_nodes, xi, n_primary);
+    gmsh::model::mesh::getElementProperties(of.type, of.name, type_dim, order, n_nodes, xi,
+                                            n_primary);
     all.push_back(std::move(of));
   }
   return all;
@@ -65,7 +66,8 @@ Model read(const std::string& path) {
 }
 
 void name_group(int dim, int tag, const char* kind) {
-  gmsh::model::setPhysicalName(dim, gmsh::model::addPhysicalGroup(dim, {tag}), kind + std::to_string(tag));
+  gmsh::model::setPhysicalName(dim, gmsh::model::addPhysicalGroup(dim, {tag}),
+                               kind + std::to_string(tag));
 }
 
 Model solid(const std::string& path, const SolidOrder& order) {
@@ -74,7 +76,8 @@ Model solid(const std::string& path, const SolidOrder& order) {
     gmsh::vectorpair shapes, surfaces, volumes;
     if (order.facets) {
       gmsh::merge(path);
-      constexpr double edge_angle = 40 * std::numbers::pi / 180;  // faces meet where triangles turn by more
+      constexpr double edge_angle =
+          40 * std::numbers::pi / 180;  // faces meet where triangles turn by more
       gmsh::model::mesh::classifySurfaces(edge_angle, true, true);
       gmsh::model::mesh::createGeometry();
       gmsh::model::getEntities(surfaces, 2);
@@ -85,7 +88,8 @@ Model solid(const std::string& path, const SolidOrder& order) {
       surfaces.clear();
     } else {
       gmsh::model::occ::importShapes(path, shapes);
-      if (shapes.size() > 1) gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
+      if (shapes.size() > 1)
+        gmsh::model::occ::removeAllDuplicates();  // bodies that touch share their faces
       gmsh::model::occ::synchronize();
     }
     gmsh::model::getEntities(volumes, 3);
@@ -95,9 +99,12 @@ Model solid(const std::string& path, const SolidOrder& order) {
     gmsh::model::getEntities(surfaces, 2);
     for (const auto& [dim, tag] : surfaces) name_group(2, tag, "face_");
     const double whole =
-        order.hexahedra ? 2 * order.edge : order.edge;  // for hexahedra every tetrahedron is split into four, of half its size
+        order.hexahedra
+            ? 2 * order.edge
+            : order.edge;  // for hexahedra every tetrahedron is split into four, of half its size
     if (order.hexahedra) gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 2);
-    if (order.straight) gmsh::option::setNumber("Mesh.SecondOrderLinear", 1);  // those of subdivision as well
+    if (order.straight)
+      gmsh::option::setNumber("Mesh.SecondOrderLinear", 1);  // those of subdivision as well
     gmsh::option::setNumber("Mesh.MeshSizeMin", whole);
     gmsh::option::setNumber("Mesh.MeshSizeMax", whole);
     gmsh::model::mesh::generate(3);
@@ -109,6 +116,7 @@ Model solid(const std::string& path, const SolidOrder& order) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const Functions langer_gmsh_module{version, read, solid};
+extern "C" __attribute__((visibility("default")))
+const Functions langer_gmsh_module{version, read, solid};
 
 }  // namespace langer::gmsh_module

@@ -5,17 +5,17 @@
 #include "core/config/json_schema.hpp"
 #include "identification/fit/doubts.hpp"
 #include "identification/inverse/sample_config.hpp"
+#include "identification/sensitivity/sensitivity_config.hpp"
+#include "identification/setup/fit_config_io.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "pipeline/plan/stage_config.hpp"
-#include "report/report_config.hpp"
-#include "scene/run/post_config.hpp"
-#include "scene/model/solve_config_io.hpp"
-#include "scene/model/mesh_config.hpp"
-#include "scene/model/solve_config.hpp"
-#include "identification/setup/fit_config_io.hpp"
-#include "identification/sensitivity/sensitivity_config.hpp"
 #include "pipeline/sweep/gather_config.hpp"
 #include "pipeline/sweep/tune_config.hpp"
+#include "report/report_config.hpp"
+#include "scene/model/mesh_config.hpp"
+#include "scene/model/solve_config.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/post_config.hpp"
 
 namespace langer {
 
@@ -25,10 +25,13 @@ template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
   Effective e{to_yaml(loaded.config, relative_to(folder)), {}, loaded.notices};
-  for (const NamedFile& file : files_named_by(loaded.config)) e.files.push_back({file.path, file.key, loaded.where(file.key)});
+  for (const NamedFile& file : files_named_by(loaded.config))
+    e.files.push_back({file.path, file.key, loaded.where(file.key)});
   if constexpr (std::is_same_v<Config, FitConfig>)
-    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); }, e.names = names_in(loaded.config.law);
-  if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>) e.names = names_in(loaded.config);
+    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); },
+    e.names = names_in(loaded.config.law);
+  if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>)
+    e.names = names_in(loaded.config);
   if constexpr (std::is_same_v<Config, SolveConfig> || std::is_same_v<Config, PostConfig>)
     e.names = names_in(loaded.config, loaded.where);
   return e;
@@ -38,8 +41,10 @@ Effective check(Tree tree, const std::string& folder) {
 Effective check_material(Tree tree, const std::string& folder) {
   const Loaded<Material> loaded = read_config<Material>(tree);
   if (at_rest(loaded.config) == AtRest::without_stiffness)
-    throw Failure(Exit::config, Error{loaded.where("matrix"), "matrix", at_rest_in_words(loaded.config),
-                                      stiffness_at_rest_cure(loaded.config), "a body without it has no first step"});
+    throw Failure(
+        Exit::config,
+        Error{loaded.where("matrix"), "matrix", at_rest_in_words(loaded.config),
+              stiffness_at_rest_cure(loaded.config), "a body without it has no first step"});
   return check<Material>(std::move(tree), folder);
 }
 
@@ -91,7 +96,8 @@ template <class Config>
 ReadConfig read_stage_config(Tree tree, Config& config) {
   Loaded<Config> loaded = read_config<Config>(std::move(tree));
   config = std::move(loaded.config);
-  return {std::move(loaded.where), std::move(loaded.notices), config_text(config), parts_of(config)};
+  return {std::move(loaded.where), std::move(loaded.notices), config_text(config),
+          parts_of(config)};
 }
 
 template ReadConfig read_stage_config(Tree, MeshConfig&);

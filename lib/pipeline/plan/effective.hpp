@@ -1,5 +1,6 @@
-// The configs of all stages by name: what they really say once read (defaults filled in, includes and overrides resolved), and
-// what can be said of them without a file: reference, top keys, JSON Schema.
+// The configs of all stages by name: what they really say once read (defaults filled in, includes
+// and overrides resolved), and what can be said of them without a file: reference, top keys, JSON
+// Schema.
 #pragma once
 
 #include <functional>
@@ -21,7 +22,8 @@ struct Effective {
   };
   std::vector<File> files;                // input files that the config names
   std::vector<std::string> notices = {};  // keys and words by their former names
-  // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty: nothing is measured.
+  // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty:
+  // nothing is measured.
   std::function<std::vector<std::string>()> look_at_data = {};
   SceneNames names = {};
 };
@@ -37,7 +39,8 @@ struct ConfigKind {
 const ConfigKind* find_config_kind(const std::string& name);
 std::vector<std::string> config_kind_names();
 
-// Checks and canonical text of a stage's config, or of a YAML file given at a port; throws Failure(config).
+// Checks and canonical text of a stage's config, or of a YAML file given at a port; throws
+// Failure(config).
 Effective effective_config(const StageSpec& stage, Tree config, const std::string& folder);
 Effective effective_port_file(const Port& port, Tree file, const std::string& folder);
 

@@ -60,23 +60,29 @@ class Expansion {
     std::map<std::string, std::string> folders;  // first folder of a member -> axis
     for (const Node& n : pipeline_.nodes)
       for (const Axis& axis : n.sweep) {
-        const auto same = std::find_if(axes_.begin(), axes_.end(), [&](const Axis* a) { return a->name == axis.name; });
+        const auto same = std::find_if(axes_.begin(), axes_.end(),
+                                       [&](const Axis* a) { return a->name == axis.name; });
         if (same == axes_.end()) {
           axes_.push_back(&axis);
-          for (std::size_t i = 0; i < axis.points.size(); ++i) folders[member_folder(axis, i)] = axis.name;
+          for (std::size_t i = 0; i < axis.points.size(); ++i)
+            folders[member_folder(axis, i)] = axis.name;
           continue;
         }
-        const bool agree = to_text(axis.design) == to_text((*same)->design) &&
-                           std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(), (*same)->points.end(),
-                                      [](const AxisPoint& a, const AxisPoint& b) { return a.label == b.label; });
+        const bool agree =
+            to_text(axis.design) == to_text((*same)->design) &&
+            std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(),
+                       (*same)->points.end(),
+                       [](const AxisPoint& a, const AxisPoint& b) { return a.label == b.label; });
         if (!agree)
           f_.say(axis.place, fmt::format("nodes.{}.sweep.{}", n.name, axis.name),
-                 fmt::format("the axis has other values at line {}", (*same)->place.line), "the same values in the same order",
-                 "an axis that two nodes declare is one axis");
+                 fmt::format("the axis has other values at line {}", (*same)->place.line),
+                 "the same values in the same order", "an axis that two nodes declare is one axis");
       }
     for (const Node& n : pipeline_.nodes)
       if (const auto it = folders.find(n.name); it != folders.end())
-        f_.say(n.place, "nodes." + n.name, fmt::format("a member of the axis {} has the same folder", it->second), "another name");
+        f_.say(n.place, "nodes." + n.name,
+               fmt::format("a member of the axis {} has the same folder", it->second),
+               "another name");
   }
 
   void check_kinds(const Node& n) {
@@ -99,7 +105,8 @@ class Expansion {
     if (contains_node(order_, n)) return;
     if (contains_node(open_, n)) {
       std::string round;
-      for (auto it = std::find(open_.begin(), open_.end(), &n); it != open_.end(); ++it) round += (*it)->name + " -> ";
+      for (auto it = std::find(open_.begin(), open_.end(), &n); it != open_.end(); ++it)
+        round += (*it)->name + " -> ";
       f_.say(n.place, "nodes." + n.name, "the nodes depend on each other: " + round + n.name);
       return;
     }
@@ -116,8 +123,10 @@ class Expansion {
     }
     for (const std::string& name : n.over)
       if (!contains(below, name))
-        f_.say(n.over_place, fmt::format("nodes.{}.over", n.name), fmt::format("found \"{}\"", name),
-               below.empty() ? "no axis: the inputs have none" : "an axis of the inputs: " + list_words(below));
+        f_.say(n.over_place, fmt::format("nodes.{}.over", n.name),
+               fmt::format("found \"{}\"", name),
+               below.empty() ? "no axis: the inputs have none"
+                             : "an axis of the inputs: " + list_words(below));
     for (const std::string& name : below)
       if (!contains(n.over, name)) found.push_back(name);
     axes_of_[n.name] = ordered(found);
@@ -132,7 +141,8 @@ class Expansion {
     return nullptr;
   }
 
-  void check_member(const Node& n, const Source& s, const std::string& axis, const std::string& label) {
+  void check_member(const Node& n, const Source& s, const std::string& axis,
+                    const std::string& label) {
     std::vector<std::string> known;
     for (const Axis* a : axes_of_[s.node]) known.push_back(a->name);
     const std::string key = fmt::format("nodes.{}.{}.{}", n.name, s.port, axis);
@@ -143,7 +153,8 @@ class Expansion {
     for (const Axis* a : axes_of_[s.node])
       if (a->name == axis)
         for (const AxisPoint& point : a->points) labels.push_back(point.label);
-    if (!contains(labels, label)) f_.say(s.place, key, "found " + label, "one of " + list_words(labels));
+    if (!contains(labels, label))
+      f_.say(s.place, key, "found " + label, "one of " + list_words(labels));
   }
 
   static std::size_t index_of(const Axis& axis, const std::string& label) {
@@ -169,7 +180,8 @@ class Expansion {
     for (const Axis* axis : axes) {
       std::vector<Point> longer;
       if (all.size() * axis->points.size() > most_steps)
-        throw Failure(Exit::config, Error{axis->place, axis->name, fmt::format("more than {} steps", most_steps), "", ""});
+        throw Failure(Exit::config, Error{axis->place, axis->name,
+                                          fmt::format("more than {} steps", most_steps), "", ""});
       for (const Point& p : all)
         for (std::size_t i = 0; i < axis->points.size(); ++i) {
           longer.push_back(p);
@@ -194,8 +206,9 @@ class Expansion {
         tree = read_(config.scalar);
       } catch (const Failure& failure) {
         if (failure.code() != Exit::input) throw;
-        throw Failure(Exit::config, Error{config.place, fmt::format("nodes.{}.config", n.name), failure.what(), "a YAML file",
-                                          "paths are relative to the working directory"});
+        throw Failure(Exit::config,
+                      Error{config.place, fmt::format("nodes.{}.config", n.name), failure.what(),
+                            "a YAML file", "paths are relative to the working directory"});
       }
     }
     if (tree.place.file.empty()) tree.place = n.place;
@@ -205,11 +218,14 @@ class Expansion {
   Tree config_at(const Node& n, const Point& at) {
     const Tree* source = &n.config;
     for (const Axis& axis : n.sweep)
-      if (const Tree& other = axis.points[at.at(axis.name)].config; other.kind == Tree::Kind::scalar) source = &other;
+      if (const Tree& other = axis.points[at.at(axis.name)].config;
+          other.kind == Tree::Kind::scalar)
+        source = &other;
     Tree config = written(n, *source);
     for (const auto& [key, value] : n.settings) set_value(config, key, value);
     for (const Axis& axis : n.sweep)
-      for (const auto& [key, value] : axis.points[at.at(axis.name)].settings) set_value(config, key, value);
+      for (const auto& [key, value] : axis.points[at.at(axis.name)].settings)
+        set_value(config, key, value);
     return config;
   }
 
@@ -220,7 +236,8 @@ class Expansion {
         step.config = config_at(n, at);
       } catch (const Failure& failure) {
         for (const Error& e : failure.errors())
-          if (std::none_of(f_.errors.begin(), f_.errors.end(), [&](const Error& known) { return text(known) == text(e); }))
+          if (std::none_of(f_.errors.begin(), f_.errors.end(),
+                           [&](const Error& known) { return text(known) == text(e); }))
             f_.errors.push_back(e);
       }
       for (const Source& s : n.sources) add_inputs(n, s, at, step);
@@ -246,28 +263,33 @@ class Expansion {
           full[axis->name] = index_of(*axis, *label);
         else if (const auto it = at.find(axis->name); it != at.end())
           full[axis->name] = it->second;
-      step.inputs.push_back({s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
+      step.inputs.push_back(
+          {s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
       used_.insert(step.inputs.back().path);
     }
     if (n.stage->port(s.port)->members) describe_members(gathered, members, step);
   }
 
   // the keys `axes` and `members` of a config that gathers
-  static void describe_members(const std::vector<const Axis*>& axes, const std::vector<Point>& members, Step& step) {
+  static void describe_members(const std::vector<const Axis*>& axes,
+                               const std::vector<Point>& members, Step& step) {
     Tree axis_list, member_list;
     axis_list.kind = member_list.kind = Tree::Kind::list;
     for (const Axis* axis : axes) {
       Tree one;
       one.kind = Tree::Kind::map;
-      one.map = {{"name", text_tree(axis->name)}, {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
+      one.map = {{"name", text_tree(axis->name)},
+                 {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
       if (axis->design.kind == Tree::Kind::map) one.map.push_back({"design", axis->design});
-      if (axis->samples > 0) one.map.push_back({"samples", plain_tree(std::to_string(axis->samples))});
+      if (axis->samples > 0)
+        one.map.push_back({"samples", plain_tree(std::to_string(axis->samples))});
       axis_list.list.push_back(one);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
       Tree one, at;
       at.kind = Tree::Kind::list;
-      for (const Axis* axis : axes) at.list.push_back(text_tree(axis->points[members[i].at(axis->name)].label));
+      for (const Axis* axis : axes)
+        at.list.push_back(text_tree(axis->points[members[i].at(axis->name)].label));
       one.kind = Tree::Kind::map;
       one.map = {{"path", text_tree(step.inputs[i].path)}, {"at", at}};
       member_list.list.push_back(one);
@@ -285,9 +307,12 @@ std::string member_folder(const Axis& axis, std::size_t point) {
   std::size_t width = 3;
   for (const AxisPoint& p : axis.points) width = std::max(width, integer_digits(p.label));
   const std::string sign = label[0] == '-' ? "-" : "";
-  return axis.name + "_" + sign + std::string(width - integer_digits(label), '0') + label.substr(sign.size());
+  return axis.name + "_" + sign + std::string(width - integer_digits(label), '0') +
+         label.substr(sign.size());
 }
 
-std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read) { return Expansion(pipeline, read).steps(); }
+std::vector<Step> expand(const Pipeline& pipeline, const ReadYaml& read) {
+  return Expansion(pipeline, read).steps();
+}
 
 }  // namespace langer::pipeline

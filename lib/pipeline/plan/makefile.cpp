@@ -6,8 +6,8 @@
 
 namespace langer::pipeline {
 
-std::string makefile_text(const std::string& pipeline_file, const std::string& bin, const std::vector<Rule>& rules,
-                          const std::vector<std::string>& finals) {
+std::string makefile_text(const std::string& pipeline_file, const std::string& bin,
+                          const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);
   text +=
       "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1]   STRICT: a rebuilt program makes its results again\n"
@@ -18,12 +18,16 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
       "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would burn 0.07 s of CPU each, waiting\n"
       "export OPENBLAS_NUM_THREADS ?= 1\n";
   text += fmt::format("BIN ?= {}\n\n.PHONY: all\nall: {}\n", bin, fmt::join(finals, " "));
-  // in place of "Nothing to be done"; but `make -q` asks whether there is, and any recipe of `all` would be
-  text += "ifeq (,$(findstring q,$(filter-out --%,$(firstword -$(MAKEFLAGS)))))\n\t@echo \"results: $(CURDIR)\"\nendif\n";
+  // in place of "Nothing to be done"; but `make -q` asks whether there is, and any recipe of `all`
+  // would be
+  text +=
+      "ifeq (,$(findstring q,$(filter-out --%,$(firstword -$(MAKEFLAGS)))))\n\t@echo \"results: $(CURDIR)\"\nendif\n";
   for (const Rule& rule : rules) {
     const std::string program = "$(BIN)/" + rule.program;
-    text += fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target, fmt::join(rule.prerequisites, " "), program, program);
-    text += fmt::format("\t$(LAUNCH) {} {} --log $(basename $@).log -o $@\n", program, rule.arguments);
+    text += fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target,
+                        fmt::join(rule.prerequisites, " "), program, program);
+    text +=
+        fmt::format("\t$(LAUNCH) {} {} --log $(basename $@).log -o $@\n", program, rule.arguments);
   }
   return text;
 }

@@ -6,8 +6,8 @@
 
 #include "core/config/member.hpp"
 #include "mechanics/mesh/mesh.hpp"
-#include "scene/run/post_config.hpp"
 #include "scene/model/solve_config.hpp"
+#include "scene/run/post_config.hpp"
 
 namespace langer {
 
@@ -19,7 +19,8 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void ask_angles(std::vector<AskedName>& asked, const std::vector<double>& angles, const std::string& key, const FindPlace& where,
+void ask_angles(std::vector<AskedName>& asked, const std::vector<double>& angles,
+                const std::string& key, const FindPlace& where,
                 const std::optional<Material>& own) {
   if (angles.empty()) return;
   AskedName a{What::angles, "", key, where(key), angles.size()};
@@ -27,19 +28,24 @@ void ask_angles(std::vector<AskedName>& asked, const std::vector<double>& angles
   asked.push_back(a);
 }
 
-void ask_columns(std::vector<AskedName>& asked, const std::vector<ColumnChoice>& columns, const std::string& list,
-                 const FindPlace& where) {
+void ask_columns(std::vector<AskedName>& asked, const std::vector<ColumnChoice>& columns,
+                 const std::string& list, const FindPlace& where) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const ColumnChoice& c = columns[i];
     if (!c.quantity || c.quotient || c.history) continue;
     const QuantityLine& line = line_of(*c.quantity);
-    const auto key = [&](const char* part) { return fmt::format("{}[{}].{}", list, i, part); };
-    if (line.needs.contact) asked.push_back({What::contact, line.word, key("quantity"), where(key("quantity"))});
-    if (c.at && needs_place(line)) asked.push_back({What::place, *c.at, key("at"), where(key("at"))});
+    const auto key = [&](const char* part) {
+      return fmt::format("{}[{}].{}", list, i, part);
+    };
+    if (line.needs.contact)
+      asked.push_back({What::contact, line.word, key("quantity"), where(key("quantity"))});
+    if (c.at && needs_place(line))
+      asked.push_back({What::place, *c.at, key("at"), where(key("at"))});
     if (line.needs.fibres && (is<OfPoint>(line) || is<OfBody>(line))) {
       const bool of_one = is<OfPoint>(line);
       const std::string at = key(of_one ? "family" : "quantity");
-      asked.push_back({What::family, line.word, at, where(at), of_one ? static_cast<std::size_t>(c.family) : 1});
+      asked.push_back({What::family, line.word, at, where(at),
+                       of_one ? static_cast<std::size_t>(c.family) : 1});
     }
   }
 }
@@ -52,16 +58,19 @@ std::string near_words(const std::string& name, const std::vector<std::string>& 
 std::optional<Error> lost_in_mesh(const AskedName& a, const MeshNames& mesh) {
   const std::string found = fmt::format("found \"{}\"", a.name);
   if (a.what == What::body && !has(mesh.bodies, a.name))
-    return Error{a.place, a.key, found, "a body of the mesh: " + list_words(mesh.bodies), near_words(a.name, mesh.bodies)};
+    return Error{a.place, a.key, found, "a body of the mesh: " + list_words(mesh.bodies),
+                 near_words(a.name, mesh.bodies)};
   if (a.what == What::set && !has(mesh.sets, a.name))
-    return Error{a.place, a.key, found, "a node set of the mesh: " + list_words(mesh.sets), near_words(a.name, mesh.sets)};
-  if (a.what == What::place && !has(mesh.sets, a.name))
-    return Error{a.place, a.key, fmt::format("the mesh has no nodes called \"{}\"", a.name), "one of " + list_words(mesh.sets),
+    return Error{a.place, a.key, found, "a node set of the mesh: " + list_words(mesh.sets),
                  near_words(a.name, mesh.sets)};
+  if (a.what == What::place && !has(mesh.sets, a.name))
+    return Error{a.place, a.key, fmt::format("the mesh has no nodes called \"{}\"", a.name),
+                 "one of " + list_words(mesh.sets), near_words(a.name, mesh.sets)};
   if (a.what == What::point && !has(mesh.sets, a.name))
     return Error{a.place, a.key, found,
-                 mesh.points.empty() ? "an observation point, and the mesh has none"
-                                     : "an observation point of the mesh: " + list_words(mesh.points),
+                 mesh.points.empty()
+                     ? "an observation point, and the mesh has none"
+                     : "an observation point of the mesh: " + list_words(mesh.points),
                  near_words(a.name, mesh.points)};
   return std::nullopt;
 }
@@ -98,9 +107,11 @@ SceneNames names_in(const MeshConfig& config) {
   if (std::holds_alternative<FromFile>(config.geometry)) return names;
   MeshNames mesh;
   for (const std::string& side : side_names())
-    if (!is_section(config.geometry) || (side != "z_min" && side != "z_max")) mesh.sets.push_back(side);
+    if (!is_section(config.geometry) || (side != "z_min" && side != "z_max"))
+      mesh.sets.push_back(side);
   for (const auto& [name, set] : config.sets) mesh.sets.push_back(name);
-  for (const auto& [name, x] : config.points) mesh.sets.push_back(name), mesh.points.push_back(name);
+  for (const auto& [name, x] : config.points)
+    mesh.sets.push_back(name), mesh.points.push_back(name);
   std::sort(mesh.sets.begin(), mesh.sets.end());
   for (const LayerConfig& layer : config.bodies) mesh.bodies.push_back(layer.name);
   if (mesh.bodies.empty()) mesh.bodies = {config.body};
@@ -122,17 +133,22 @@ SceneNames names_in(const SolveConfig& config, const FindPlace& where) {
   const auto ask = [&](What what, const std::string& name, const std::string& key) {
     names.asked.push_back({what, name, key, where(key)});
   };
-  for (std::size_t i = 0; i < config.supports.size(); ++i) ask(What::set, config.supports[i].on, fmt::format("supports[{}].on", i));
-  for (std::size_t i = 0; i < config.loads.size(); ++i) ask(What::set, config.loads[i].on, fmt::format("loads[{}].on", i));
+  for (std::size_t i = 0; i < config.supports.size(); ++i)
+    ask(What::set, config.supports[i].on, fmt::format("supports[{}].on", i));
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    ask(What::set, config.loads[i].on, fmt::format("loads[{}].on", i));
   for (const auto& [name, contact] : config.contacts)
     if (!contact.on.empty()) ask(What::set, contact.on, fmt::format("contacts.{}.on", name));
   for (const auto& [name, body] : config.materials) {
     ask(What::body, name, "materials." + name);
-    ask_angles(names.asked, body.fibre_angles, fmt::format("materials.{}.fibre_angles", name), where, body.material);
-    if (body.material) names.more_families = std::max(names.more_families, body.material->fibres.size());
+    ask_angles(names.asked, body.fibre_angles, fmt::format("materials.{}.fibre_angles", name),
+               where, body.material);
+    if (body.material)
+      names.more_families = std::max(names.more_families, body.material->fibres.size());
   }
   // beside `materials` it depends on the bodies whether any takes them
-  if (config.materials.empty()) ask_angles(names.asked, config.fibre_angles, "fibre_angles", where, std::nullopt);
+  if (config.materials.empty())
+    ask_angles(names.asked, config.fibre_angles, "fibre_angles", where, std::nullopt);
   return names;
 }
 
@@ -158,8 +174,8 @@ std::vector<Error> lost_names(const SceneNames& names) {
     if (a.what == What::angles || a.what == What::family)
       error = lost_in_law(a, names);
     else if (a.what == What::contact && names.contacts == false)
-      error =
-          Error{a.place, a.key, fmt::format("{} of a solution without contact", a.name), "a quantity that needs no indenter", ""};
+      error = Error{a.place, a.key, fmt::format("{} of a solution without contact", a.name),
+                    "a quantity that needs no indenter", ""};
     else if (names.mesh && a.what != What::contact)
       error = lost_in_mesh(a, *names.mesh);
     if (error) errors.push_back(std::move(*error));

@@ -1,5 +1,6 @@
-// Names that the parts of a scene call each other by, as far as configs alone tell them: what a mesh will have, and what a solve or a
-// post asks for. So a name that leads nowhere is found before the mesh is made. A mesh from a file may have any: nothing is said then.
+// Names that the parts of a scene call each other by, as far as configs alone tell them: what a
+// mesh will have, and what a solve or a post asks for. So a name that leads nowhere is found before
+// the mesh is made. A mesh from a file may have any: nothing is said then.
 #pragma once
 
 #include <functional>
@@ -22,11 +23,20 @@ struct MeshNames {
 };
 
 struct AskedName {
-  enum class What { set, body, point, place, angles, family, contact } what;  // place: set of a column
+  enum class What {
+    set,
+    body,
+    point,
+    place,
+    angles,
+    family,
+    contact
+  } what;  // place: set of a column
   std::string name, key;
   Place place;
-  std::size_t number = 0;                    // of angles; of the family
-  std::optional<std::size_t> families = {};  // of the law that the angles are of, where it is not the general one
+  std::size_t number = 0;  // of angles; of the family
+  std::optional<std::size_t> families =
+      {};  // of the law that the angles are of, where it is not the general one
 };
 
 struct SceneNames {

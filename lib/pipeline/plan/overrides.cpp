@@ -11,8 +11,10 @@ namespace langer::pipeline {
 
 namespace {
 
-[[noreturn]] void refuse(const char* option, std::string found, std::string expected, std::string hint = "") {
-  throw Failure(Exit::config, Error{{option, 0, 0}, "", std::move(found), std::move(expected), std::move(hint)});
+[[noreturn]] void refuse(const char* option, std::string found, std::string expected,
+                         std::string hint = "") {
+  throw Failure(Exit::config,
+                Error{{option, 0, 0}, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
 void forget_lines(Tree& tree) {
@@ -30,8 +32,10 @@ Typed typed(const char* option, const std::string& text, const char* example) {
   Typed t;
   const std::size_t equals = text.find('='), colon = text.substr(0, equals).find(':');
   const std::size_t begin = colon == std::string::npos ? 0 : colon + 1, dot = text.find('.', begin);
-  if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == begin || dot + 1 >= equals)
-    refuse(option, "found \"" + text + "\"", fmt::format("node.key=value, for example {} {}", option, example));
+  if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == begin ||
+      dot + 1 >= equals)
+    refuse(option, "found \"" + text + "\"",
+           fmt::format("node.key=value, for example {} {}", option, example));
   t.axis = colon == std::string::npos ? "" : text.substr(0, colon);
   t.node = text.substr(begin, dot - begin), t.key = text.substr(dot + 1, equals - dot - 1);
   t.value = typed_value(text.substr(equals + 1), option);
@@ -66,11 +70,13 @@ Tree& node_of(Tree& pipeline, const char* option, const std::string& name) {
 std::string swept_by(const Tree& node, const std::string& key) {
   const auto names = [&](const Tree* tree) {
     return tree && (tree->scalar == key ||
-                    std::any_of(tree->list.begin(), tree->list.end(), [&](const Tree& item) { return item.scalar == key; }));
+                    std::any_of(tree->list.begin(), tree->list.end(),
+                                [&](const Tree& item) { return item.scalar == key; }));
   };
   if (const Tree* sweep = node.find("sweep"))
     for (const auto& [axis, value] : sweep->map)
-      if (names(value.find("key")) || names(value.find("keys")) || (value.find("grid") && value.find("grid")->find(key)))
+      if (names(value.find("key")) || names(value.find("keys")) ||
+          (value.find("grid") && value.find("grid")->find(key)))
         return axis;
   return "";
 }
@@ -96,21 +102,25 @@ void apply(const Overrides& overrides, Tree& pipeline) {
     Typed t = typed("--set", setting, "solve.friction=0.2");
     Tree& node = node_of(pipeline, "--set", t.node);
     if (const std::string axis = swept_by(node, t.key); !axis.empty())
-      refuse("--set", fmt::format("{} is varied by the axis \"{}\" of {}", t.key, axis, t.node), "a key that is not swept",
-             fmt::format("--sweep {}:{}.{}=[...] gives the axis other values", axis, t.node, t.key));
+      refuse(
+          "--set", fmt::format("{} is varied by the axis \"{}\" of {}", t.key, axis, t.node),
+          "a key that is not swept",
+          fmt::format("--sweep {}:{}.{}=[...] gives the axis other values", axis, t.node, t.key));
     made_child(made_child(node, "set", t.value), t.key, t.value) = t.value;
   }
   for (const std::string& sweep : overrides.sweeps) {
     Typed t = typed("--sweep", sweep, "'solve.friction=[0, 0.2]'");
     Tree& node = node_of(pipeline, "--sweep", t.node);
     if (t.value.kind != Tree::Kind::list)
-      refuse("--sweep", fmt::format("{}: found {}", t.key, description(t.value)), "a list of values, for example [0, 0.2]");
+      refuse("--sweep", fmt::format("{}: found {}", t.key, description(t.value)),
+             "a list of values, for example [0, 0.2]");
     Tree key = t.value;
     key.list.clear(), key.kind = Tree::Kind::scalar, key.scalar = t.key;
     Tree axis = key;
     axis.scalar.clear(), axis.kind = Tree::Kind::map;
     axis.map = {{"key", key}, {"values", t.value}};
-    made_child(made_child(node, "sweep", t.value), t.axis.empty() ? axis_name(t.key) : t.axis, t.value) = axis;
+    made_child(made_child(node, "sweep", t.value), t.axis.empty() ? axis_name(t.key) : t.axis,
+               t.value) = axis;
   }
 }
 

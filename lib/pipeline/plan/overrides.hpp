@@ -1,8 +1,10 @@
-// What a command line changes in a pipeline before it is read: a value of a node's config, or a sweep that its file does not have.
+// What a command line changes in a pipeline before it is read: a value of a node's config, or a
+// sweep that its file does not have.
 //   --set   solve.friction=0.2          nodes.solve.set:   {friction: 0.2}
 //   --sweep solve.friction=[0, 0.2]     nodes.solve.sweep: {friction: {key: friction, values: [0, 0.2]}}
-// An axis is called after the last key of its path; `angle:solve.fibre_angles[0]=[0, 60]` gives it another name.
-// Refused (Failure config): another form, a node that is not there, a key that the node sweeps.
+// An axis is called after the last key of its path; `angle:solve.fibre_angles[0]=[0, 60]` gives it
+// another name. Refused (Failure config): another form, a node that is not there, a key that the
+// node sweeps.
 #pragma once
 
 #include <string>

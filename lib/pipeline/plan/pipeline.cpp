@@ -29,7 +29,8 @@ std::string label_of(const Tree& value, bool& is_number) {
 // nan, inf, 1e400, 1e-400, as YAML or C write them; strtod would find the same by an overflow
 bool not_finite(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  if (text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1]))) text.remove_prefix(1);
+  if (text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1])))
+    text.remove_prefix(1);
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   return !text.empty() && end == text.data() + text.size() &&
@@ -37,8 +38,8 @@ bool not_finite(std::string_view text) {
 }
 
 bool is_label(const std::string& label) {
-  return !label.empty() && label.find_first_not_of('.') != std::string::npos && is_safe_path(label) &&
-         label.find('/') == std::string::npos;
+  return !label.empty() && label.find_first_not_of('.') != std::string::npos &&
+         is_safe_path(label) && label.find('/') == std::string::npos;
 }
 
 class Reading {
@@ -50,8 +51,10 @@ class Reading {
     p.file = tree.place.file;
     if (!is_map(tree, "")) return p;
     known_keys(tree, "", {"pipeline", "nodes"});
-    if (const Tree* name = need(tree, "", "pipeline", "the pipeline's name")) p.name = text(*name, "pipeline");
-    if (!p.name.empty() && !is_name(p.name)) bad_name(tree.find("pipeline")->place, "pipeline", p.name);
+    if (const Tree* name = need(tree, "", "pipeline", "the pipeline's name"))
+      p.name = text(*name, "pipeline");
+    if (!p.name.empty() && !is_name(p.name))
+      bad_name(tree.find("pipeline")->place, "pipeline", p.name);
     const Tree* nodes = need(tree, "", "nodes", "a map of nodes");
     if (!nodes || !is_map(*nodes, "nodes")) return p;
     if (nodes->map.empty()) f.say(nodes->place, "nodes", "found no nodes", "at least one");
@@ -64,14 +67,18 @@ class Reading {
   std::vector<std::string> names_;
 
   bool is_map(const Tree& tree, const std::string& path) {
-    if (tree.kind != Tree::Kind::map) f.say(tree.place, path, "found " + description(tree), "a map");
+    if (tree.kind != Tree::Kind::map)
+      f.say(tree.place, path, "found " + description(tree), "a map");
     return tree.kind == Tree::Kind::map;
   }
-  void known_keys(const Tree& tree, const std::string& path, const std::vector<std::string>& known) {
+  void known_keys(const Tree& tree, const std::string& path,
+                  const std::vector<std::string>& known) {
     for (const auto& entry : tree.map)
-      if (std::find(known.begin(), known.end(), entry.key) == known.end()) say_unknown(entry, path, known, f);
+      if (std::find(known.begin(), known.end(), entry.key) == known.end())
+        say_unknown(entry, path, known, f);
   }
-  const Tree* need(const Tree& tree, const std::string& path, const std::string& key, const std::string& what) {
+  const Tree* need(const Tree& tree, const std::string& path, const std::string& key,
+                   const std::string& what) {
     const Tree* found = tree.find(key);
     if (!found) f.say(tree.place, join(path, key), "missing", what);
     return found;
@@ -82,13 +89,15 @@ class Reading {
     return s;
   }
   void bad_name(const Place& place, const std::string& path, const std::string& name) {
-    f.say(place, path, "found the name \"" + name + "\"", "letters, digits, _, + and - only", "it becomes the name of a folder");
+    f.say(place, path, "found the name \"" + name + "\"", "letters, digits, _, + and - only",
+          "it becomes the name of a folder");
   }
   // one text or a list of texts
   std::vector<std::string> texts(const Tree& tree, const std::string& path) {
     std::vector<std::string> found;
     if (tree.kind != Tree::Kind::list) return {text(tree, path)};
-    for (std::size_t i = 0; i < tree.list.size(); ++i) found.push_back(text(tree.list[i], item(path, i)));
+    for (std::size_t i = 0; i < tree.list.size(); ++i)
+      found.push_back(text(tree.list[i], item(path, i)));
     return found;
   }
 
@@ -98,7 +107,9 @@ class Reading {
     n.name = name;
     n.place = tree.place;
     if (!is_name(name)) bad_name(tree.place, path, name);
-    if (name == "all") f.say(tree.place, path, "found the name \"all\"", "another name", "make builds everything by this name");
+    if (name == "all")
+      f.say(tree.place, path, "found the name \"all\"", "another name",
+            "make builds everything by this name");
     if (!is_map(tree, path)) return n;
     const std::string known_stages = "one of " + list_words(stage_names());
     if (const Tree* stage = need(tree, path, "stage", known_stages)) {
@@ -121,13 +132,16 @@ class Reading {
     if (const Tree* set = tree.find("set")) n.settings = settings(*set, path + ".set");
     for (const Port& port : n.stage->inputs) source(tree, path, port, n);
     if (const Tree* sweep = tree.find("sweep"); sweep && is_map(*sweep, path + ".sweep"))
-      for (const auto& [axis_name, value] : sweep->map) n.sweep.push_back(axis(axis_name, value, path + ".sweep." + axis_name));
+      for (const auto& [axis_name, value] : sweep->map)
+        n.sweep.push_back(axis(axis_name, value, path + ".sweep." + axis_name));
     if (const Tree* over = tree.find("over")) {
       n.over_place = over->place;
       n.over = texts(*over, path + ".over");
-      const bool gathers = std::any_of(n.stage->inputs.begin(), n.stage->inputs.end(), [](const Port& p) { return p.several; });
+      const bool gathers = std::any_of(n.stage->inputs.begin(), n.stage->inputs.end(),
+                                       [](const Port& p) { return p.several; });
       if (!gathers)
-        f.say(over->place, path + ".over", fmt::format("the stage {} takes one file per port", n.stage->name),
+        f.say(over->place, path + ".over",
+              fmt::format("the stage {} takes one file per port", n.stage->name),
               "a stage that gathers");
     }
     return n;
@@ -143,18 +157,21 @@ class Reading {
     const Tree* given = tree.find(port.name);
     const std::string key = join(path, port.name);
     if (!given) {
-      if (port.required) f.say(tree.place, key, "missing", fmt::format("a node or a file: {}", port.says));
+      if (port.required)
+        f.say(tree.place, key, "missing", fmt::format("a node or a file: {}", port.says));
       return;
     }
     if (given->kind != Tree::Kind::list || !port.several) return one_source(given, key, port, n);
-    for (std::size_t i = 0; i < given->list.size(); ++i) one_source(&given->list[i], item(key, i), port, n);
+    for (std::size_t i = 0; i < given->list.size(); ++i)
+      one_source(&given->list[i], item(key, i), port, n);
   }
 
   void one_source(const Tree* given, const std::string& key, const Port& port, Node& n) {
     Source s{port.name, "", "", {}, given->place};
     std::string wanted;
     if (given->kind == Tree::Kind::map) {
-      if (const Tree* node = need(*given, key, "node", "a node")) wanted = text(*node, key + ".node");
+      if (const Tree* node = need(*given, key, "node", "a node"))
+        wanted = text(*node, key + ".node");
       for (const auto& [axis, label] : given->map)
         if (axis != "node") s.at.push_back({axis, label_text(label, join(key, axis))});
     } else
@@ -168,7 +185,8 @@ class Reading {
       n.sources.push_back(s);
     } else {
       const std::string near = nearest(wanted, names_);
-      f.say(given->place, key, fmt::format("there is no node \"{}\"", wanted), "one of " + list_words(names_) + ", or a file",
+      f.say(given->place, key, fmt::format("there is no node \"{}\"", wanted),
+            "one of " + list_words(names_) + ", or a file",
             near.empty() ? "" : "did you mean \"" + near + "\"?");
     }
   }
@@ -178,7 +196,8 @@ class Reading {
     if (!is_map(tree, path)) return found;
     for (const auto& [key, value] : tree.map) {
       if (split_path(key).empty())
-        f.say(value.place, path, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
+        f.say(value.place, path, "found the key \"" + key + "\"",
+              "a path of keys like contacts[0].friction");
       found.push_back({key, value});
     }
     return found;
@@ -213,16 +232,19 @@ class Reading {
       known_keys(tree, path, {"grid"});
       points_of_grid(*grid, path + ".grid", a);
     } else {
-      known_keys(tree, path, {"key", "keys", "values", "unit", "variants", "design", "grid", "samples"});
+      known_keys(tree, path,
+                 {"key", "keys", "values", "unit", "variants", "design", "grid", "samples"});
       if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
       std::vector<std::string> keys;
       for (const char* word : {"key", "keys"})
         if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
       if (keys.empty())
-        f.say(tree.place, path, "missing", "key: the path of the key that varies, or variants, grid, design or samples");
+        f.say(tree.place, path, "missing",
+              "key: the path of the key that varies, or variants, grid, design or samples");
       for (const std::string& key : keys)
         if (split_path(key).empty())
-          f.say(tree.place, path, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
+          f.say(tree.place, path, "found the key \"" + key + "\"",
+                "a path of keys like contacts[0].friction");
       values(tree, path, keys, a);
     }
     check_points(a, path);
@@ -238,13 +260,15 @@ class Reading {
     for (const auto& [key, given] : tree.map) {
       const std::string here = join(path, key);
       if (split_path(key).empty())
-        f.say(given.place, here, "found the key \"" + key + "\"", "a path of keys like contacts[0].friction");
+        f.say(given.place, here, "found the key \"" + key + "\"",
+              "a path of keys like contacts[0].friction");
       if (given.kind != Tree::Kind::list || given.list.empty()) {
         f.say(given.place, here, "found " + description(given), "a list of values");
         continue;
       }
       if (a.points.size() * given.list.size() > most)
-        return f.say(tree.place, path, "more than 10000 combinations", "10000 at most", "fewer values");
+        return f.say(tree.place, path, "more than 10000 combinations", "10000 at most",
+                     "fewer values");
       std::vector<AxisPoint> points;
       for (const AxisPoint& point : a.points)
         for (std::size_t i = 0; i < given.list.size(); ++i) {
@@ -265,7 +289,8 @@ class Reading {
     if (f.errors.size() > before) return a.points.push_back({"1", {}, {}});  // enough is said
     const std::vector<VecX> points = design_points(design);
     if (points.size() > most)
-      return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most", "fewer trajectories or samples");
+      return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most",
+                   "fewer trajectories or samples");
     a.numbers = true;
     a.design = to_tree(design);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -293,17 +318,20 @@ class Reading {
     if (a.points.empty()) a.points.push_back({"1", {}, {}});  // enough is said
   }
 
-  void values(const Tree& tree, const std::string& path, const std::vector<std::string>& keys, Axis& a) {
+  void values(const Tree& tree, const std::string& path, const std::vector<std::string>& keys,
+              Axis& a) {
     const Tree* list = need(tree, path, "values", "a list of values");
     if (!list) return;
     if (list->kind != Tree::Kind::list)
-      return f.say(list->place, path + ".values", "found " + description(*list), "a list of values");
+      return f.say(list->place, path + ".values", "found " + description(*list),
+                   "a list of values");
     a.numbers = true;
     for (std::size_t i = 0; i < list->list.size(); ++i) {
       const Tree& value = list->list[i];
       const std::string here = item(path + ".values", i);
       if (value.kind != Tree::Kind::scalar) {
-        f.say(value.place, here, "found " + description(value), "a number or a word", "maps and lists can be varied by variants");
+        f.say(value.place, here, "found " + description(value), "a number or a word",
+              "maps and lists can be varied by variants");
         continue;
       }
       if (not_finite(value.scalar)) {
@@ -324,15 +352,17 @@ class Reading {
     std::set<std::string> seen;
     for (const AxisPoint& point : a.points)
       if (!seen.insert(point.label).second)
-        f.say(a.place, path, fmt::format("the value {} stands twice", point.label), "each value once");
+        f.say(a.place, path, fmt::format("the value {} stands twice", point.label),
+              "each value once");
   }
 };
 
 }  // namespace
 
 bool is_safe_path(const std::string& path) {
-  return !path.empty() &&
-         std::all_of(path.begin(), path.end(), [](char c) { return is_name(std::string(1, c)) || c == '.' || c == '/'; });
+  return !path.empty() && std::all_of(path.begin(), path.end(), [](char c) {
+    return is_name(std::string(1, c)) || c == '.' || c == '/';
+  });
 }
 
 const Node* Pipeline::node(const std::string& wanted) const {

@@ -1,4 +1,5 @@
-// A pipeline file as written: nodes, the stage each runs, where its inputs come from, and what is varied.
+// A pipeline file as written: nodes, the stage each runs, where its inputs come from, and what is
+// varied.
 //
 //   pipeline: tensile_angles
 //   nodes:
@@ -10,15 +11,18 @@
 //     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
 //     table: {stage: gather, curves: post, over: [code, alpha]}
 //
-// An axis may also be a grid: {grid: {<key>: [values], <key>: [values]}}, all combinations of them, labelled 0.25-10; or a design of
-// experiments: {design: {parameters: [{key, lower, upper}], morris: {trajectories: 6}}}; its
-// points are numbered, and the node that gathers over it tells effects (sweep/design.hpp). {samples: 100} are sets of parameters that
-// the fit behind `material` leaves open (the stage sample), and the node that gathers over it tells the spread.
-// A variant is a map of settings, or the path of a config in place of the node's. A port takes a node's name, one member of it
+// An axis may also be a grid: {grid: {<key>: [values], <key>: [values]}}, all combinations of them,
+// labelled 0.25-10; or a design of experiments: {design: {parameters: [{key, lower, upper}],
+// morris: {trajectories: 6}}}; its points are numbered, and the node that gathers over it tells
+// effects (sweep/design.hpp). {samples: 100} are sets of parameters that the fit behind `material`
+// leaves open (the stage sample), and the node that gathers over it tells the spread. A variant is
+// a map of settings, or the path of a config in place of the node's. A port takes a node's name,
+// one member of it
 // ({node: fit, law: HGO-Yeoh}) or a file; one that takes several files also a list of those.
-// `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to the working directory. An axis
-// that two nodes declare is one axis: its points must agree. Refused: unknown keys, stages, ports and nodes; names that are not
-// safe in file names and in make.
+// `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to
+// the working directory. An axis that two nodes declare is one axis: its points must agree.
+// Refused: unknown keys, stages, ports and nodes; names that are not safe in file names and in
+// make.
 #pragma once
 
 #include <string>
@@ -49,8 +53,9 @@ struct Axis {
 
 struct Source {
   std::string port;
-  std::string node, file;                               // one of them
-  std::vector<std::pair<std::string, std::string>> at;  // axis -> label: the member of the node that is meant
+  std::string node, file;  // one of them
+  std::vector<std::pair<std::string, std::string>>
+      at;  // axis -> label: the member of the node that is meant
   Place place;
 };
 

@@ -15,7 +15,8 @@ using namespace schema;
 constexpr const char* name_pattern = "^(?!include$)[A-Za-z0-9_+-]+$";
 
 Tree named(Tree one) {
-  Tree t = object({{"type", word("object")}, {"patternProperties", object({{name_pattern, std::move(one)}})}});
+  Tree t = object(
+      {{"type", word("object")}, {"patternProperties", object({{name_pattern, std::move(one)}})}});
   refuse_others(t);
   return t;
 }
@@ -41,25 +42,36 @@ Tree axis(Definitions& definitions) {
   const Tree settings = type("object");
   return object(
       {{"anyOf",
-        list({keys_of_map({{"variants", described_by("settings, or the path of a config, by name",
-                                                     object({{"type", word("object")},
-                                                             {"additionalProperties", types({"object", "string", "null"})}}))}},
-                          {"variants"}),
-              keys_of_map({{"grid", described_by("all combinations of values, by the path of their key",
-                                                 object({{"type", word("object")},
-                                                         {"additionalProperties",
-                                                          object({{"type", word("array")}, {"items", texts()}})}}))}},
-                          {"grid"}),
-              keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}}, {"design"}),
-              keys_of_map({{"samples", described_by("how many sets of parameters that a fit leaves open, by their number: "
-                                                    "number of the stage sample",
-                                                    type("integer"))}},
-                          {"samples"}),
+        list({keys_of_map(
+                  {{"variants", described_by("settings, or the path of a config, by name",
+                                             object({{"type", word("object")},
+                                                     {"additionalProperties",
+                                                      types({"object", "string", "null"})}}))}},
+                  {"variants"}),
               keys_of_map(
-                  {{"key", described_by("path of the key that varies, such as fibre_angles[0]", one_or_several(type("string")))},
-                   {"keys", described_by("or several that get the same value", one_or_several(type("string")))},
-                   {"values", described_by("its values",
-                                           object({{"type", word("array")}, {"items", texts()}, {"minItems", plain_tree("1")}}))},
+                  {{"grid", described_by(
+                                "all combinations of values, by the path of their key",
+                                object({{"type", word("object")},
+                                        {"additionalProperties", object({{"type", word("array")},
+                                                                         {"items", texts()}})}}))}},
+                  {"grid"}),
+              keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}},
+                          {"design"}),
+              keys_of_map(
+                  {{"samples",
+                    described_by(
+                        "how many sets of parameters that a fit leaves open, by their number: "
+                        "number of the stage sample",
+                        type("integer"))}},
+                  {"samples"}),
+              keys_of_map(
+                  {{"key", described_by("path of the key that varies, such as fibre_angles[0]",
+                                        one_or_several(type("string")))},
+                   {"keys", described_by("or several that get the same value",
+                                         one_or_several(type("string")))},
+                   {"values", described_by("its values", object({{"type", word("array")},
+                                                                 {"items", texts()},
+                                                                 {"minItems", plain_tree("1")}}))},
                    {"unit", described_by("of the values, for tables", type("string"))}},
                   {"values"})})}});
 }
@@ -67,19 +79,25 @@ Tree axis(Definitions& definitions) {
 Tree node(const StageSpec& stage) {
   std::vector<Tree::Entry> properties{
       {"stage", object({{"const", word(stage.name)}})},
-      {"config", described_by("a YAML file, the config itself, or absent: all defaults", types({"string", "object"}))},
-      {"set", described_by("values that replace those of the config, by the path of their key", type("object"))},
+      {"config", described_by("a YAML file, the config itself, or absent: all defaults",
+                              types({"string", "object"}))},
+      {"set", described_by("values that replace those of the config, by the path of their key",
+                           type("object"))},
       {"sweep", described_by("axes by name", named(reference("axis")))}};
   std::vector<std::string> needed{"stage"};
   bool gathers = false;
   for (const Port& port : stage.inputs) {
-    const Tree one = object({{"anyOf", list({type("string"), object({{"type", word("object")}, {"required", words({"node"})}})})}});
-    properties.push_back(
-        {port.name, described_by(fmt::format("a node or a file: {}", port.says), port.several ? one_or_several(one) : one)});
+    const Tree one = object(
+        {{"anyOf", list({type("string"),
+                         object({{"type", word("object")}, {"required", words({"node"})}})})}});
+    properties.push_back({port.name, described_by(fmt::format("a node or a file: {}", port.says),
+                                                  port.several ? one_or_several(one) : one)});
     if (port.required) needed.push_back(port.name);
     gathers = gathers || port.several;
   }
-  if (gathers) properties.push_back({"over", described_by("axes that are gathered", one_or_several(type("string")))});
+  if (gathers)
+    properties.push_back(
+        {"over", described_by("axes that are gathered", one_or_several(type("string")))});
   return keys_of_map(std::move(properties), needed);
 }
 
@@ -95,18 +113,23 @@ std::string pipeline_schema() {
     definitions[std::string("stage_") + stage.name] = node(stage);
     names.push_back(stage.name);
     // messages of the one stage that is meant, not of all
-    choices.list.push_back(object({{"if", object({{"properties", object({{"stage", object({{"const", word(stage.name)}})}})}})},
-                                   {"then", reference(std::string("stage_") + stage.name)}}));
+    choices.list.push_back(object(
+        {{"if",
+          object({{"properties", object({{"stage", object({{"const", word(stage.name)}})}})}})},
+         {"then", reference(std::string("stage_") + stage.name)}}));
   }
   definitions["node"] =
       object({{"type", word("object")},
-              {"properties", object({{"stage", object({{"description", word("which program runs")}, {"enum", words(names)}})}})},
+              {"properties", object({{"stage", object({{"description", word("which program runs")},
+                                                       {"enum", words(names)}})}})},
               {"required", words({"stage"})},
               {"allOf", std::move(choices)}});
-  Tree root = keys_of_map({{"pipeline", described_by("its name: results lie in runs/<name>",
-                                                     object({{"type", word("string")}, {"pattern", word(name_pattern)}}))},
-                           {"nodes", described_by("its steps by name", named(reference("node")))}},
-                          {"pipeline", "nodes"});
+  Tree root = keys_of_map(
+      {{"pipeline",
+        described_by("its name: results lie in runs/<name>",
+                     object({{"type", word("string")}, {"pattern", word(name_pattern)}}))},
+       {"nodes", described_by("its steps by name", named(reference("node")))}},
+      {"pipeline", "nodes"});
   return document("Langer: pipeline", std::move(root), definitions);
 }
 

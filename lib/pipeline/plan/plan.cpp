@@ -72,9 +72,11 @@ class Planning {
       if (effective.look_at_data) looks_.push_back(effective.look_at_data);
       SceneNames& names = names_[rule.target] = effective.names;
       for (const StepInput& input : step.inputs) add_names(step, input, names);
-      if (const std::vector<Error> lost = lost_names(names); !lost.empty()) throw Failure(Exit::config, lost);
+      if (const std::vector<Error> lost = lost_names(names); !lost.empty())
+        throw Failure(Exit::config, lost);
       // the command stands in the config, so that a changed input is a changed config
-      files.push_back({config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
+      files.push_back(
+          {config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
     });
     rule.threads = threads_of(step.config);
     if (step.final) finals.push_back(rule.target);
@@ -113,11 +115,14 @@ class Planning {
   // What an input has of names, made by a step before or given as a file.
   void add_names(const Step& step, const StepInput& input, SceneNames& names) {
     const std::string port = input.port, made_by = step.stage->name;
-    if ((made_by != "solve" || (port != "mesh" && port != "material")) && (made_by != "post" || port != "solution")) return;
+    if ((made_by != "solve" || (port != "mesh" && port != "material")) &&
+        (made_by != "post" || port != "solution"))
+      return;
     const SceneNames& there = input.made ? names_[input.path] : names_in_file(port, input.path);
     if (port != "material" && !names.mesh) names.mesh = there.mesh;
     if (port != "mesh" && !names.families) names.families = there.families;
-    if (port == "solution") names.more_families = there.more_families, names.contacts = there.contacts;
+    if (port == "solution")
+      names.more_families = there.more_families, names.contacts = there.contacts;
   }
 
   const SceneNames& names_in_file(const std::string& port, const std::string& path) {
@@ -126,7 +131,9 @@ class Planning {
     if (!is_new || !fs::is_regular_file(path, ec)) return known->second;
     try {
       if (fs::path(path).extension() != ".h5" && port == "material")
-        known->second = effective_port_file({.name = "material", .says = "", .made_by = {}}, load_yaml(path), "").names;
+        known->second = effective_port_file({.name = "material", .says = "", .made_by = {}},
+                                            load_yaml(path), "")
+                            .names;
       else if (port == "mesh")
         known->second.mesh = names_of(read_mesh(path).mesh);
       else if (port == "material")
@@ -143,7 +150,8 @@ class Planning {
     } catch (const Failure& failure) {
       if (failure.code() != Exit::input) code_ = failure.code();
       for (const Error& e : failure.errors())
-        if (std::none_of(errors_.begin(), errors_.end(), [&](const Error& known) { return text(known) == text(e); }))
+        if (std::none_of(errors_.begin(), errors_.end(),
+                         [&](const Error& known) { return text(known) == text(e); }))
           errors_.push_back(e);
     }
   }
@@ -151,12 +159,14 @@ class Planning {
   std::string from_run(const std::string& path, const Place& place, const std::string& key) const {
     const std::string seen = relative_path(path, folder_.string());
     if (!is_safe_path(seen))
-      throw Failure(Exit::config, Error{place, key, "found the path " + seen, "letters, digits, _ . + - and / only",
+      throw Failure(Exit::config, Error{place, key, "found the path " + seen,
+                                        "letters, digits, _ . + - and / only",
                                         "make gives other characters a meaning"});
     return seen;
   }
 
-  // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the step's config.
+  // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the
+  // step's config.
   std::string given_file(const Step& step, const StepInput& input) {
     const std::string key = fmt::format("nodes.{}.{}", step.node, input.port);
     std::string path;
@@ -173,7 +183,8 @@ class Planning {
         throw Failure(Exit::config, Error{input.place, key, "found " + input.path, expected, ""});
       }
       path = fmt::format("{}/{}.yaml", step.folder, input.port);
-      const Effective effective = effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string());
+      const Effective effective =
+          effective_port_file(port, load_yaml(input.path), (folder_ / step.folder).string());
       add_doubts(effective.notices);
       files.push_back({path, effective.text});
     });
@@ -191,7 +202,8 @@ bool holds(const fs::path& path, const std::string& text) {
 void make_folder(const fs::path& path) {
   std::error_code ec;
   fs::create_directories(path, ec);
-  if (!fs::is_directory(path)) throw Failure(Exit::input, Error{{path.string()}, "", "this folder cannot be made", "", ""});
+  if (!fs::is_directory(path))
+    throw Failure(Exit::input, Error{{path.string()}, "", "this folder cannot be made", "", ""});
 }
 
 bool write_if_changed(const fs::path& path, const std::string& text) {
@@ -205,17 +217,20 @@ bool write_if_changed(const fs::path& path, const std::string& text) {
 
 namespace {
 
-// A folder of programs may be called anything; a blank has to be told to make, and to the shell, as such.
+// A folder of programs may be called anything; a blank has to be told to make, and to the shell, as
+// such.
 std::string as_make_reads(const std::string& folder) {
   std::string seen;
   for (const char c : folder) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c != ' ' && byte < 0x80 && !std::isalnum(byte) && std::string_view("/._-+,=@~").find(c) == std::string_view::npos)
-      throw Failure(Exit::input, Error{{folder},
-                                       "",
-                                       fmt::format("the programs lie in a folder with {} in its name", c),
-                                       "letters, digits, blanks, / . _ - + , = @ ~",
-                                       "make gives it a meaning: put them elsewhere"});
+    if (c != ' ' && byte < 0x80 && !std::isalnum(byte) &&
+        std::string_view("/._-+,=@~").find(c) == std::string_view::npos)
+      throw Failure(Exit::input,
+                    Error{{folder},
+                          "",
+                          fmt::format("the programs lie in a folder with {} in its name", c),
+                          "letters, digits, blanks, / . _ - + , = @ ~",
+                          "make gives it a meaning: put them elsewhere"});
     seen += c == ' ' ? "\\ " : std::string(1, c);
   }
   return seen;
@@ -229,8 +244,8 @@ struct Planned {
 };
 
 // siblings: array jobs of one node start together, and none waits for another
-Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides, bool siblings,
-                bool with_data = false) {
+Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides,
+                bool siblings, bool with_data = false) {
   Tree tree = load_yaml(pipeline_file);
   apply(overrides, tree);
   set_base(tree, "");
@@ -238,7 +253,8 @@ Planned planned(const std::string& pipeline_file, std::string folder, const Over
   if (folder.empty()) folder = "runs/" + written.name;
   std::vector<Step> steps = expand(written, load_yaml);
   if (siblings) offer_siblings(steps);
-  Planned p{Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
+  Planned p{
+      Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
   for (const Step& step : p.steps) p.planning.add(step);
   if (with_data) p.planning.look_at_data();
   p.planning.stop_if_wrong();
@@ -248,13 +264,15 @@ Planned planned(const std::string& pipeline_file, std::string folder, const Over
 
 }  // namespace
 
-PlanReport check_pipeline(const std::string& pipeline_file, std::string folder, const Overrides& overrides) {
+PlanReport check_pipeline(const std::string& pipeline_file, std::string folder,
+                          const Overrides& overrides) {
   return planned(pipeline_file, std::move(folder), overrides, true, true).report;
 }
 
-PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin, const std::string& command,
-                PlanFor others, const Overrides& overrides) {
-  auto [planning, report, name, steps] = planned(pipeline_file, std::move(folder), overrides, !others.slurm);
+PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin,
+                const std::string& command, PlanFor others, const Overrides& overrides) {
+  auto [planning, report, name, steps] =
+      planned(pipeline_file, std::move(folder), overrides, !others.slurm);
   make_folder(report.folder);
   const std::string makefile = (fs::path(report.folder) / "Makefile").string(),
                     snakefile = (fs::path(report.folder) / "Snakefile").string();
@@ -262,11 +280,14 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
   if (others.snakemake) need_own_text(snakefile, planned_by);
   begin_beside(makefile);
   const OutputLock lock(makefile, command);
-  for (const TextFile& file : planning.files) report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
+  for (const TextFile& file : planning.files)
+    report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
   const std::string seen_bin = as_make_reads(relative_path(bin, report.folder));
   const std::string file_name = fs::path(pipeline_file).filename().string();
   write_if_changed(makefile, makefile_text(file_name, seen_bin, planning.rules, planning.finals));
-  if (others.snakemake) write_if_changed(snakefile, snakefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.snakemake)
+    write_if_changed(snakefile,
+                     snakefile_text(file_name, seen_bin, planning.rules, planning.finals));
   if (others.slurm)
     for (const SlurmFile& file : slurm_files(name, steps)) {
       const fs::path path = fs::path(report.folder) / file.name;

@@ -4,43 +4,48 @@ namespace langer {
 
 namespace {
 
-const StageSpec mesh_stage{"mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
-const StageSpec fit_stage{"fit",
-                          "Finds material parameters from a measured curve.",
-                          {{.name = "curves",
-                            .says = "what was measured in a scene, of the items of data without a file, in their order",
-                            .made_by = {"post"},
-                            .required = false,
-                            .several = true}},
-                          "material.h5"};
+const StageSpec mesh_stage{
+    "mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
+const StageSpec fit_stage{
+    "fit",
+    "Finds material parameters from a measured curve.",
+    {{.name = "curves",
+      .says = "what was measured in a scene, of the items of data without a file, in their order",
+      .made_by = {"post"},
+      .required = false,
+      .several = true}},
+    "material.h5"};
 const StageSpec sample_stage{"sample",
                              "Takes one of the sets of parameters that a fit leaves open.",
                              {{.name = "material", .says = "the fit", .made_by = {"fit"}}},
                              "material.h5"};
-const StageSpec sensitivity_stage{
-    "sensitivity",
-    "Ranks material parameters: one at a time, by Morris, by Sobol.",
-    {{.name = "material", .says = "the material whose parameters are ranked", .made_by = {"fit"}, .takes_yaml = true}},
-    "sensitivity.h5"};
-const StageSpec solve_stage{"solve",
-                            "Finds equilibrium along a load path.",
-                            {{.name = "mesh",
-                              .says = "mesh with named sets and frames, unless the config has one",
-                              .made_by = {"mesh"},
-                              .required = false,
-                              .or_key = true},
-                             {.name = "material",
-                              .says = "energy terms and their parameters, unless the config has them",
-                              .made_by = {"fit", "sample"},
-                              .required = false,
-                              .or_key = true,
-                              .takes_yaml = true},
-                             {.name = "mirror",
-                              .says = "a solution with other fibre angles, copied where this scene is its image",
-                              .made_by = {"solve"},
-                              .required = false}},
-                            "solution.h5",
-                            true};
+const StageSpec sensitivity_stage{"sensitivity",
+                                  "Ranks material parameters: one at a time, by Morris, by Sobol.",
+                                  {{.name = "material",
+                                    .says = "the material whose parameters are ranked",
+                                    .made_by = {"fit"},
+                                    .takes_yaml = true}},
+                                  "sensitivity.h5"};
+const StageSpec solve_stage{
+    "solve",
+    "Finds equilibrium along a load path.",
+    {{.name = "mesh",
+      .says = "mesh with named sets and frames, unless the config has one",
+      .made_by = {"mesh"},
+      .required = false,
+      .or_key = true},
+     {.name = "material",
+      .says = "energy terms and their parameters, unless the config has them",
+      .made_by = {"fit", "sample"},
+      .required = false,
+      .or_key = true,
+      .takes_yaml = true},
+     {.name = "mirror",
+      .says = "a solution with other fibre angles, copied where this scene is its image",
+      .made_by = {"solve"},
+      .required = false}},
+    "solution.h5",
+    true};
 const StageSpec post_stage{
     "post",
     "Turns a solution into fields and curves.",
@@ -49,25 +54,47 @@ const StageSpec post_stage{
     false,
     "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
     "and wants --solution only"};
-const StageSpec gather_stage{
-    "gather",
-    "Collects one quantity or several over a sweep.",
-    {{.name = "curves",
-      .says = "a member of the sweep: any file with a /summary",
-      .made_by = {"post", "fit", "sensitivity", "mesh"},
-      .several = true,
-      .members = true},
-     {.name = "material", .says = "of a sweep over {samples: 100} the fit that has them", .made_by = {"fit"}, .required = false}},
-    "sweep.h5"};
+const StageSpec gather_stage{"gather",
+                             "Collects one quantity or several over a sweep.",
+                             {{.name = "curves",
+                               .says = "a member of the sweep: any file with a /summary",
+                               .made_by = {"post", "fit", "sensitivity", "mesh"},
+                               .several = true,
+                               .members = true},
+                              {.name = "material",
+                               .says = "of a sweep over {samples: 100} the fit that has them",
+                               .made_by = {"fit"},
+                               .required = false}},
+                             "sweep.h5"};
 const StageSpec report_stage{
     "report",
     "Writes a report on a run: one page that opens offline.",
     {{.name = "mesh", .says = "a mesh", .made_by = {"mesh"}, .required = false, .several = true},
-     {.name = "material", .says = "a fitted material", .made_by = {"fit"}, .required = false, .several = true},
-     {.name = "sensitivity", .says = "a ranking of parameters", .made_by = {"sensitivity"}, .required = false, .several = true},
-     {.name = "solution", .says = "a body to look at", .made_by = {"solve"}, .required = false, .several = true},
-     {.name = "curves", .says = "curves of a solution", .made_by = {"post"}, .required = false, .several = true},
-     {.name = "table", .says = "the table of a sweep", .made_by = {"gather"}, .required = false, .several = true}},
+     {.name = "material",
+      .says = "a fitted material",
+      .made_by = {"fit"},
+      .required = false,
+      .several = true},
+     {.name = "sensitivity",
+      .says = "a ranking of parameters",
+      .made_by = {"sensitivity"},
+      .required = false,
+      .several = true},
+     {.name = "solution",
+      .says = "a body to look at",
+      .made_by = {"solve"},
+      .required = false,
+      .several = true},
+     {.name = "curves",
+      .says = "curves of a solution",
+      .made_by = {"post"},
+      .required = false,
+      .several = true},
+     {.name = "table",
+      .says = "the table of a sweep",
+      .made_by = {"gather"},
+      .required = false,
+      .several = true}},
     "report.html"};
 const StageSpec tune_stage{
     "tune",
@@ -82,8 +109,9 @@ const StageSpec tune_stage{
 }  // namespace
 
 const std::vector<StageSpec>& stages() {
-  static const std::vector<StageSpec> table{mesh_stage, fit_stage,    sample_stage, sensitivity_stage, solve_stage,
-                                            post_stage, gather_stage, report_stage, tune_stage};
+  static const std::vector<StageSpec> table{mesh_stage,        fit_stage,    sample_stage,
+                                            sensitivity_stage, solve_stage,  post_stage,
+                                            gather_stage,      report_stage, tune_stage};
   return table;
 }
 

@@ -1,4 +1,5 @@
-// Which inputs and which output each stage has: the single table used by the programs' arguments, by plan and by the docs.
+// Which inputs and which output each stage has: the single table used by the programs' arguments,
+// by plan and by the docs.
 #pragma once
 
 #include <string>
@@ -11,10 +12,12 @@ struct Port {
   const char* says;                  // what the file holds
   std::vector<std::string> made_by;  // stages whose main output it takes
   bool required = true;
-  bool or_key = false;      // a key of this name in the config may stand in for the file; one of the two must be there
-  bool several = false;     // --port may be repeated; the order counts
+  bool or_key = false;   // a key of this name in the config may stand in for the file; one of the
+                         // two must be there
+  bool several = false;  // --port may be repeated; the order counts
   bool takes_yaml = false;  // the file may be written by hand, as YAML
-  bool members = false;     // the config's keys axes and members say what each file is; written by plan
+  bool members =
+      false;  // the config's keys axes and members say what each file is; written by plan
 };
 
 struct StageSpec {

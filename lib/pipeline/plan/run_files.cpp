@@ -40,32 +40,44 @@ void need_file(const std::string& path, const Place& named_at, const std::string
   throw Failure(Exit::input, Error{named_at, key, path + ": " + trouble, "", ""});
 }
 
-void need_one_source(const StageSpec& stage, const Tree& config, const std::vector<std::string>& ports_given) {
+void need_one_source(const StageSpec& stage, const Tree& config,
+                     const std::vector<std::string>& ports_given) {
   for (const Port& port : stage.inputs) {
     if (!port.or_key) continue;
     const Tree* key = config.find(port.name);
-    const bool given = std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
-    if (key && given) throw Failure(Exit::config, Error{key->place, port.name, "given here and as a file", "one of the two", ""});
-    const bool one_each = config.find(std::string(port.name) + "s") != nullptr;  // materials: one for each body
+    const bool given =
+        std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
+    if (key && given)
+      throw Failure(Exit::config,
+                    Error{key->place, port.name, "given here and as a file", "one of the two", ""});
+    const bool one_each =
+        config.find(std::string(port.name) + "s") != nullptr;  // materials: one for each body
     if (!key && !given && !one_each)
       throw Failure(Exit::config,
-                    Error{config.place, port.name, "missing", fmt::format("the key {0}, or a file (--{0})", port.name), ""});
+                    Error{config.place, port.name, "missing",
+                          fmt::format("the key {0}, or a file (--{0})", port.name), ""});
   }
 }
 
 void need_output(const std::string& output, const std::string& config, const InputFiles& inputs) {
   std::error_code ec;
-  if (fs::is_directory(output, ec)) refuse(output, "the output is a folder", "-o names the main output file");
+  if (fs::is_directory(output, ec))
+    refuse(output, "the output is a folder", "-o names the main output file");
   std::vector<std::string> sources{config};
-  for (const auto& [port, files] : inputs) sources.insert(sources.end(), files.begin(), files.end());
+  for (const auto& [port, files] : inputs)
+    sources.insert(sources.end(), files.begin(), files.end());
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
   need_own_output(output);
   for (const char* beside : {".part", ".steps", ".lock"}) need_replaceable(output + beside);
-  const fs::path folder = fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
+  const fs::path folder =
+      fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
   fs::create_directories(folder, ec);
-  if (!fs::is_directory(folder)) refuse(folder.string(), "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
-  if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(folder.string(), "this folder cannot be written to");
+  if (!fs::is_directory(folder))
+    refuse(folder.string(),
+           "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(folder.string(), "this folder cannot be written to");
 }
 
 std::set<std::string> files_of(const Tree& tree) {
@@ -85,11 +97,12 @@ std::string content_of(const std::string& path) {
   return fnv1a(bytes.str());
 }
 
-Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where, const InputFiles& inputs,
-                     const std::string& command) {
+Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
+                     const InputFiles& inputs, const std::string& command) {
   Identity identity{stage, config.full, fnv1a(config.hashed), {}, command};
   for (const auto& [port, files] : inputs)
-    for (std::size_t i = 0; i < files.size(); ++i) identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
+    for (std::size_t i = 0; i < files.size(); ++i)
+      identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
   for (const NamedFile& file : config.files) {
     need_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);
@@ -99,18 +112,22 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
 }
 
 std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
-  std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage, identity.config_hash);
+  std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage,
+                              identity.config_hash);
   for (const Summary& r : results)
-    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), std::isfinite(r.value) ? number_text(r.value) : "null");
+    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit),
+                     std::isfinite(r.value) ? number_text(r.value) : "null");
   return s + "}\n";
 }
 
 void apply_setting(Tree& config, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw Failure(
-        Exit::config,
-        Error{{"--set", 0, 0}, "", "found \"" + setting + "\"", "key=value, for example --set material.fibres[0].alpha=30", ""});
+    throw Failure(Exit::config, Error{{"--set", 0, 0},
+                                      "",
+                                      "found \"" + setting + "\"",
+                                      "key=value, for example --set material.fibres[0].alpha=30",
+                                      ""});
   const std::string key = setting.substr(0, equals);
   set_value(config, key, pipeline::typed_value(setting.substr(equals + 1), "--set"));
 }

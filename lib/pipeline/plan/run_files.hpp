@@ -1,4 +1,5 @@
-// What a run does with its files before and after the work: inputs are there, the output can be written, who made what.
+// What a run does with its files before and after the work: inputs are there, the output can be
+// written, who made what.
 #pragma once
 
 #include <map>
@@ -15,25 +16,30 @@
 
 namespace langer {
 
-using InputFiles = std::map<std::string, std::vector<std::string>>;  // port -> files in the order given
+using InputFiles =
+    std::map<std::string, std::vector<std::string>>;  // port -> files in the order given
 
-void need_file(const std::string& path, const Place& named_at = {}, const std::string& key = "");  // throws Failure(input)
+void need_file(const std::string& path, const Place& named_at = {},
+               const std::string& key = "");  // throws Failure(input)
 
 // What a config may hold in place of a file at a port: refuses both and neither.
-void need_one_source(const StageSpec& stage, const Tree& config, const std::vector<std::string>& ports_given);
+void need_one_source(const StageSpec& stage, const Tree& config,
+                     const std::vector<std::string>& ports_given);
 
-// Makes the folder of an output file; throws Failure(input) where it cannot be written, or would replace an input or what is not ours.
+// Makes the folder of an output file; throws Failure(input) where it cannot be written, or would
+// replace an input or what is not ours.
 void need_output(const std::string& output, const std::string& config, const InputFiles& inputs);
 
-std::set<std::string> files_of(const Tree& tree);  // that its parts were read from: the config itself and what it includes
+std::set<std::string> files_of(
+    const Tree& tree);  // that its parts were read from: the config itself and what it includes
 
-// Content id of an input: from the root attributes of an HDF5 file, from the values (not the comments) of a YAML file,
-// from the bytes of any other file.
+// Content id of an input: from the root attributes of an HDF5 file, from the values (not the
+// comments) of a YAML file, from the bytes of any other file.
 std::string content_of(const std::string& path);
 
 // Reads what the config names. Throws Failure(input) where such a file is missing.
-Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where, const InputFiles& inputs,
-                     const std::string& command);
+Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
+                     const InputFiles& inputs, const std::string& command);
 
 // one JSON object: stage, config_hash and the results by column name (null where not finite)
 std::string json_text(const Identity& identity, const std::vector<Summary>& results);

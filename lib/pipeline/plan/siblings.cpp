@@ -23,9 +23,11 @@ bool is_word(const Tree& config, const char* key, const char* word) {
 bool may_be_an_image(const Step& step) {
   if (!step.stage->port(port) || is_word(step.config, "symmetry", "none")) return false;
   const Tree* estimate = step.config.find("estimate");
-  return !step.config.find("accuracy") && !step.config.find("fidelity") && !is_word(step.config, "reduce", "auto") &&
+  return !step.config.find("accuracy") && !step.config.find("fidelity") &&
+         !is_word(step.config, "reduce", "auto") &&
          (!estimate || is_word(step.config, "estimate", "none")) &&
-         std::none_of(step.inputs.begin(), step.inputs.end(), [](const StepInput& input) { return input.port == port; });
+         std::none_of(step.inputs.begin(), step.inputs.end(),
+                      [](const StepInput& input) { return input.port == port; });
 }
 
 // of the fibres, of which a and -a are the same: [0, 180) degrees; empty where they are none
@@ -36,7 +38,8 @@ std::vector<double> angles_of(const Step& step) {
   for (const Tree& item : list->list) {
     char* end = nullptr;
     const double angle = std::strtod(item.scalar.c_str(), &end);
-    if (item.kind != Tree::Kind::scalar || item.scalar.empty() || *end || !std::isfinite(angle)) return {};
+    if (item.kind != Tree::Kind::scalar || item.scalar.empty() || *end || !std::isfinite(angle))
+      return {};
     angles.push_back(angle);
   }
   return angles;
@@ -45,15 +48,17 @@ std::vector<double> angles_of(const Step& step) {
 // families may change places
 bool same_lines(const std::vector<double>& a, std::vector<double> b) {
   for (double angle : a) {
-    const auto found =
-        std::find_if(b.begin(), b.end(), [&](double other) { return std::abs(std::remainder(angle - other, 180)) < 1e-9; });
+    const auto found = std::find_if(b.begin(), b.end(), [&](double other) {
+      return std::abs(std::remainder(angle - other, 180)) < 1e-9;
+    });
     if (found == b.end()) return false;
     b.erase(found);
   }
   return b.empty();
 }
 
-bool by_operation(const std::vector<double>& a, const std::vector<double>& b, double sign, double more) {
+bool by_operation(const std::vector<double>& a, const std::vector<double>& b, double sign,
+                  double more) {
   std::vector<double> turned;
   for (double angle : a) turned.push_back(sign * angle + more);
   return same_lines(turned, b);
@@ -90,11 +95,13 @@ void offer_siblings(std::vector<Step>& steps) {
     if (own.angles.empty()) continue;
     std::vector<Member>& alike = earlier[all_but_angles(step)];
     const auto of = [&](auto&& related) {
-      return std::find_if(alike.begin(), alike.end(), [&](const Member& other) { return related(other.angles, own.angles); });
+      return std::find_if(alike.begin(), alike.end(),
+                          [&](const Member& other) { return related(other.angles, own.angles); });
     };
     auto sibling = of(mirrored);
     if (sibling == alike.end()) sibling = of(turned);
-    if (sibling != alike.end()) step.inputs.push_back({port, sibling->output, true, step.config.place});
+    if (sibling != alike.end())
+      step.inputs.push_back({port, sibling->output, true, step.config.place});
     alike.push_back(own);
   }
 }

@@ -2,7 +2,8 @@
 //   slurm/<node>.steps    one line per member: its output, then the outputs that it reads
 //   slurm/<node>.sbatch   makes one of them through the run's Makefile: what is up to date ends at once
 //   slurm/submit          sends one job, or one array of jobs, per node; a node waits for those that it reads
-// A member that fails holds up only those that read it: they say so and end. A requeued member goes on where it stopped.
+// A member that fails holds up only those that read it: they say so and end. A requeued member goes
+// on where it stopped.
 #pragma once
 
 #include <string>

@@ -30,8 +30,8 @@ std::string listed(const std::vector<std::string>& paths) {
 
 }  // namespace
 
-std::string snakefile_text(const std::string& pipeline_file, const std::string& bin, const std::vector<Rule>& rules,
-                           const std::vector<std::string>& finals) {
+std::string snakefile_text(const std::string& pipeline_file, const std::string& bin,
+                           const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);
   text += fmt::format(
       "#   snakemake --cores 4 [-k] [--config launch=\"srun -n1\"]\n"
@@ -51,7 +51,8 @@ std::string snakefile_text(const std::string& pipeline_file, const std::string& 
         "    output: \"{}\"\n"
         "    threads: {}\n"
         "    shell: \"{{LAUNCH}} {{BIN}}/{} {} --log {} -o {{output}}\"\n",
-        rule_name(rule.target, taken), listed(rule.prerequisites), rule.target, rule.threads, rule.program, rule.arguments, log);
+        rule_name(rule.target, taken), listed(rule.prerequisites), rule.target, rule.threads,
+        rule.program, rule.arguments, log);
   }
   return text;
 }

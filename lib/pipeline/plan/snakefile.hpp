@@ -1,5 +1,6 @@
-// Rules -> the text of a Snakefile, one file for the whole pipeline, beside the Makefile and with the same commands, so that the results
-// are the same to the last byte. Pure. All paths are relative to its folder.
+// Rules -> the text of a Snakefile, one file for the whole pipeline, beside the Makefile and with
+// the same commands, so that the results are the same to the last byte. Pure. All paths are
+// relative to its folder.
 //   snakemake --cores 4                              or, from elsewhere, -d runs/x -s runs/x/Snakefile
 //   snakemake --cores 4 --config launch="srun -n1"   put before every command; bin=...: folder of the programs
 #pragma once
@@ -11,7 +12,7 @@
 
 namespace langer::pipeline {
 
-std::string snakefile_text(const std::string& pipeline_file, const std::string& bin, const std::vector<Rule>& rules,
-                           const std::vector<std::string>& finals);
+std::string snakefile_text(const std::string& pipeline_file, const std::string& bin,
+                           const std::vector<Rule>& rules, const std::vector<std::string>& finals);
 
 }  // namespace langer::pipeline

@@ -1,5 +1,5 @@
-// A stage's config as its program takes it, and what its result says of it. Compiled once for each type, in effective.cpp: it took the
-// compiler ten seconds in each program.
+// A stage's config as its program takes it, and what its result says of it. Compiled once for each
+// type, in effective.cpp: it took the compiler ten seconds in each program.
 #pragma once
 
 #include <string>

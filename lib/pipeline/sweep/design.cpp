@@ -16,7 +16,8 @@ struct Box {
     value.resize(k), lower.resize(k), upper.resize(k);
     for (Eigen::Index i = 0; i < k; ++i) {
       const DesignParameter& p = design.parameters[static_cast<std::size_t>(i)];
-      lower[i] = p.lower, upper[i] = p.upper, value[i] = p.value.value_or(0.5 * (p.lower + p.upper));
+      lower[i] = p.lower, upper[i] = p.upper,
+      value[i] = p.value.value_or(0.5 * (p.lower + p.upper));
     }
   }
 };
@@ -26,9 +27,15 @@ QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   QuantityEffects e;
   SamplingOptions options;
   options.seed = static_cast<std::uint64_t>(design.seed), options.resamples = design.resamples;
-  const CurveMaker maker = [&] { return phi; };
-  if (design.one_at_a_time) e.one_at_a_time = one_at_a_time(phi, box.value, box.lower, box.upper, design.one_at_a_time->steps);
-  if (design.morris) e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories, design.morris->levels, options);
+  const CurveMaker maker = [&] {
+    return phi;
+  };
+  if (design.one_at_a_time)
+    e.one_at_a_time =
+        one_at_a_time(phi, box.value, box.lower, box.upper, design.one_at_a_time->steps);
+  if (design.morris)
+    e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories,
+                      design.morris->levels, options);
   if (design.sobol) options.sequence = design.sobol->sequence;
   if (design.sobol) e.sobol = sobol(maker, box.lower, box.upper, design.sobol->samples, options);
   if (e.one_at_a_time && e.one_at_a_time->complete)
@@ -45,17 +52,23 @@ std::vector<Complaint> Design::complaints() const {
   std::vector<Complaint> all;
   if (parameters.empty()) all.push_back({"parameters", "an empty list", "one key at least", ""});
   if (!one_at_a_time && !morris && !sobol)
-    all.push_back({"", "no method", "one_at_a_time, morris or sobol", "for example morris: {trajectories: 6, levels: 4}"});
+    all.push_back({"", "no method", "one_at_a_time, morris or sobol",
+                   "for example morris: {trajectories: 6, levels: 4}"});
   if (morris && (morris->levels % 2 || morris->levels < 4))
-    all.push_back({"morris.levels", "found " + std::to_string(morris->levels), "an even number from 4 on", ""});
+    all.push_back({"morris.levels", "found " + std::to_string(morris->levels),
+                   "an even number from 4 on", ""});
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const DesignParameter& p = parameters[i];
     const std::string at = "parameters[" + std::to_string(i) + "].";
-    if (split_path(p.key).empty()) all.push_back({at + "key", "found \"" + p.key + "\"", "a path like contacts[0].friction", ""});
+    if (split_path(p.key).empty())
+      all.push_back(
+          {at + "key", "found \"" + p.key + "\"", "a path like contacts[0].friction", ""});
     if (!(p.lower < p.upper))
-      all.push_back({at + "upper", "found " + number_text(p.upper), "more than lower, " + number_text(p.lower), ""});
+      all.push_back({at + "upper", "found " + number_text(p.upper),
+                     "more than lower, " + number_text(p.lower), ""});
     else if (p.value && (*p.value < p.lower || *p.value > p.upper))
-      all.push_back({at + "value", "found " + number_text(*p.value), "a value between the bounds", ""});
+      all.push_back(
+          {at + "value", "found " + number_text(*p.value), "a value between the bounds", ""});
     for (std::size_t j = 0; j < i; ++j)
       if (short_name(parameters[j]) == short_name(p))
         all.push_back({at + "name", "\"" + short_name(p) + "\" a second time", "another name", ""});

@@ -14,7 +14,8 @@ namespace langer {
 namespace {
 
 const Summary* find(const std::vector<Summary>& summary, const std::string& name) {
-  const auto it = std::find_if(summary.begin(), summary.end(), [&](const Summary& s) { return s.name == name; });
+  const auto it = std::find_if(summary.begin(), summary.end(),
+                               [&](const Summary& s) { return s.name == name; });
   return it == summary.end() ? nullptr : &*it;
 }
 
@@ -26,7 +27,8 @@ std::vector<std::string> all_names(const std::vector<GatherInput>& members) {
   return names;
 }
 
-SweepColumn column(const std::string& name, const std::vector<GatherInput>& members, const Place& asked_at) {
+SweepColumn column(const std::string& name, const std::vector<GatherInput>& members,
+                   const Place& asked_at) {
   SweepColumn c{name, "", {}};
   const GatherInput* first = nullptr;
   for (const GatherInput& m : members) {
@@ -45,7 +47,8 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
     const std::vector<std::string> known = all_names(members);
     const std::string near = nearest(name, known);
     throw Failure(Exit::config,
-                  Error{asked_at, "columns", fmt::format("no member has a quantity \"{}\"", name), "one of " + list_words(known),
+                  Error{asked_at, "columns", fmt::format("no member has a quantity \"{}\"", name),
+                        "one of " + list_words(known),
                         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   }
   return c;
@@ -55,8 +58,8 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
 
 }  // namespace
 
-Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes, const std::vector<GatherInput>& members,
-             const Place& columns_at) {
+Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes,
+             const std::vector<GatherInput>& members, const Place& columns_at) {
   Sweep sweep;
   for (std::size_t a = 0; a < axes.size(); ++a)
     for (const GatherInput& m : members) axes[a].values.push_back(m.at.at(a));
@@ -77,7 +80,8 @@ std::string csv(const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.members.size(); ++i) {
     words.clear();
     for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(a.values[i]));
-    for (const SweepColumn& c : sweep.columns) words.push_back(std::isnan(c.values[i]) ? "" : number_text(c.values[i]));
+    for (const SweepColumn& c : sweep.columns)
+      words.push_back(std::isnan(c.values[i]) ? "" : number_text(c.values[i]));
     text += fmt::format("{}\n", fmt::join(words, ","));
   }
   return text;

@@ -1,6 +1,6 @@
-// One table over the members of a sweep: a row per member, first its values on the axes, then quantities of its summary.
-// A quantity that a member does not have is NaN here and an empty cell in CSV.
-// Refused: a quantity that no member has, a quantity whose unit differs between members.
+// One table over the members of a sweep: a row per member, first its values on the axes, then
+// quantities of its summary. A quantity that a member does not have is NaN here and an empty cell
+// in CSV. Refused: a quantity that no member has, a quantity whose unit differs between members.
 #pragma once
 
 #include <string>
@@ -34,9 +34,10 @@ struct Sweep {
   std::vector<SweepColumn> columns;
 };
 
-// `axes` come without values; `columns` empty: all quantities of the first member; `columns_at`: where they were asked for
-Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes, const std::vector<GatherInput>& members,
-             const Place& columns_at = {});
+// `axes` come without values; `columns` empty: all quantities of the first member; `columns_at`:
+// where they were asked for
+Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes,
+             const std::vector<GatherInput>& members, const Place& columns_at = {});
 
 // header and one line per member
 std::string csv(const Sweep& sweep);

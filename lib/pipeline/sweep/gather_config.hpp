@@ -1,4 +1,5 @@
-// Config of gather. `axes` and `members` are written by plan; by hand they are needed only where axis columns are wanted.
+// Config of gather. `axes` and `members` are written by plan; by hand they are needed only where
+// axis columns are wanted.
 #pragma once
 
 #include <map>
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "core/base/fields.hpp"
-#include "results/plot/figure_style.hpp"
 #include "pipeline/sweep/design.hpp"
 #include "pipeline/sweep/sweep_figure.hpp"
+#include "results/plot/figure_style.hpp"
 
 namespace langer {
 
@@ -19,7 +20,8 @@ struct GatherAxis {
   static void fields(auto& v) {
     v(&GatherAxis::name, "name", unit::none, "name of the column", required);
     v(&GatherAxis::unit, "unit", unit::none, "unit of the values; - for words and pure numbers");
-    v(&GatherAxis::design, "design", unit::none, "the values number the points of this design: effects are told");
+    v(&GatherAxis::design, "design", unit::none,
+      "the values number the points of this design: effects are told");
     v(&GatherAxis::samples, "samples", unit::none,
       "the values number so many sets of parameters that a fit leaves open: spread of each quantity, parameters that matter, bands of "
       "figures",
@@ -31,7 +33,8 @@ struct GatherMember {
   std::string path;
   std::vector<std::string> at;
   static void fields(auto& v) {
-    v(&GatherMember::path, "path", unit::none, "what the member is called: its file in the run's folder", required);
+    v(&GatherMember::path, "path", unit::none,
+      "what the member is called: its file in the run's folder", required);
     v(&GatherMember::at, "at", unit::none, "its value on each axis", required);
   }
 };
@@ -52,40 +55,51 @@ struct GatherConfig {
     v(&GatherConfig::rows, "rows", unit::none,
       "members: one for each file; parameters: one for each number that a fit found, of one fit, with what it is where data were made up, "
       "its standard error and 95 % interval");
-    v(&GatherConfig::columns, "columns", unit::none, "names of /summary in the order wanted; none means all of the first member");
-    v(&GatherConfig::figures, "figures", unit::none, "x-y figures by name, <name>.svg, .png and .csv");
+    v(&GatherConfig::columns, "columns", unit::none,
+      "names of /summary in the order wanted; none means all of the first member");
+    v(&GatherConfig::figures, "figures", unit::none,
+      "x-y figures by name, <name>.svg, .png and .csv");
     v(&GatherConfig::maps, "maps", unit::none,
       "maps of all members in one picture, on one colour scale, <name>.svg and .png; the name of a map that post made");
     v(&GatherConfig::figure_style, "figure_style", unit::none, "how figures and maps are made");
     v(&GatherConfig::axes, "axes", unit::none, "first columns of the table; written by plan");
-    v(&GatherConfig::members, "members", unit::none, "one per file gathered, in the same order; written by plan");
+    v(&GatherConfig::members, "members", unit::none,
+      "one per file gathered, in the same order; written by plan");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> all;
-    if (rows == GatherRows::parameters && !(columns.empty() && axes.empty() && figures.empty() && maps.empty()))
-      all.push_back(
-          {"rows", "parameters, beside columns, axes, figures or maps", "none of them", "the table has columns of its own"});
+    if (rows == GatherRows::parameters &&
+        !(columns.empty() && axes.empty() && figures.empty() && maps.empty()))
+      all.push_back({"rows", "parameters, beside columns, axes, figures or maps", "none of them",
+                     "the table has columns of its own"});
     for (std::size_t i = 0; i < members.size(); ++i)
       if (members[i].at.size() != axes.size())
-        all.push_back({"members[" + std::to_string(i) + "].at", "found " + std::to_string(members[i].at.size()) + " values",
+        all.push_back({"members[" + std::to_string(i) + "].at",
+                       "found " + std::to_string(members[i].at.size()) + " values",
                        "one for each of the " + std::to_string(axes.size()) + " axes", ""});
     for (std::size_t i = 0; i < axes.size(); ++i)
       if (axes[i].design && axes.size() > 1)
-        all.push_back({"axes[" + std::to_string(i) + "].design", "a design beside other axes", "the design as the only axis",
-                       "gather it alone: name one member of the other axes, or give each its own pipeline"});
+        all.push_back(
+            {"axes[" + std::to_string(i) + "].design", "a design beside other axes",
+             "the design as the only axis",
+             "gather it alone: name one member of the other axes, or give each its own pipeline"});
     for (std::size_t i = 0; i < axes.size(); ++i)
       if (axes[i].samples && axes.size() > 1)
-        all.push_back({"axes[" + std::to_string(i) + "].samples", "samples beside other axes", "the samples as the only axis",
+        all.push_back({"axes[" + std::to_string(i) + "].samples", "samples beside other axes",
+                       "the samples as the only axis",
                        "gather them alone: name one member of the other axes"});
     for (const auto& [name, figure] : figures)
       if (maps.count(name) || name == "table" || !is_column_name(name))
-        all.push_back({"figures." + name, "the name " + name, "another name: letters, digits, _, + and - only",
+        all.push_back({"figures." + name, "the name " + name,
+                       "another name: letters, digits, _, + and - only",
                        maps.count(name) ? "a map has it" : ""});
     for (const auto& [name, map] : maps)
       if (map.compare && map.compare->with.size() != axes.size() && !axes.empty())
-        all.push_back({"maps." + name + ".compare.with", "found " + std::to_string(map.compare->with.size()) + " values",
+        all.push_back({"maps." + name + ".compare.with",
+                       "found " + std::to_string(map.compare->with.size()) + " values",
                        "one for each of the " + std::to_string(axes.size()) + " axes", ""});
-    if (members.empty() && !axes.empty()) all.push_back({"axes", "there are axes and no members", "members with their values", ""});
+    if (members.empty() && !axes.empty())
+      all.push_back({"axes", "there are axes and no members", "members with their values", ""});
     return all;
   }
 };

@@ -15,7 +15,9 @@ namespace {
 
 constexpr const char* prefix = "parameter_";
 
-double mean_of(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+double mean_of(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
 
 // sum of (a - mean)(b - mean)/(n - 1)
 double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
@@ -38,7 +40,8 @@ double read_at(const Column& x, const Column& y, double at) {
     if (a == b || (at - a) * (at - b) > 0) continue;
     return y.values[i] + (at - a) / (b - a) * (y.values[i + 1] - y.values[i]);
   }
-  return std::abs(at - x.values[0]) < std::abs(at - x.values[n - 1]) ? y.values[0] : y.values[n - 1];
+  return std::abs(at - x.values[0]) < std::abs(at - x.values[n - 1]) ? y.values[0]
+                                                                     : y.values[n - 1];
 }
 
 }  // namespace
@@ -49,10 +52,12 @@ std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summar
   for (const Summary& first : sets[0]) {
     SweepColumn column{first.name, first.unit, {}};
     for (const std::vector<Summary>& set : sets) {
-      const auto it = std::find_if(set.begin(), set.end(), [&](const Summary& one) { return one.name == first.name; });
+      const auto it = std::find_if(set.begin(), set.end(),
+                                   [&](const Summary& one) { return one.name == first.name; });
       column.values.push_back(it == set.end() ? std::nan("") : it->value);
     }
-    const bool varies = std::any_of(column.values.begin(), column.values.end(), [&](double v) { return v != column.values[0]; });
+    const bool varies = std::any_of(column.values.begin(), column.values.end(),
+                                    [&](double v) { return v != column.values[0]; });
     if (varies) all.push_back(std::move(column));
   }
   return all;
@@ -76,10 +81,14 @@ Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& para
   for (const SweepColumn& p : parameters) {
     const std::vector<double> q = chosen(p.values);
     const double variance = covariance_of(q, q), both = covariance_of(v, q);
-    const double part = variance > 0 && spread.deviation > 0 ? both * both / (variance * spread.deviation * spread.deviation) : 0;
-    spread.parts.push_back({p.name.substr(std::string(prefix).size()), spread.deviation * std::sqrt(std::max(0.0, 1 - part))});
+    const double part = variance > 0 && spread.deviation > 0
+                            ? both * both / (variance * spread.deviation * spread.deviation)
+                            : 0;
+    spread.parts.push_back({p.name.substr(std::string(prefix).size()),
+                            spread.deviation * std::sqrt(std::max(0.0, 1 - part))});
   }
-  std::stable_sort(spread.parts.begin(), spread.parts.end(), [](const auto& a, const auto& b) { return a.without < b.without; });
+  std::stable_sort(spread.parts.begin(), spread.parts.end(),
+                   [](const auto& a, const auto& b) { return a.without < b.without; });
   return spread;
 }
 
@@ -87,17 +96,21 @@ std::string spread_csv(const std::vector<Spread>& all) {
   std::vector<std::string> names;
   for (const Spread& one : all)
     for (const Spread::Part& part : one.parts)
-      if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
+      if (std::find(names.begin(), names.end(), part.name) == names.end())
+        names.push_back(part.name);
   std::sort(names.begin(), names.end());
   std::string text = "quantity,unit,mean,standard_deviation,lower_95,upper_95";
   for (const std::string& name : names) text += "," + csv_cell("without_" + name);
   text += "\n";
-  const auto cell = [](double x) { return std::isnan(x) ? std::string() : number_text(x); };
+  const auto cell = [](double x) {
+    return std::isnan(x) ? std::string() : number_text(x);
+  };
   for (const Spread& one : all) {
-    text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit), cell(one.mean), cell(one.deviation),
-                        cell(one.low), cell(one.high));
+    text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit), cell(one.mean),
+                        cell(one.deviation), cell(one.low), cell(one.high));
     for (const std::string& name : names) {
-      const auto part = std::find_if(one.parts.begin(), one.parts.end(), [&](const auto& p) { return p.name == name; });
+      const auto part = std::find_if(one.parts.begin(), one.parts.end(),
+                                     [&](const auto& p) { return p.name == name; });
       text += "," + (part == one.parts.end() ? std::string() : cell(part->without));
     }
     text += "\n";
@@ -106,21 +119,27 @@ std::string spread_csv(const std::vector<Spread>& all) {
 }
 
 std::string in_words(const Spread& s) {
-  const auto percent = [&](double part) { return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(s.mean), 1e-300)); };
-  std::string words = fmt::format("{} {:.4g}{} +- {} (parameters), 95 % in {:.4g} to {:.4g}", s.name, s.mean,
-                                  s.unit == "-" ? "" : " " + s.unit, percent(s.deviation), s.low, s.high);
+  const auto percent = [&](double part) {
+    return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(s.mean), 1e-300));
+  };
+  std::string words =
+      fmt::format("{} {:.4g}{} +- {} (parameters), 95 % in {:.4g} to {:.4g}", s.name, s.mean,
+                  s.unit == "-" ? "" : " " + s.unit, percent(s.deviation), s.low, s.high);
   int said = 0;
   for (const Spread::Part& part : s.parts)
     if (part.without < 0.9 * s.deviation && said++ < 3)
-      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without), part.name);
+      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without),
+                           part.name);
   return words;
 }
 
-Band band_of(const std::string& figure, const std::vector<const Column*>& x, const std::vector<const Column*>& y) {
+Band band_of(const std::string& figure, const std::vector<const Column*>& x,
+             const std::vector<const Column*>& y) {
   Band band{figure, *x[0], *y[0], *y[0], *y[0], *y[0]};
   for (std::size_t row = 0; row < x[0]->values.size(); ++row) {
     std::vector<double> at;
-    for (std::size_t k = 0; k < x.size(); ++k) at.push_back(read_at(*x[k], *y[k], x[0]->values[row]));
+    for (std::size_t k = 0; k < x.size(); ++k)
+      at.push_back(read_at(*x[k], *y[k], x[0]->values[row]));
     band.mean.values[row] = mean_of(at);
     band.deviation.values[row] = std::sqrt(covariance_of(at, at));
     band.low.values[row] = percentile(at, 0.025), band.high.values[row] = percentile(at, 0.975);
@@ -128,9 +147,10 @@ Band band_of(const std::string& figure, const std::vector<const Column*>& x, con
   return band;
 }
 
-void write_spread(const h5::Group& root, const std::vector<Spread>& all, const std::vector<Band>& bands) {
-  const auto write_interval = [](const h5::Group& group, const std::vector<double>& low, const std::vector<double>& high,
-                                 const std::string& unit) {
+void write_spread(const h5::Group& root, const std::vector<Spread>& all,
+                  const std::vector<Band>& bands) {
+  const auto write_interval = [](const h5::Group& group, const std::vector<double>& low,
+                                 const std::vector<double>& high, const std::string& unit) {
     std::vector<double> both;
     for (std::size_t i = 0; i < low.size(); ++i) both.push_back(low[i]), both.push_back(high[i]);
     group.write<double>("interval", {low.size(), 2}, both, unit);
@@ -138,11 +158,13 @@ void write_spread(const h5::Group& root, const std::vector<Spread>& all, const s
   const h5::Group spreads = root.make_group("spread");
   for (const Spread& one : all) {
     const h5::Group group = spreads.make_group(one.name);
-    group.write_scalar("mean", one.mean, one.unit), group.write_scalar("deviation", one.deviation, one.unit);
+    group.write_scalar("mean", one.mean, one.unit),
+        group.write_scalar("deviation", one.deviation, one.unit);
     write_interval(group, {one.low}, {one.high}, one.unit);
     std::vector<double> without;
     std::vector<std::string> order;
-    for (const Spread::Part& part : one.parts) without.push_back(part.without), order.push_back(part.name);
+    for (const Spread::Part& part : one.parts)
+      without.push_back(part.without), order.push_back(part.name);
     group.write<double>("without", {without.size()}, without, one.unit);
     group.attribute("order", fmt::format("{}", fmt::join(order, " ")));
   }

@@ -1,5 +1,6 @@
-// What a fit leaves open in results, from a sweep over sets of its parameters: spread of each quantity, which parameter
-// it comes from, and bands of curves. Beside the linear band (inverse/uncertainty.hpp), which it checks.
+// What a fit leaves open in results, from a sweep over sets of its parameters: spread of each
+// quantity, which parameter it comes from, and bands of curves. Beside the linear band
+// (inverse/uncertainty.hpp), which it checks.
 //   deviation, mean        of the members
 //   low, high              percentiles 2.5 and 97.5
 //   without p_j            deviation sqrt(1 - r_j^2), r_j the correlation with p_j: what would be left if p_j were known
@@ -29,13 +30,17 @@ std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summar
 // of a column with two values at least; NaN are left out
 Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& parameters);
 std::string spread_csv(const std::vector<Spread>& all);
-std::string in_words(const Spread& spread);  // "force 0.31 N +- 24 %, 95 % in 0.2 to 0.4; 5.1 % if c1 were known"
+std::string in_words(
+    const Spread& spread);  // "force 0.31 N +- 24 %, 95 % in 0.2 to 0.4; 5.1 % if c1 were known"
 
 // at each x of the first member, the others read between their rows
-Band band_of(const std::string& figure, const std::vector<const Column*>& x, const std::vector<const Column*>& y);
+Band band_of(const std::string& figure, const std::vector<const Column*>& x,
+             const std::vector<const Column*>& y);
 
-// /spread/<quantity>/{mean, deviation, interval, without}, attribute `order` of each: the parameters
-// /bands/<figure>_<y>/{x, mean, deviation, interval}, attributes x, y of each: their names
-void write_spread(const h5::Group& root, const std::vector<Spread>& all, const std::vector<Band>& bands);
+// /spread/<quantity>/{mean, deviation, interval, without}, attribute `order` of each: the
+// parameters /bands/<figure>_<y>/{x, mean, deviation, interval}, attributes x, y of each: their
+// names
+void write_spread(const h5::Group& root, const std::vector<Spread>& all,
+                  const std::vector<Band>& bands);
 
 }  // namespace langer

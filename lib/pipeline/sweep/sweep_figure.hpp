@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/base/fields.hpp"
+#include "pipeline/sweep/gather.hpp"
 #include "results/post/figure.hpp"
 #include "results/post/map.hpp"
 #include "results/store/curves_file.hpp"
-#include "pipeline/sweep/gather.hpp"
 
 namespace langer {
 
@@ -27,8 +27,10 @@ struct SweepFigure {
   std::optional<std::string> x_label, y_label;
   AxisScale scale = AxisScale::linear;
   static void fields(auto& v) {
-    v(&SweepFigure::x, "x", unit::none, "an axis of the sweep, or a column of the members' tables, without its unit", required);
-    v(&SweepFigure::y, "y", unit::none, "names from the summary, or columns of the members' tables; of the same unit", required);
+    v(&SweepFigure::x, "x", unit::none,
+      "an axis of the sweep, or a column of the members' tables, without its unit", required);
+    v(&SweepFigure::y, "y", unit::none,
+      "names from the summary, or columns of the members' tables; of the same unit", required);
     v(&SweepFigure::legends, "legends", unit::none, "one for each y; by default the names");
     v(&SweepFigure::markers, "markers", unit::none,
       "those of y that are drawn as open markers without a line, to be seen on curves that they coincide with");
@@ -49,8 +51,10 @@ struct MapComparison {
   std::vector<std::string> with;
   double beyond = 0;
   static void fields(auto& v) {
-    v(&MapComparison::with, "with", unit::none, "values on the axes of the member that the others are compared with", required);
-    v(&MapComparison::beyond, "beyond", unit::mm, "nodes nearer to x = z = 0 do not count, as under an indenter", at_least(0));
+    v(&MapComparison::with, "with", unit::none,
+      "values on the axes of the member that the others are compared with", required);
+    v(&MapComparison::beyond, "beyond", unit::mm,
+      "nodes nearer to x = z = 0 do not count, as under an indenter", at_least(0));
   }
 };
 
@@ -77,9 +81,11 @@ struct SweepMember {
   Curves curves;
 };
 
-std::string member_text(const std::string& pattern, const std::vector<SweepAxis>& axes, const std::vector<std::string>& at);
+std::string member_text(const std::string& pattern, const std::vector<SweepAxis>& axes,
+                        const std::vector<std::string>& at);
 
-// Of the curves of samples (sweep/spread.hpp): their mean, standard deviation, percentiles 2.5 and 97.5.
+// Of the curves of samples (sweep/spread.hpp): their mean, standard deviation, percentiles 2.5
+// and 97.5.
 struct Band {
   std::string figure;
   Column x, mean, deviation, low, high;
@@ -90,7 +96,8 @@ struct FigureData {
   std::vector<Band> bands = {};  // of samples: in place of a line for each member
 };
 // throws Failure(config) at `where`(x), (y[0]) ... for names that no member has
-FigureData figure_over(const SweepFigure& figure, const std::string& name, const std::vector<SweepAxis>& axes,
-                       const std::vector<SweepMember>& members, const std::function<Place(const std::string& key)>& where);
+FigureData figure_over(const SweepFigure& figure, const std::string& name,
+                       const std::vector<SweepAxis>& axes, const std::vector<SweepMember>& members,
+                       const std::function<Place(const std::string& key)>& where);
 
 }  // namespace langer

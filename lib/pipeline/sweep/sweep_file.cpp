@@ -26,7 +26,8 @@ std::vector<double> numbers(const std::vector<std::string>& words) {
 
 void write_axis(const h5::Group& group, const SweepAxis& axis) {
   const std::vector<double> x = numbers(axis.values);
-  if (x.size() == axis.values.size()) return group.write<double>(axis.name, {x.size()}, x, axis.unit);
+  if (x.size() == axis.values.size())
+    return group.write<double>(axis.name, {x.size()}, x, axis.unit);
   std::vector<std::string> words;
   std::vector<std::int64_t> index;
   for (const std::string& value : axis.values) {
@@ -38,7 +39,8 @@ void write_axis(const h5::Group& group, const SweepAxis& axis) {
   group.annotate(axis.name, "words", fmt::format("{}", fmt::join(words, " ")));
 }
 
-void write_effects(const h5::Group& root, const Design& design, const std::vector<QuantityEffects>& effects) {
+void write_effects(const h5::Group& root, const Design& design,
+                   const std::vector<QuantityEffects>& effects) {
   const h5::Group all = root.make_group("effects");
   std::vector<std::string> order;
   for (const DesignParameter& p : design.parameters) order.push_back(short_name(p));
@@ -48,22 +50,28 @@ void write_effects(const h5::Group& root, const Design& design, const std::vecto
     const auto write = [&](const std::string& name, const MatX& column, const std::string& unit) {
       one.write<double>(name, {order.size()}, std::span(column.data(), order.size()), unit);
     };
-    const auto write_estimate = [&](const std::string& name, const Estimate& x, const std::string& unit) {
-      write(name, x.value, unit), write(name + "_low", x.low, unit), write(name + "_high", x.high, unit);
+    const auto write_estimate = [&](const std::string& name, const Estimate& x,
+                                    const std::string& unit) {
+      write(name, x.value, unit), write(name + "_low", x.low, unit),
+          write(name + "_high", x.high, unit);
     };
     if (e.one_at_a_time && e.one_at_a_time->complete)
-      write("one_at_a_time", e.one_at_a_time->mu_star, e.unit), write("one_at_a_time_spread", e.one_at_a_time->spread, e.unit);
+      write("one_at_a_time", e.one_at_a_time->mu_star, e.unit),
+          write("one_at_a_time_spread", e.one_at_a_time->spread, e.unit);
     if (e.morris && e.morris->trajectories >= 2)
-      write_estimate("morris_mu_star", e.morris->mu_star, e.unit), write_estimate("morris_sigma", e.morris->sigma, e.unit);
+      write_estimate("morris_mu_star", e.morris->mu_star, e.unit),
+          write_estimate("morris_sigma", e.morris->sigma, e.unit);
     if (e.sobol && e.sobol->rows >= 2)
-      write_estimate("sobol_first", e.sobol->first, "-"), write_estimate("sobol_total", e.sobol->total, "-");
+      write_estimate("sobol_first", e.sobol->first, "-"),
+          write_estimate("sobol_total", e.sobol->total, "-");
   }
 }
 
 }  // namespace
 
-void write_sweep(const std::string& path, const std::string& csv_path, const Sweep& sweep, const Design* design,
-                 const std::vector<QuantityEffects>& effects, const Identity& identity, const std::vector<Spread>& spreads,
+void write_sweep(const std::string& path, const std::string& csv_path, const Sweep& sweep,
+                 const Design* design, const std::vector<QuantityEffects>& effects,
+                 const Identity& identity, const std::vector<Spread>& spreads,
                  const std::vector<Band>& bands) {
   write_text_file(csv_path, csv(sweep));
   h5::File file = h5::File::create(path);
@@ -71,7 +79,8 @@ void write_sweep(const std::string& path, const std::string& csv_path, const Swe
   file.root().write_text("members", fmt::format("{}", fmt::join(sweep.members, "\n")));
   const h5::Group axes = file.root().make_group("axis"), values = file.root().make_group("values");
   for (const SweepAxis& axis : sweep.axes) write_axis(axes, axis);
-  for (const SweepColumn& c : sweep.columns) values.write<double>(c.name, {c.values.size()}, c.values, c.unit);
+  for (const SweepColumn& c : sweep.columns)
+    values.write<double>(c.name, {c.values.size()}, c.values, c.unit);
   if (design) write_effects(file.root(), *design, effects);
   if (!spreads.empty()) write_spread(file.root(), spreads, bands);
   file.commit();

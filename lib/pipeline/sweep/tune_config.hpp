@@ -9,10 +9,12 @@ struct RichardsonConfig {
   std::vector<std::string> coarse, middle, fine;
   double ratio = 2;
   static void fields(auto& v) {
-    v(&RichardsonConfig::coarse, "coarse", unit::none, "values on the axes of the coarsest of three members", required);
+    v(&RichardsonConfig::coarse, "coarse", unit::none,
+      "values on the axes of the coarsest of three members", required);
     v(&RichardsonConfig::middle, "middle", unit::none, "... of the next", required);
     v(&RichardsonConfig::fine, "fine", unit::none, "... of the finest", required);
-    v(&RichardsonConfig::ratio, "ratio", unit::none, "of the lengths of cells from one to the next", Range{1, 100, false, true});
+    v(&RichardsonConfig::ratio, "ratio", unit::none, "of the lengths of cells from one to the next",
+      Range{1, 100, false, true});
   }
 };
 
@@ -21,7 +23,8 @@ struct MemberOfLength {
   double length = 0;
   static void fields(auto& v) {
     v(&MemberOfLength::member, "member", unit::none, "values on the axes of the member", required);
-    v(&MemberOfLength::length, "length", unit::none, "of its cells, in any unit", required, positive);
+    v(&MemberOfLength::length, "length", unit::none, "of its cells, in any unit", required,
+      positive);
   }
 };
 
@@ -29,12 +32,15 @@ struct FittedLimit {
   std::vector<MemberOfLength> members;
   double order = 2;
   static void fields(auto& v) {
-    v(&FittedLimit::members, "members", unit::none, "three or more, with cells of different lengths", required);
-    v(&FittedLimit::order, "order", unit::none, "power of the length with which errors fall", Range{0, 10, false, true});
+    v(&FittedLimit::members, "members", unit::none,
+      "three or more, with cells of different lengths", required);
+    v(&FittedLimit::order, "order", unit::none, "power of the length with which errors fall",
+      Range{0, 10, false, true});
   }
   std::vector<Complaint> complaints() const {
     if (members.size() < 3)
-      return {{"members", std::to_string(members.size()) + " members", "three or more: two always lie on a line", ""}};
+      return {{"members", std::to_string(members.size()) + " members",
+               "three or more: two always lie on a line", ""}};
     for (const MemberOfLength& m : members)
       if (m.length != members[0].length) return {};
     return {{"members", "cells of one length", "different lengths", ""}};
@@ -46,15 +52,18 @@ struct TuneReference {
   std::optional<FittedLimit> fitted;
   std::optional<RichardsonConfig> richardson;
   static void fields(auto& v) {
-    v(&TuneReference::member, "member", unit::none, "values on the axes of the member that counts as right; it is no level itself");
+    v(&TuneReference::member, "member", unit::none,
+      "values on the axes of the member that counts as right; it is no level itself");
     v(&TuneReference::fitted, "fitted", unit::none,
       "instead: what is left at length 0 of q = f + A length^order, fitted to members");
-    v(&TuneReference::richardson, "richardson", unit::none, "instead: the limit of three members, of the order that they show");
+    v(&TuneReference::richardson, "richardson", unit::none,
+      "instead: the limit of three members, of the order that they show");
   }
   std::vector<Complaint> complaints() const {
     const int given = !member.empty() + fitted.has_value() + richardson.has_value();
     if (given == 1) return {};
-    return {{"", given == 0 ? "nothing" : "more than one of member, fitted and richardson", "one of the three", ""}};
+    return {{"", given == 0 ? "nothing" : "more than one of member, fitted and richardson",
+             "one of the three", ""}};
   }
 };
 
@@ -67,19 +76,24 @@ struct TuneConfig {
   std::vector<GatherAxis> axes;
   std::vector<GatherMember> members;
   static void fields(auto& v) {
-    v(&TuneConfig::quantities, "quantities", unit::none, "names of the members' summaries whose errors matter", required);
+    v(&TuneConfig::quantities, "quantities", unit::none,
+      "names of the members' summaries whose errors matter", required);
     v(&TuneConfig::reference, "reference", unit::none, "what counts as right", required);
-    v(&TuneConfig::wanted, "wanted", unit::none, "errors in percent for which the cheapest level is told");
+    v(&TuneConfig::wanted, "wanted", unit::none,
+      "errors in percent for which the cheapest level is told");
     v(&TuneConfig::title, "title", unit::none, "above the pictures");
     v(&TuneConfig::figure_style, "figure_style", unit::none, "how the pictures are made");
     v(&TuneConfig::axes, "axes", unit::none, "what tells the levels apart; written by plan");
-    v(&TuneConfig::members, "members", unit::none, "one per file, in the same order; written by plan");
+    v(&TuneConfig::members, "members", unit::none,
+      "one per file, in the same order; written by plan");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
-    if (quantities.empty()) found.push_back({"quantities", "an empty list", "at least one name, such as force", ""});
+    if (quantities.empty())
+      found.push_back({"quantities", "an empty list", "at least one name, such as force", ""});
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!(wanted[i] > 0)) found.push_back({"wanted[" + std::to_string(i) + "]", "not above 0", "percent", ""});
+      if (!(wanted[i] > 0))
+        found.push_back({"wanted[" + std::to_string(i) + "]", "not above 0", "percent", ""});
     return found;
   }
 };

@@ -1,4 +1,5 @@
-// Colours of values. All maps grow in lightness from end to end, so that they read in grey and for colour-blind readers.
+// Colours of values. All maps grow in lightness from end to end, so that they read in grey and for
+// colour-blind readers.
 //   a scale       from 0 to 1
 //   signed        from -1 over 0, almost white, to 1; lightness falls on both sides
 #pragma once
@@ -16,9 +17,12 @@ double lightness(const Colour& colour);    // CIE L*, 0 to 100
 int colour_byte(double part);              // 0 to 255
 Colour shaded(const Colour& c, double s);  // darker by a factor
 
-// violet_yellow is computed in CIE LCh; viridis and cividis go straight between ten of their colours.
+// violet_yellow is computed in CIE LCh; viridis and cividis go straight between ten of their
+// colours.
 enum class ColourMap { violet_yellow, viridis, cividis, grey };
-constexpr auto names(ColourMap) { return std::array{"violet_yellow", "viridis", "cividis", "grey"}; }
+constexpr auto names(ColourMap) {
+  return std::array{"violet_yellow", "viridis", "cividis", "grey"};
+}
 enum class SignedColours { blue_red, green_purple };
 constexpr auto names(SignedColours) { return std::array{"blue_red", "green_purple"}; }
 

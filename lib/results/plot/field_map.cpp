@@ -28,7 +28,9 @@ struct Panel {
   Panel(const FieldMap& map, double begin) : x(map.x), y(map.y), top(begin) {
     height = std::clamp(width * y.size() / x.size(), 60.0, 500.0);
     // as large as places have room, on the average
-    side = std::clamp(std::sqrt(width * height / static_cast<double>(std::max<std::size_t>(map.x.size(), 1))), 3.0, 24.0);
+    side = std::clamp(
+        std::sqrt(width * height / static_cast<double>(std::max<std::size_t>(map.x.size(), 1))),
+        3.0, 24.0);
   }
   double x_of(double value) const { return left + width * (value - x.low) / x.size(); }
   double y_of(double value) const { return top + height * (1 - (value - y.low) / y.size()); }
@@ -47,7 +49,8 @@ void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
   if (!last) return;
   at = ticks(p.x.low, p.x.high), texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k) {
-    d.marks.push_back(Stroke{{{p.x_of(at[k]), p.bottom() + 4}, {p.x_of(at[k]), p.bottom() + 9}}, ink, 1, 1});
+    d.marks.push_back(
+        Stroke{{{p.x_of(at[k]), p.bottom() + 4}, {p.x_of(at[k]), p.bottom() + 9}}, ink, 1, 1});
     d.marks.push_back(label(p.x_of(at[k]), p.bottom() + 24, texts[k], 12));
   }
   d.marks.push_back(label(p.left + p.width / 2, p.bottom() + 44, map.x_label));
@@ -55,13 +58,16 @@ void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
 
 void add_scale(Drawing& d, const Panel& p, const FieldPanel& panel) {
   constexpr int cells = 20;
-  const double x = p.left + p.width + p.side / 2 + 18, height = std::max(p.height, 60.0), step = height / cells;
+  const double x = p.left + p.width + p.side / 2 + 18, height = std::max(p.height, 60.0),
+               step = height / cells;
   for (int k = 0; k < cells; ++k)
-    d.marks.push_back(box(x, p.top + height - step * (k + 1), 14, step, signed_colour(2 * (k + 0.5) / cells - 1)));
+    d.marks.push_back(box(x, p.top + height - step * (k + 1), 14, step,
+                          signed_colour(2 * (k + 0.5) / cells - 1)));
   const std::vector<double> at = ticks(-panel.limit, panel.limit, 6);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k)
-    d.marks.push_back(label(x + 20, p.top + height * (0.5 - at[k] / panel.limit / 2) + 4, texts[k], 12, Label::Anchor::start));
+    d.marks.push_back(label(x + 20, p.top + height * (0.5 - at[k] / panel.limit / 2) + 4, texts[k],
+                            12, Label::Anchor::start));
 }
 
 }  // namespace
@@ -74,11 +80,14 @@ Drawing field_map(const FieldMap& map) {
   for (std::size_t k = 0; k < map.panels.size(); ++k) {
     const FieldPanel& panel = map.panels[k];
     const Panel p(map, top);
-    d.marks.push_back(label(p.left + p.width / 2, top - p.side / 2 - 8, panel.title + " (" + map.unit + ")"));
+    d.marks.push_back(
+        label(p.left + p.width / 2, top - p.side / 2 - 8, panel.title + " (" + map.unit + ")"));
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double value = panel.values[i];
-      const Colour colour = std::isfinite(value) ? signed_colour(std::clamp(value / panel.limit, -1.0, 1.0)) : grey;
-      d.marks.push_back(box(p.x_of(map.x[i]) - p.side / 2, p.y_of(map.y[i]) - p.side / 2, p.side, p.side, colour));
+      const Colour colour =
+          std::isfinite(value) ? signed_colour(std::clamp(value / panel.limit, -1.0, 1.0)) : grey;
+      d.marks.push_back(box(p.x_of(map.x[i]) - p.side / 2, p.y_of(map.y[i]) - p.side / 2, p.side,
+                            p.side, colour));
     }
     const bool last = k + 1 == map.panels.size();
     add_axes(d, map, p, last), add_scale(d, p, panel);

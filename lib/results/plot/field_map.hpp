@@ -1,5 +1,5 @@
-// Values at places on a plane as coloured squares, in panels one below the other: what was measured there, what was found, how they differ.
-// Panels of one limit have one scale.
+// Values at places on a plane as coloured squares, in panels one below the other: what was measured
+// there, what was found, how they differ. Panels of one limit have one scale.
 #pragma once
 
 #include <string>

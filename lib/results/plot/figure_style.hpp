@@ -1,7 +1,9 @@
-// How all figures of a stage are made: one listing, `figure_style` in the configs of post, fit, gather, sensitivity and tune.
+// How all figures of a stage are made: one listing, `figure_style` in the configs of post, fit,
+// gather, sensitivity and tune.
 //   figure_style: {width: 85, font: Liberation Sans, font_size: 8, dpi: 600, decimal: comma, formats: [pdf, eps]}
-// Without width and font_size a figure is made for the screen, 96 points to the inch. With them it is laid out anew for that
-// width, so that its texts have that size on paper; nothing is scaled down.
+// Without width and font_size a figure is made for the screen, 96 points to the inch. With them it
+// is laid out anew for that width, so that its texts have that size on paper; nothing is scaled
+// down.
 #pragma once
 
 #include <algorithm>
@@ -28,26 +30,38 @@ struct FigureStyle {
   bool titles = true;
   std::vector<PictureFormat> formats{PictureFormat::svg, PictureFormat::png};
   static void fields(auto& v) {
-    v(&FigureStyle::width, "width", unit::mm, "of each figure on paper, such as 85 for a column; none: as large as fits a screen",
+    v(&FigureStyle::width, "width", unit::mm,
+      "of each figure on paper, such as 85 for a column; none: as large as fits a screen",
       between(30, 1000));
-    v(&FigureStyle::height, "height", unit::mm, "of x-y figures; none: two thirds of the width", between(20, 1000));
+    v(&FigureStyle::height, "height", unit::mm, "of x-y figures; none: two thirds of the width",
+      between(20, 1000));
     v(&FigureStyle::font, "font", unit::none, "name of an installed font");
     v(&FigureStyle::font_size, "font_size", unit::none,
-      "of numbers and labels, in points of 1/72 inch; none: 8 where a width is given", between(4, 40));
+      "of numbers and labels, in points of 1/72 inch; none: 8 where a width is given",
+      between(4, 40));
     v(&FigureStyle::dpi, "dpi", unit::none, "pixels to the inch, of PNG", between(50, 2400));
     v(&FigureStyle::colours, "colours", unit::none, "of maps and of pictures of the body");
-    v(&FigureStyle::signed_colours, "signed_colours", unit::none, "of maps whose values have both signs: white is 0");
+    v(&FigureStyle::signed_colours, "signed_colours", unit::none,
+      "of maps whose values have both signs: white is 0");
     v(&FigureStyle::decimal, "decimal", unit::none,
       "sign between units and tenths in all numbers; texts of the config stay as they are");
-    v(&FigureStyle::titles, "titles", unit::none, "false: without the titles above figures, which journals put into captions");
-    v(&FigureStyle::formats, "formats", unit::none, "files of each figure; the script beside them makes all of these but the SVG");
+    v(&FigureStyle::titles, "titles", unit::none,
+      "false: without the titles above figures, which journals put into captions");
+    v(&FigureStyle::formats, "formats", unit::none,
+      "files of each figure; the script beside them makes all of these but the SVG");
   }
   std::vector<Complaint> complaints() const;
 
   bool on_paper() const { return width || font_size; }
-  double width_mm() const { return width.value_or(190.5); }                    // of x-y figures on a screen: 720 points
-  double points() const { return font_size.value_or(on_paper() ? 8 : 10.5); }  // of numbers, 1/72 inch
-  bool wants(PictureFormat format) const { return std::find(formats.begin(), formats.end(), format) != formats.end(); }
+  double width_mm() const {
+    return width.value_or(190.5);
+  }  // of x-y figures on a screen: 720 points
+  double points() const {
+    return font_size.value_or(on_paper() ? 8 : 10.5);
+  }  // of numbers, 1/72 inch
+  bool wants(PictureFormat format) const {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  }
   // of drawings: a unit of the page in 1/72 inch
   double drawing_unit() const { return on_paper() ? points() / Look::number_size : 0.75; }
   Look look() const;

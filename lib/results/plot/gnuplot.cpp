@@ -22,11 +22,13 @@ namespace langer {
 
 namespace {
 
-constexpr std::array colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                             "#E69F00", "#56B4E9", "#000000"};
 constexpr std::array markers{7, 5, 8, 10, 12, 6, 4};
 constexpr std::array open_markers{6, 4, 8, 10, 12};
-constexpr std::array dashes{1, 1, 2, 2, 4, 4, 5};  // of two curves that coincide both colours are seen
-constexpr int most_markers = 25;                   // on a line
+constexpr std::array dashes{1, 1, 2, 2,
+                            4, 4, 5};  // of two curves that coincide both colours are seen
+constexpr int most_markers = 25;       // on a line
 constexpr std::chrono::seconds longest{120};
 
 // the end of a file, for messages
@@ -57,7 +59,8 @@ std::string gnuplot_string(const std::string& text) {
 }
 
 std::string gnuplot_file(const std::string& name) {
-  const bool plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) || std::strchr("_./", name[0]));
+  const bool plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) ||
+                                       std::strchr("_./", name[0]));
   return gnuplot_string(plain ? name : "./" + name);
 }
 
@@ -79,16 +82,21 @@ std::string plain(const std::string& text) {
 
 namespace {
 
-double small(const FigureStyle& style) { return 0.86 * style.points(); }  // of words within a figure
+double small(const FigureStyle& style) {
+  return 0.86 * style.points();
+}  // of words within a figure
 
 // what `plot` draws of one line: a band, the line itself, bars and names
-std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i, const FigureStyle& style) {
+std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i,
+                      const FigureStyle& style) {
   const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
   const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
   // lines beyond the last colour begin with other dashes
-  const std::size_t dash = line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
+  const std::size_t dash =
+      line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
   const char* const rgb = colours[colour % colours.size()];
-  const std::string file = gnuplot_file(line.csv), x = gnuplot_string(line.x), y = gnuplot_string(line.y);
+  const std::string file = gnuplot_file(line.csv), x = gnuplot_string(line.x),
+                    y = gnuplot_string(line.y);
   std::string s;
   if (!line.error.empty())
     s += fmt::format(
@@ -97,31 +105,37 @@ std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i, con
         file, x, y, gnuplot_string(line.error), rgb);
   s += fmt::format("{} using {}:{}", file, x, y);
   if (line.points)
-    s += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb, open_markers[dash % open_markers.size()]);
+    s += fmt::format(" every {} with points lw 1.5 lc rgb '{}' pt {} ps 1.3", every, rgb,
+                     open_markers[dash % open_markers.size()]);
   else
-    s += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb, dashes[dash % dashes.size()],
-                     markers[dash % markers.size()], every);
-  s += fmt::format(" title {}", printed(line.values ? with_decimal(line.legend, style.decimal) : line.legend));
+    s += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb,
+                     dashes[dash % dashes.size()], markers[dash % markers.size()], every);
+  s += fmt::format(" title {}",
+                   printed(line.values ? with_decimal(line.legend, style.decimal) : line.legend));
   if (!line.low.empty())
-    s += fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle", file, x, y,
-                     gnuplot_string(line.low), gnuplot_string(line.high), rgb);
+    s +=
+        fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle",
+                    file, x, y, gnuplot_string(line.low), gnuplot_string(line.high), rgb);
   if (!line.names.empty())
     s += fmt::format(
-        ", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',{:.3g}' tc rgb '#555555' notitle", file, x,
-        y, gnuplot_string(line.names), small(style));
+        ", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',{:.3g}' tc rgb '#555555' notitle",
+        file, x, y, gnuplot_string(line.names), small(style));
   return s;
 }
 
 std::string frame_of(const Plot& plot, const FigureStyle& style) {
   std::string s = "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
   if (style.decimal == DecimalSign::comma) s += "set decimalsign ','\n";
-  s += "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
+  s +=
+      "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
   s += "set key outside center top horizontal reverse Left samplen 3\n";
   if (plot.lines.size() == 1) s += "unset key\n";
   if (!plot.title.empty() && style.titles) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
   if (plot.scale != AxisScale::linear)
-    s += fmt::format("set logscale {}\n", plot.scale == AxisScale::log ? "xy" : plot.scale == AxisScale::log_x ? "x" : "y");
+    s += fmt::format("set logscale {}\n", plot.scale == AxisScale::log     ? "xy"
+                                          : plot.scale == AxisScale::log_x ? "x"
+                                                                           : "y");
   if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
   if (plot.y_most) s += fmt::format("set yrange [*:*<{:g}]\n", *plot.y_most);
   for (const PlotMark& mark : plot.marks)
@@ -133,12 +147,15 @@ std::string frame_of(const Plot& plot, const FigureStyle& style) {
   s += "set rmargin at screen 0.66\n";
   const double step = std::min(0.052, 0.84 / static_cast<double>(plot.notes.size()));
   for (std::size_t i = 0; i < plot.notes.size(); ++i)
-    s += fmt::format("set label {} at screen 0.68,{:.4f} noenhanced font ',{:.3g}' tc rgb '#333333'\n",
-                     printed(with_decimal(plot.notes[i], style.decimal)), 0.88 - step * static_cast<double>(i), small(style));
+    s += fmt::format(
+        "set label {} at screen 0.68,{:.4f} noenhanced font ',{:.3g}' tc rgb '#333333'\n",
+        printed(with_decimal(plot.notes[i], style.decimal)), 0.88 - step * static_cast<double>(i),
+        small(style));
   return s;
 }
 
-// A label whose unit takes a factor, as a gnuplot expression of its exponent e: energy (N mm) becomes energy (10^{-4} N mm).
+// A label whose unit takes a factor, as a gnuplot expression of its exponent e: energy (N mm)
+// becomes energy (10^{-4} N mm).
 std::string with_factor(const std::string& label, bool is_unit) {
   const std::size_t unit = label.ends_with(')') ? label.rfind('(') : std::string::npos;
   const std::string factor = " . sprintf('10^{%d}', e) . ";
@@ -147,15 +164,19 @@ std::string with_factor(const std::string& label, bool is_unit) {
   return printed(label.substr(0, unit + 1)) + factor + printed(" " + label.substr(unit + 1));
 }
 
-// gnuplot writes 0.0001 beside 5×10^{-5} on one axis, and 800000 beside 10^6. Only after a plot does it know the ends of an axis, which
-// therefore is drawn once for nobody; one with such numbers then takes a common factor. All others stay as gnuplot makes them.
+// gnuplot writes 0.0001 beside 5×10^{-5} on one axis, and 800000 beside 10^6. Only after a plot
+// does it know the ends of an axis, which therefore is drawn once for nobody; one with such numbers
+// then takes a common factor. All others stay as gnuplot makes them.
 std::string factors_of(const Plot& plot, const std::string& draw) {
-  const bool x = plot.x_step == 0 && (plot.scale == AxisScale::linear || plot.scale == AxisScale::log_y);
+  const bool x =
+      plot.x_step == 0 && (plot.scale == AxisScale::linear || plot.scale == AxisScale::log_y);
   const bool y = plot.scale == AxisScale::linear || plot.scale == AxisScale::log_x;
   if (!x && !y) return "";
-  std::string s = "# an axis that gnuplot would number as 0.0001 beside 5x10^{-5}, or 800000 beside 10^6, takes a common factor\n";
+  std::string s =
+      "# an axis that gnuplot would number as 0.0001 beside 5x10^{-5}, or 800000 beside 10^6, takes a common factor\n";
   s += "set terminal dumb\nset output '/dev/null'\n" + draw + "\n";
-  s += "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > -1e-4))\n";
+  s +=
+      "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > -1e-4))\n";
   s += "step(r, p) = p * (r < 1.01 * p ? 0.1 : r < 2.01 * p ? 0.2 : r < 4.99 * p ? 0.5 : 1)\n";
   for (const char axis : {'x', 'y'}) {
     if (!(axis == 'x' ? x : y)) continue;
@@ -170,21 +191,24 @@ std::string factors_of(const Plot& plot, const std::string& draw) {
         "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add (gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
         "}}\n",
         static_cast<char>(axis - 'x' + 'X'), axis,
-        axis == 'x' ? with_factor(plot.x_label, false) : with_factor(plot.y_label, plot.y_label_is_unit));
+        axis == 'x' ? with_factor(plot.x_label, false)
+                    : with_factor(plot.y_label, plot.y_label_is_unit));
   }
   return s;
 }
 
 // one for the screen: sizes that were there before papers were thought of
 std::string terminal_of(PictureFormat format, const FigureStyle& style) {
-  const double inches = style.width_mm() / 25.4, tall = style.height ? *style.height / 25.4 : inches / 1.5;
+  const double inches = style.width_mm() / 25.4,
+               tall = style.height ? *style.height / 25.4 : inches / 1.5;
   const double points = style.points(), thick = points / 10.5, pixels = style.dpi / 96.0;
-  const std::string font =
-      gnuplot_string(fmt::format("{},{:.4g}", style.font, format == PictureFormat::svg ? points / 0.75 : points));
+  const std::string font = gnuplot_string(
+      fmt::format("{},{:.4g}", style.font, format == PictureFormat::svg ? points / 0.75 : points));
   switch (format) {
     case PictureFormat::svg:
-      return fmt::format("svg enhanced size {:.0f},{:.0f} {} font {} linewidth {:.3g} background rgb 'white'", 96 * inches,
-                         96 * tall, style.on_paper() ? "fixed" : "dynamic", font, thick);
+      return fmt::format(
+          "svg enhanced size {:.0f},{:.0f} {} font {} linewidth {:.3g} background rgb 'white'",
+          96 * inches, 96 * tall, style.on_paper() ? "fixed" : "dynamic", font, thick);
     case PictureFormat::png:
       if (style.on_paper())
         return fmt::format(
@@ -192,23 +216,28 @@ std::string terminal_of(PictureFormat format, const FigureStyle& style) {
             style.dpi * inches, style.dpi * tall, font, pixels, pixels * thick, pixels * thick);
       return fmt::format(
           "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:g} linewidth {:g} pointscale {:g} background rgb 'white'",
-          style.dpi * inches, style.dpi * tall, gnuplot_string(style.font + ",13"), pixels, pixels, pixels);
+          style.dpi * inches, style.dpi * tall, gnuplot_string(style.font + ",13"), pixels, pixels,
+          pixels);
     default:
-      return fmt::format("{}cairo enhanced size {:.4f}in,{:.4f}in font {} linewidth {:.3g} pointscale {:.3g}",
-                         names(format)[static_cast<std::size_t>(format)], inches, tall, font, thick, 0.75 * thick);
+      return fmt::format(
+          "{}cairo enhanced size {:.4f}in,{:.4f}in font {} linewidth {:.3g} pointscale {:.3g}",
+          names(format)[static_cast<std::size_t>(format)], inches, tall, font, thick, 0.75 * thick);
   }
 }
 
 }  // namespace
 
 std::string gnuplot_script(const Plot& plot, const std::string& name, const FigureStyle& style) {
-  std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) + frame_of(plot, style);
+  std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) +
+                  frame_of(plot, style);
   std::string draw = "plot ";
-  for (std::size_t i = 0; i < plot.lines.size(); ++i) draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
+  for (std::size_t i = 0; i < plot.lines.size(); ++i)
+    draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
   s += factors_of(plot, draw);
   for (PictureFormat format : style.formats)
     s += fmt::format("set terminal {}\nset output {}\n{}\n", terminal_of(format, style),
-                     gnuplot_file(name + "." + names(format)[static_cast<std::size_t>(format)]), draw);
+                     gnuplot_file(name + "." + names(format)[static_cast<std::size_t>(format)]),
+                     draw);
   return s + "unset output\n";
 }
 
@@ -234,13 +263,14 @@ std::string run_gnuplot(const std::string& folder, const std::string& script) {
   posix_spawn_file_actions_destroy(&actions);
   std::string problem;
   if (error) {
-    problem =
-        error == ENOENT ? "there is no gnuplot on the PATH" : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
+    problem = error == ENOENT ? "there is no gnuplot on the PATH"
+                              : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
   } else {
     int status = 0;
     const auto deadline = std::chrono::steady_clock::now() + longest;
     pid_t ended = 0;
-    while ((ended = waitpid(child, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < deadline)
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0 &&
+           std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (ended == 0) {
       kill(child, SIGKILL);

@@ -4,18 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "results/plot/drawing.hpp"
 #include "core/tensor/types.hpp"
+#include "results/plot/drawing.hpp"
 
 namespace langer {
 
 struct HeatMap {
   std::string title, x_label, y_label, value_label;
-  std::vector<std::string> x_names, y_names;          // one per column and row, or empty where x and y are given
+  std::vector<std::string> x_names,
+      y_names;  // one per column and row, or empty where x and y are given
   double x_from = 0, x_to = 1, y_from = 0, y_to = 1;  // of the outer cells' centres
   MatX values;                                        // NaN cells are grey
-  double limit = 1;           // of the scale, -limit to limit: blue below zero, red above; larger values have the end's colour
-  double middle = 0;          // not 0: the scale is logarithmic beyond about a third of this value, and linear about 0
+  double limit = 1;  // of the scale, -limit to limit: blue below zero, red above; larger values
+                     // have the end's colour
+  double middle =
+      0;  // not 0: the scale is logarithmic beyond about a third of this value, and linear about 0
   bool swap_colours = false;  // red below zero: for what is lost there
   bool losses = false;        // values from 0 to limit, the smaller the redder; no scale
   bool numbers = false;       // written into the cells

@@ -31,7 +31,8 @@ Polygon part_of(const Polygon& polygon, auto&& f) {
     if (f_a >= 0) part.push_back(a);
     if ((f_a >= 0) == (f_b >= 0)) continue;
     const double s = f_a / (f_a - f_b);
-    part.push_back({{a.at[0] + s * (b.at[0] - a.at[0]), a.at[1] + s * (b.at[1] - a.at[1])}, a.value + s * (b.value - a.value)});
+    part.push_back({{a.at[0] + s * (b.at[0] - a.at[0]), a.at[1] + s * (b.at[1] - a.at[1])},
+                    a.value + s * (b.value - a.value)});
   }
   return part;
 }
@@ -42,21 +43,29 @@ struct Scale {
   bool is_signed = false, below = false, beyond = false;  // values outside the levels
   ColourMap colours = ColourMap::violet_yellow;
   SignedColours signed_colours = SignedColours::blue_red;
-  int band(double value) const { return static_cast<int>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin()); }
+  int band(double value) const {
+    return static_cast<int>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin());
+  }
   Colour colour(int band) const {
     const int last = static_cast<int>(levels.size());
     const double step = levels[1] - levels[0];
     const double middle = band == 0      ? levels.front() - 0.5 * step
                           : band == last ? levels.back() + 0.5 * step
                                          : 0.5 * (levels[band - 1] + levels[band]);
-    if (!is_signed) return scale_colour((middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step), colours);
-    return signed_colour(middle / (std::max(std::abs(levels.front()), std::abs(levels.back())) + step), signed_colours);
+    if (!is_signed)
+      return scale_colour(
+          (middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step), colours);
+    return signed_colour(
+        middle / (std::max(std::abs(levels.front()), std::abs(levels.back())) + step),
+        signed_colours);
   }
 };
 
 struct Window {
   double x_low, x_high, z_low, z_high;
-  bool has(const PlanePoint& p) const { return p[0] >= x_low && p[0] <= x_high && p[1] >= z_low && p[1] <= z_high; }
+  bool has(const PlanePoint& p) const {
+    return p[0] >= x_low && p[0] <= x_high && p[1] >= z_low && p[1] <= z_high;
+  }
   Polygon part(Polygon polygon) const {
     polygon = part_of(polygon, [&](const Corner& c) { return x_high - c.at[0]; });
     polygon = part_of(polygon, [&](const Corner& c) { return c.at[0] - x_low; });
@@ -71,71 +80,93 @@ Window window_of(const std::vector<MapPanel>& panels, const MapStyle& style) {
   Window w{far, -far, far, -far};
   for (const MapPanel& panel : panels)
     for (const auto& [x, z] : panel.map->places)
-      w = {std::min(w.x_low, x), std::max(w.x_high, x), std::min(w.z_low, z), std::max(w.z_high, z)};
+      w = {std::min(w.x_low, x), std::max(w.x_high, x), std::min(w.z_low, z),
+           std::max(w.z_high, z)};
   return w;
 }
 
 Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const Window& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  const auto seen = [&](const PlanePoint& at) { return window.has(at); };
-  const bool none = std::none_of(panels.begin(), panels.end(), [&](const MapPanel& p) {  // a window within one cell
-    return std::any_of(p.map->places.begin(), p.map->places.end(), seen);
-  });
+  const auto seen = [&](const PlanePoint& at) {
+    return window.has(at);
+  };
+  const bool none = std::none_of(
+      panels.begin(), panels.end(), [&](const MapPanel& p) {  // a window within one cell
+        return std::any_of(p.map->places.begin(), p.map->places.end(), seen);
+      });
   for (const MapPanel& panel : panels)
     for (std::size_t i = 0; i < panel.map->places.size(); ++i)
       if (none || seen(panel.map->places[i]))
         low = std::min(low, panel.map->values[i]), high = std::max(high, panel.map->values[i]);
   const double least = low, most = high;
   if (style.range) low = (*style.range)[0], high = (*style.range)[1];
-  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) low -= 0.5, high += 0.5;  // one value everywhere
+  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
+    low -= 0.5, high += 0.5;  // one value everywhere
   Scale scale;
   scale.levels = ticks(low, high, wished_bands);
   const double step = scale.levels[1] - scale.levels[0];
   if (!style.range) {  // whole bands around all values
-    if (scale.levels.front() > low) scale.levels.insert(scale.levels.begin(), scale.levels.front() - step);
+    if (scale.levels.front() > low)
+      scale.levels.insert(scale.levels.begin(), scale.levels.front() - step);
     if (scale.levels.back() < high) scale.levels.push_back(scale.levels.back() + step);
   }
   for (double& level : scale.levels)
     if (std::abs(level) < 1e-9 * step) level = 0;
   const double slack = 1e-9 * step;
   scale.is_signed = scale.levels.front() < 0 && scale.levels.back() > 0;
-  scale.below = least<scale.levels.front() - slack, scale.beyond = most> scale.levels.back() + slack;
+  scale.below =
+      least<scale.levels.front() - slack, scale.beyond = most> scale.levels.back() + slack;
   return scale;
 }
 
 // One panel: where it lies on the page and what it shows.
 class Painter {
  public:
-  Painter(Drawing& drawing, const Window& window, const Scale& scale, double left, double top, double pt_per_mm)
-      : drawing_(drawing), window_(window), scale_(scale), left_(left), top_(top), k_(pt_per_mm), bands_(scale.levels.size() + 1) {}
+  Painter(Drawing& drawing, const Window& window, const Scale& scale, double left, double top,
+          double pt_per_mm)
+      : drawing_(drawing),
+        window_(window),
+        scale_(scale),
+        left_(left),
+        top_(top),
+        k_(pt_per_mm),
+        bands_(scale.levels.size() + 1) {}
 
-  PagePoint page(const PlanePoint& p) const { return {left_ + k_ * (p[0] - window_.x_low), top_ + k_ * (p[1] - window_.z_low)}; }
+  PagePoint page(const PlanePoint& p) const {
+    return {left_ + k_ * (p[0] - window_.x_low), top_ + k_ * (p[1] - window_.z_low)};
+  }
 
   void field(const SurfaceMap& map) {
     for (const auto& facet : map.facets) {
       Polygon quad;
       for (int node : facet) quad.push_back({map.places[node], map.values[node]});
-      const auto [low, high] = std::minmax({quad[0].value, quad[1].value, quad[2].value, quad[3].value});
+      const auto [low, high] =
+          std::minmax({quad[0].value, quad[1].value, quad[2].value, quad[3].value});
       if (scale_.band(low) == scale_.band(high))
         paint(quad);
       else
         for (int i = 0; i < parts; ++i)
           for (int j = 0; j < parts; ++j) {
-            const auto at = [&](int a, int b) { return bilinear(quad, double(a) / parts, double(b) / parts); };
+            const auto at = [&](int a, int b) {
+              return bilinear(quad, double(a) / parts, double(b) / parts);
+            };
             paint({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
           }
     }
     // lower bands first: no seam of a lower colour shows in a higher one
-    for (std::vector<Patch>& band : bands_) std::move(band.begin(), band.end(), std::back_inserter(drawing_.marks));
+    for (std::vector<Patch>& band : bands_)
+      std::move(band.begin(), band.end(), std::back_inserter(drawing_.marks));
   }
   void edges(const SurfaceMap& map) {
     for (const auto& facet : map.facets)
-      for (int k = 0; k < 4; ++k) line(map.places[facet[k]], map.places[facet[(k + 1) % 4]], 0.35, 0.4);
+      for (int k = 0; k < 4; ++k)
+        line(map.places[facet[k]], map.places[facet[(k + 1) % 4]], 0.35, 0.4);
   }
   // short lines on a raster, each in the direction of the facet that lies nearest
   void fibres(const SurfaceMap& map) {
     constexpr int raster = 9;
-    const double dx = (window_.x_high - window_.x_low) / raster, dz = (window_.z_high - window_.z_low) / raster;
+    const double dx = (window_.x_high - window_.x_low) / raster,
+                 dz = (window_.z_high - window_.z_low) / raster;
     for (int i = 0; i < raster; ++i)
       for (int j = 0; j < raster && !map.fibres.empty(); ++j) {
         const PlanePoint at{window_.x_low + (i + 0.5) * dx, window_.z_low + (j + 0.5) * dz};
@@ -149,7 +180,8 @@ class Painter {
           if (d < nearest) nearest = d, a = map.fibres[f];
         }
         const double half = 0.3 * std::min(dx, dz);
-        line({at[0] - half * a[0], at[1] - half * a[1]}, {at[0] + half * a[0], at[1] + half * a[1]}, 1.0, 0.6);
+        line({at[0] - half * a[0], at[1] - half * a[1]}, {at[0] + half * a[0], at[1] + half * a[1]},
+             1.0, 0.6);
       }
   }
   void points(const SurfaceMap& map) {
@@ -168,23 +200,31 @@ class Painter {
     }
   }
   void frame(bool x_axis, bool z_axis) {
-    const PagePoint a = page({window_.x_low, window_.z_low}), b = page({window_.x_high, window_.z_high});
+    const PagePoint a = page({window_.x_low, window_.z_low}),
+                    b = page({window_.x_high, window_.z_high});
     drawing_.marks.push_back(Stroke{{a, {b[0], a[1]}, b, {a[0], b[1]}, a}, ink, 0.8});
     for (int axis = 0; axis < 2; ++axis) {
-      const std::vector<double> at = axis == 0 ? ticks(window_.x_low, window_.x_high, 4) : ticks(window_.z_low, window_.z_high, 4);
+      const std::vector<double> at = axis == 0 ? ticks(window_.x_low, window_.x_high, 4)
+                                               : ticks(window_.z_low, window_.z_high, 4);
       const std::vector<std::string> texts = tick_texts(at);
       for (std::size_t i = 0; i < at.size(); ++i) {
-        const PagePoint p = axis == 0 ? PagePoint{page({at[i], 0})[0], b[1]} : PagePoint{a[0], page({0, at[i]})[1]};
+        const PagePoint p =
+            axis == 0 ? PagePoint{page({at[i], 0})[0], b[1]} : PagePoint{a[0], page({0, at[i]})[1]};
         drawing_.marks.push_back(Stroke{{p, {p[0] - 4 * axis, p[1] + 4 * (1 - axis)}}, ink, 0.8});
-        if (axis == 0 && x_axis) drawing_.marks.push_back(Label{{p[0], p[1] + 17}, texts[i], 12, Label::Anchor::middle});
-        if (axis == 1 && z_axis) drawing_.marks.push_back(Label{{p[0] - 8, p[1] + 4.2}, texts[i], 12, Label::Anchor::end});
+        if (axis == 0 && x_axis)
+          drawing_.marks.push_back(Label{{p[0], p[1] + 17}, texts[i], 12, Label::Anchor::middle});
+        if (axis == 1 && z_axis)
+          drawing_.marks.push_back(Label{{p[0] - 8, p[1] + 4.2}, texts[i], 12, Label::Anchor::end});
       }
     }
-    if (x_axis) drawing_.marks.push_back(Label{{0.5 * (a[0] + b[0]), b[1] + 36}, "x (mm)", 13, Label::Anchor::middle});
+    if (x_axis)
+      drawing_.marks.push_back(
+          Label{{0.5 * (a[0] + b[0]), b[1] + 36}, "x (mm)", 13, Label::Anchor::middle});
     if (z_axis) {  // clear of the numbers: between the upper two
       const std::vector<double> at = ticks(window_.z_low, window_.z_high, 4);
       const double z = at.size() < 2 ? window_.z_low : 0.5 * (at[0] + at[1]);
-      drawing_.marks.push_back(Label{{a[0] - 8, page({0, z})[1] + 4}, "z (mm)", 13, Label::Anchor::end});
+      drawing_.marks.push_back(
+          Label{{a[0] - 8, page({0, z})[1] + 4}, "z (mm)", 13, Label::Anchor::end});
     }
   }
 
@@ -212,7 +252,8 @@ class Painter {
     for (const Corner& c : polygon) low = std::min(low, c.value), high = std::max(high, c.value);
     patch(polygon, scale_.band(low));
     for (int band = scale_.band(low) + 1; band <= scale_.band(high); ++band) {
-      const Polygon part = part_of(polygon, [&](const Corner& c) { return c.value - scale_.levels[band - 1]; });
+      const Polygon part =
+          part_of(polygon, [&](const Corner& c) { return c.value - scale_.levels[band - 1]; });
       if (part.size() >= 3) patch(part, band);
     }
   }
@@ -229,17 +270,19 @@ class Painter {
   }
 };
 
-void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& label, double x, double top, double height,
-                    double room) {
+void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& label, double x,
+                    double top, double height, double room) {
   const double width = 20, tip = 16;
   const std::size_t n = scale.levels.size() - 1;
   const auto y = [&](double level) {
-    return top + height * (scale.levels.back() - level) / (scale.levels.back() - scale.levels.front());
+    return top +
+           height * (scale.levels.back() - level) / (scale.levels.back() - scale.levels.front());
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double y0 = y(scale.levels[i + 1]), y1 = y(scale.levels[i]);
-    drawing.marks.push_back(
-        Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale.colour(static_cast<int>(i) + 1), 0.4});
+    drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}},
+                                  scale.colour(static_cast<int>(i) + 1),
+                                  0.4});
   }
   std::vector<PagePoint> outline{{x, top}};
   if (scale.beyond) {
@@ -250,7 +293,8 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
   outline.push_back({x + width, top});
   outline.push_back({x + width, top + height});
   if (scale.below) {
-    const std::vector<PagePoint> corners{{x, top + height}, {x + width / 2, top + height + tip}, {x + width, top + height}};
+    const std::vector<PagePoint> corners{
+        {x, top + height}, {x + width / 2, top + height + tip}, {x + width, top + height}};
     drawing.marks.push_back(Patch{corners, scale.colour(0), 0.4});
     outline.push_back(corners[1]);
   }
@@ -262,7 +306,8 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
   for (std::size_t i = 0; i <= n; ++i) {
     const double at = y(scale.levels[i]);
     drawing.marks.push_back(Stroke{{{x + width, at}, {x + width + 4, at}}, ink, 0.8});
-    if (std::abs(std::remainder(std::round(scale.levels[i] / (scale.levels[1] - scale.levels[0])), double(every))) < 0.5)
+    if (std::abs(std::remainder(std::round(scale.levels[i] / (scale.levels[1] - scale.levels[0])),
+                                double(every))) < 0.5)
       drawing.marks.push_back(Label{{x + width + 8, at + 4.4}, texts[i], 12});
   }
   add_lines_above(drawing, {drawing.width - 10, top - tip - 14}, label, 13, room);
@@ -275,27 +320,35 @@ std::vector<Complaint> MapStyle::complaints() const {
   return {{"range", "its ends are not ascending", "[low, high]", ""}};
 }
 
-Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns, const Look& look) {
+Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns,
+                    const Look& look) {
   const Window window = window_of(panels, style);
   Scale scale = scale_of(panels, style, window);
   scale.colours = look.colours, scale.signed_colours = look.signed_colours;
   const int n = static_cast<int>(panels.size());
   columns = std::clamp(columns, 1, n);
   const int rows = (n + columns - 1) / columns;
-  const bool titled = std::any_of(panels.begin(), panels.end(), [](const MapPanel& p) { return !p.title.empty(); });
+  const bool titled =
+      std::any_of(panels.begin(), panels.end(), [](const MapPanel& p) { return !p.title.empty(); });
   const double bar_room = look.width && *look.width < 500 ? 110 : 178;
   const double liked = columns == 1 ? 460 : columns == 2 ? 340 : 260;  // width of a panel
-  const double width = look.width ? std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns) : liked;
-  const double k = width / (window.x_high - window.x_low), height = k * (window.z_high - window.z_low);
-  const double panel_title = titled ? 24 : 8, title_room = style.title.empty() || !look.titles ? 8 : 38;
+  const double width =
+      look.width
+          ? std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns)
+          : liked;
+  const double k = width / (window.x_high - window.x_low),
+               height = k * (window.z_high - window.z_low);
+  const double panel_title = titled ? 24 : 8,
+               title_room = style.title.empty() || !look.titles ? 8 : 38;
 
   Drawing drawing;
   drawing.width = std::round(left_room + columns * width + (columns - 1) * gap + bar_room);
-  drawing.height =
-      std::round(title_room + std::max(190.0, rows * (height + panel_title)) + bottom_room);  // the colour bar needs that
+  drawing.height = std::round(title_room + std::max(190.0, rows * (height + panel_title)) +
+                              bottom_room);  // the colour bar needs that
   for (int i = 0; i < n; ++i) {
     const int row = i / columns, column = i % columns;
-    const double left = left_room + column * (width + gap), top = title_room + row * (height + panel_title) + panel_title;
+    const double left = left_room + column * (width + gap),
+                 top = title_room + row * (height + panel_title) + panel_title;
     Painter painter(drawing, window, scale, left, top, k);
     const SurfaceMap& map = *panels[i].map;
     painter.field(map);
@@ -304,17 +357,25 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
     painter.points(map);
     painter.frame(i + columns >= n, column == 0);
     if (!panels[i].title.empty())
-      drawing.marks.push_back(Label{{left + width / 2, top - 7}, panels[i].title, 14, Label::Anchor::middle});
+      drawing.marks.push_back(
+          Label{{left + width / 2, top - 7}, panels[i].title, 14, Label::Anchor::middle});
   }
   const double words = look.width ? 36 : 0;  // its label takes more than one line on a narrow page
   const double bar = std::min(360.0, drawing.height - title_room - bottom_room - 60 - words);
   const double free = drawing.height - title_room - bottom_room - bar;
   const SurfaceMap& first = *panels.front().map;
   add_colour_bar(drawing, scale, with_unit(first.label, first.unit), drawing.width - bar_room + 20,
-                 title_room + (free + words) / 2 + 14, bar, look.width ? bar_room - 10 : drawing.width);
+                 title_room + (free + words) / 2 + 14, bar,
+                 look.width ? bar_room - 10 : drawing.width);
   if (title_room > 8)
-    drawing.marks.push_back(
-        Label{{(drawing.width - bar_room) / 2, 24}, style.title, 16, Label::Anchor::middle, false, false, 0, true});
+    drawing.marks.push_back(Label{{(drawing.width - bar_room) / 2, 24},
+                                  style.title,
+                                  16,
+                                  Label::Anchor::middle,
+                                  false,
+                                  false,
+                                  0,
+                                  true});
   return drawing;
 }
 

@@ -19,8 +19,10 @@ struct MapStyle {
   bool cells = false, fibres = true;
   std::string title;
   static void fields(auto& v) {
-    v(&MapStyle::reach, "reach", unit::mm, "half the side of the square shown, around x = z = 0; by default all", positive);
-    v(&MapStyle::range, "range", unit::none, "values at the ends of the colour bar, in the field's unit; by default those shown");
+    v(&MapStyle::reach, "reach", unit::mm,
+      "half the side of the square shown, around x = z = 0; by default all", positive);
+    v(&MapStyle::range, "range", unit::none,
+      "values at the ends of the colour bar, in the field's unit; by default those shown");
     v(&MapStyle::cells, "cells", unit::none, "draw the edges of the cells");
     v(&MapStyle::fibres, "fibres", unit::none, "draw the direction of the first fibre family");
     v(&MapStyle::title, "title", unit::none, "above the picture");
@@ -33,6 +35,7 @@ struct MapPanel {
   const SurfaceMap* map = nullptr;
 };
 // all panels show the same quantity; one colour scale for all
-Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns = 1, const Look& look = {});
+Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns = 1,
+                    const Look& look = {});
 
 }  // namespace langer

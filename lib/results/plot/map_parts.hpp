@@ -13,7 +13,8 @@ inline Patch box(double x, double y, double w, double h, const Colour& colour, d
   return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, colour, hem};
 }
 
-inline Label label(double x, double y, const std::string& text, double size = 13, Label::Anchor anchor = Label::Anchor::middle) {
+inline Label label(double x, double y, const std::string& text, double size = 13,
+                   Label::Anchor anchor = Label::Anchor::middle) {
   return {{x, y}, text, size, anchor};
 }
 

@@ -14,7 +14,8 @@ void Pictures::need_places(const std::string& name, bool svg_too) const {
   for (PictureFormat format : style_.formats)
     if (svg_too || format != PictureFormat::svg)
       types.push_back(std::string(".") + names(format)[static_cast<std::size_t>(format)]);
-  for (const std::string& type : types) need_replaceable_from(place(name + type), place(name + ".gp"));
+  for (const std::string& type : types)
+    need_replaceable_from(place(name + type), place(name + ".gp"));
 }
 
 void Pictures::run(const std::string& name, const std::string& script) {
@@ -35,6 +36,8 @@ void Pictures::draw(const std::string& name, const Drawing& drawing) {
   run(name, gnuplot_script(drawing, name, style_));
 }
 
-std::string Pictures::place(const std::string& file) const { return (std::filesystem::path(folder_) / file).string(); }
+std::string Pictures::place(const std::string& file) const {
+  return (std::filesystem::path(folder_) / file).string();
+}
 
 }  // namespace langer

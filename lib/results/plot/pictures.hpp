@@ -1,5 +1,5 @@
-// The figures of a stage: their scripts are written beside its output and run; what went wrong is said at the end, each reason
-// once. A figure that cannot be drawn stops nothing.
+// The figures of a stage: their scripts are written beside its output and run; what went wrong is
+// said at the end, each reason once. A figure that cannot be drawn stops nothing.
 #pragma once
 
 #include <map>
@@ -17,8 +17,9 @@ class Pictures {
   // now: false leaves the scripts to be run later
   Pictures(std::string folder, FigureStyle style, bool now = true)
       : folder_(std::move(folder)), style_(std::move(style)), now_(now) {}
-  void draw(const std::string& name, const Plot& plot);        // <name>.gp, which makes the pictures
-  void draw(const std::string& name, const Drawing& drawing);  // <name>.svg at once, the others by its script
+  void draw(const std::string& name, const Plot& plot);  // <name>.gp, which makes the pictures
+  void draw(const std::string& name,
+            const Drawing& drawing);  // <name>.svg at once, the others by its script
   Look look() const { return style_.look(); }
   const std::map<std::string, std::string>& failed() const { return failed_; }  // reason -> names
 

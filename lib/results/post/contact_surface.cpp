@@ -12,14 +12,17 @@
 
 namespace langer {
 
-ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates) : mesh_(mesh), candidates_(std::move(candidates)) {
-  const std::vector<int> nodes = with_hanging(mesh, mesh.section ? through_layers(mesh, candidates_) : candidates_);
+ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates)
+    : mesh_(mesh), candidates_(std::move(candidates)) {
+  const std::vector<int> nodes =
+      with_hanging(mesh, mesh.section ? through_layers(mesh, candidates_) : candidates_);
   facets_ = facets_within(mesh, boundary(mesh), nodes);
   if (!mesh.section) return;
   const int layer = n_front(mesh);  // those of the planes of the section are no surface of the body
   std::erase_if(facets_, [&](const Facet& facet) {
     const auto nodes = facet_nodes(mesh, facet);
-    return std::all_of(nodes.begin(), nodes.end(), [&](int node) { return node / layer == nodes[0] / layer; });
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](int node) { return node / layer == nodes[0] / layer; });
   });
 }
 
@@ -28,7 +31,8 @@ void ContactSurface::fold(std::vector<Vec3>& area) const {
   const auto layer = static_cast<std::size_t>(n_front(mesh_));
   for (std::size_t i = layer; i < area.size(); ++i) area[i % layer] += area[i];
   for (std::size_t i = 0; i < area.size(); ++i)
-    area[i] = i < layer ? Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0)) : Vec3(Vec3::Zero());
+    area[i] = i < layer ? Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0))
+                        : Vec3(Vec3::Zero());
 }
 
 ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
@@ -38,13 +42,16 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
     const auto nodes = mesh_.cell(facet.cell);
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       x.row(a) += u[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])].transpose();
-    const ElementNodes force = follower_pressure(mesh_.cell(), facet.local, x);  // of 1 MPa: the area, inwards
+    const ElementNodes force =
+        follower_pressure(mesh_.cell(), facet.local, x);  // of 1 MPa: the area, inwards
     for (Eigen::Index a = 0; a < x.rows(); ++a)
-      area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] += force.row(a).transpose();
+      area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] +=
+          force.row(a).transpose();
   }
   if (mesh_.section) fold(area);
   fold_hanging(mesh_, area);
-  ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()), std::vector<double>(area.size(), 0)};
+  ContactPerArea state{std::vector<Vec3>(area.size(), Vec3::Zero()),
+                       std::vector<double>(area.size(), 0)};
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates_[i]);
     const double size = area[node].norm();
@@ -59,7 +66,8 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
   return state;
 }
 
-void add_contact_numbers(std::map<std::string, double>& numbers, const std::map<std::string, ContactSurface>& surfaces,
+void add_contact_numbers(std::map<std::string, double>& numbers,
+                         const std::map<std::string, ContactSurface>& surfaces,
                          const StepRecord& record) {
   double area = 0, pressure = 0;
   for (const auto& [name, contact] : record.contacts) {
@@ -73,8 +81,9 @@ void add_contact_numbers(std::map<std::string, double>& numbers, const std::map<
   numbers["contact_pressure_max"] = pressure;
 }
 
-void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& candidates, const ContactPerArea& state,
-                       const ContactRecord& contact, const std::vector<double>& slip) {
+void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& candidates,
+                       const ContactPerArea& state, const ContactRecord& contact,
+                       const std::vector<double>& slip) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates[i]);
     ContactNode& here = nodes[node];
@@ -82,7 +91,8 @@ void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& 
     here.status = std::max(here.status, contact.status[i]);
     if (!slip.empty()) here.slip = std::max(here.slip, slip[i]);
     if (all == 0 || pressure < here.pressure) continue;
-    here.pressure = pressure, here.friction = std::sqrt(std::max(0.0, all * all - pressure * pressure));
+    here.pressure = pressure,
+    here.friction = std::sqrt(std::max(0.0, all * all - pressure * pressure));
   }
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/tensor/stress.hpp"
 #include "mechanics/element/surface.hpp"
 #include "mechanics/mesh/section.hpp"
-#include "core/tensor/stress.hpp"
 
 namespace langer {
 
@@ -25,7 +25,8 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
     for (int g = 0; g < gauss[e].rows(); ++g) {
       const VecX row = gauss[e].row(g).transpose();
       const Mat3 sigma = sigma_of(row);
-      if (const double s = von_mises(sigma); s > all.von_mises) all.von_mises = s, cell = e, point = g;
+      if (const double s = von_mises(sigma); s > all.von_mises)
+        all.von_mises = s, cell = e, point = g;
       all.J = std::min(all.J, J_of(row));
       all.pressure_min = std::min(all.pressure_min, mean_stress(sigma));
       all.pressure_max = std::max(all.pressure_max, mean_stress(sigma));
@@ -37,16 +38,21 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
   return all;
 }
 
-// Each point of the surface goes straight: V = integral over 0 <= s <= 1 of (integral u . n da) where s u is reached, a polynomial of second
-// degree in s, which Simpson's rule integrates exactly.
-double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<Vec3>& u) {
+// Each point of the surface goes straight: V = integral over 0 <= s <= 1 of (integral u . n da)
+// where s u is reached, a polynomial of second degree in s, which Simpson's rule integrates
+// exactly.
+double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets,
+                    const std::vector<Vec3>& u) {
   double volume = 0;
   for (const Facet& facet : facets) {
     const auto nodes = mesh.cell(facet.cell);
     ElementNodes X = element_nodes(mesh, facet.cell), moved = X;
-    for (std::size_t a = 0; a < nodes.size(); ++a) moved.row(static_cast<Eigen::Index>(a)) = u[nodes[a]].transpose();
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      moved.row(static_cast<Eigen::Index>(a)) = u[nodes[a]].transpose();
     for (const auto& [s, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}})
-      volume -= weight * follower_pressure(mesh.cell(), facet.local, X + s * moved).cwiseProduct(moved).sum();
+      volume -=
+          weight *
+          follower_pressure(mesh.cell(), facet.local, X + s * moved).cwiseProduct(moved).sum();
   }
   return mesh.section ? cell_share(*mesh.section) * volume : volume;
 }
@@ -60,7 +66,9 @@ StepState unloaded(const Mesh& mesh) {
   return state;
 }
 
-double value_of(Quantity quantity, const VecX& row, int family) { return std::get<OfPoint>(line_of(quantity).value)(row, family); }
+double value_of(Quantity quantity, const VecX& row, int family) {
+  return std::get<OfPoint>(line_of(quantity).value)(row, family);
+}
 
 namespace {
 
@@ -78,7 +86,8 @@ struct Measurement {
   double operator()(OfContact value) const {
     double sum = 0;
     for (int node : m.nodes)
-      sum += value(state.contact.empty() ? ContactNode{0, 0, 0, 0} : state.contact[static_cast<std::size_t>(node)]);
+      sum += value(state.contact.empty() ? ContactNode{0, 0, 0, 0}
+                                         : state.contact[static_cast<std::size_t>(node)]);
     return sum / static_cast<double>(m.nodes.size());
   }
   double operator()(OfSet value) const {
@@ -103,22 +112,24 @@ struct Measurement {
 
 }  // namespace
 
-std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at, const StepState& state,
-                             GaussValues& gauss) {
+std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at,
+                             const StepState& state, GaussValues& gauss) {
   std::vector<double> values;
   std::optional<Extremes> all;
   for (const Measure& m : measures) {
     if (m.quotient) {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
     } else if (m.quantity) {
-      values.push_back(std::visit(Measurement{body, m, at, state, gauss, all}, line_of(*m.quantity).value));
+      values.push_back(
+          std::visit(Measurement{body, m, at, state, gauss, all}, line_of(*m.quantity).value));
     } else {
       const auto found = state.histories.find(m.history);
       values.push_back(found == state.histories.end() ? 0 : found->second);
     }
   }
   const auto named = [&](const std::string& name) {
-    const auto found = std::find_if(measures.begin(), measures.end(), [&](const Measure& m) { return m.name == name; });
+    const auto found = std::find_if(measures.begin(), measures.end(),
+                                    [&](const Measure& m) { return m.name == name; });
     return found == measures.end() ? 0 : values[static_cast<std::size_t>(found - measures.begin())];
   };
   for (std::size_t i = 0; i < measures.size(); ++i)

@@ -5,7 +5,8 @@
 //   work, dissipated, balance, path   see post/energy.hpp
 //   quotient  of two other columns of one unit, by name; not a number where the second is 0
 //   eps_xx  mean displacement of a set along x, over `length` (by default the mesh's extent in that direction)
-// A name that does not exist in the mesh or in the solution is a complaint with the key that holds it.
+// A name that does not exist in the mesh or in the solution is a complaint with the key that holds
+// it.
 #pragma once
 
 #include <map>
@@ -28,33 +29,41 @@ struct ColumnChoice {
   int family = 1;
   static void fields(auto& v) {
     v(&ColumnChoice::quantity, "quantity", unit::none, "what to measure");
-    v(&ColumnChoice::history, "history", unit::none, "instead of a quantity: a number that the solver wrote for every step");
+    v(&ColumnChoice::history, "history", unit::none,
+      "instead of a quantity: a number that the solver wrote for every step");
     v(&ColumnChoice::quotient, "quotient", unit::none,
       "instead of a quantity: names of two other columns, the first over the second");
-    v(&ColumnChoice::at, "at", unit::none, "observation point or node set; needed by quantities of nodes, points and sets");
-    v(&ColumnChoice::name, "name", unit::none, "name of the column without its unit; by default the quantity, and _ and the place");
-    v(&ColumnChoice::length, "length", unit::mm, "of a strain: the length that belongs to 1; by default the mesh's extent",
-      positive);
+    v(&ColumnChoice::at, "at", unit::none,
+      "observation point or node set; needed by quantities of nodes, points and sets");
+    v(&ColumnChoice::name, "name", unit::none,
+      "name of the column without its unit; by default the quantity, and _ and the place");
+    v(&ColumnChoice::length, "length", unit::mm,
+      "of a strain: the length that belongs to 1; by default the mesh's extent", positive);
     v(&ColumnChoice::zero_at, "zero_at", unit::none,
       "state that the column is measured from, such as the end of a stage: its value there is taken from all of them. A row of the "
       "table, t=0.5 or u_ind=0.5, and the path must stop there");
-    v(&ColumnChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
+    v(&ColumnChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1",
+      at_least(1));
   }
   std::vector<Complaint> complaints() const;
 };
 std::string column_name(const ColumnChoice& choice);  // without unit
 bool is_column_name(const std::string& name);         // may stand in CSV, HDF5 paths and scripts
 inline constexpr const char* column_letters = "letters, digits, _, + and - only";
-std::vector<Complaint> quotient_complaints(const ColumnChoice& choice, const std::vector<ColumnChoice>& columns,
+std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
+                                           const std::vector<ColumnChoice>& columns,
                                            const std::vector<ColumnChoice>& further);
 std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
-// What the solver has estimated of a column's error beside it, as one more column <name>_error: of force, and of reactions of the sets
-// that are moved. And its derivatives with respect to the numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
-std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns, const std::vector<std::string>& histories);
+// What the solver has estimated of a column's error beside it, as one more column <name>_error: of
+// force, and of reactions of the sets that are moved. And its derivatives with respect to the
+// numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
+std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
+                                      const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
-// What a figure draws as a band about a column, the first of them that is there: what parameters leave open (uncertainty: linear), errors.
+// What a figure draws as a band about a column, the first of them that is there: what parameters
+// leave open (uncertainty: linear), errors.
 std::vector<std::string> bands_of(const std::string& column);
 
 // The same with everything looked up.
@@ -82,7 +91,8 @@ struct Measures {
   std::vector<Measure> measures;
   std::vector<Complaint> complaints;  // keys like columns[2].at
 };
-Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body, const Available& available);
+Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body,
+                 const Available& available);
 
 // One accepted state, or the unloaded one.
 struct StepState {
@@ -98,8 +108,8 @@ struct StepState {
 StepState unloaded(const Mesh& mesh);
 
 // One value per measure; a quotient names others of them. `gauss` gets what was missing of it.
-std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at, const StepState& state,
-                             GaussValues& gauss);
+std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at,
+                             const StepState& state, GaussValues& gauss);
 
 // Value of a quantity in a row of values (post/fields.hpp).
 double value_of(Quantity quantity, const VecX& row, int family = 0);  // of a point

@@ -11,7 +11,8 @@ namespace langer {
 namespace {
 
 const char* where(const QuantityLine& line) {
-  if (is_field(line)) return "at a place (`at:` a node set or observation point), mean over its nodes";
+  if (is_field(line))
+    return "at a place (`at:` a node set or observation point), mean over its nodes";
   if (is<OfSet>(line)) return "of a node set (`at:`)";
   if (is<OfBody>(line)) return "extreme over the whole body";
   return line.needs.contact ? "of the indenter; needs a contact" : "of the whole state";
@@ -28,13 +29,16 @@ std::string columns_text() {
       "Columns of curves: name, unit, meaning with its sign. In a CSV table a column is called name_unit, name alone without unit.\n";
   const char* group = "";
   for (const QuantityLine& q : quantity_lines()) {
-    if (const char* of = where(q); of != std::string(group)) s += fmt::format("\nquantity: {}\n", group = of);
+    if (const char* of = where(q); of != std::string(group))
+      s += fmt::format("\nquantity: {}\n", group = of);
     s += line(q.word, q.unit, fmt::format("{}: {}", plain(q.label), q.meaning));
   }
-  s += "\nquotient: of two columns of one unit, by name, without unit; empty where the second is 0\n";
+  s +=
+      "\nquotient: of two columns of one unit, by name, without unit; empty where the second is 0\n";
   s +=
       "\nhistory: what the solver wrote for every step, /history of a solution (of those with three numbers: quantities), and fields of cells\n";
-  for (const solution::HistoryLine& h : solution::history_lines) s += line(h.name, h.unit, h.meaning);
+  for (const solution::HistoryLine& h : solution::history_lines)
+    s += line(h.name, h.unit, h.meaning);
   for (const solution::HistoryLine& h : solution::field_lines) s += line(h.name, h.unit, h.meaning);
   return s;
 }

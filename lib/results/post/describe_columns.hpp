@@ -1,4 +1,5 @@
-// Every column that a table of curves may have, as `langer describe columns` prints it: name, unit, sign and meaning.
+// Every column that a table of curves may have, as `langer describe columns` prints it: name, unit,
+// sign and meaning.
 #pragma once
 
 #include <string>

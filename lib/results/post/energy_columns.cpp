@@ -11,14 +11,21 @@ namespace langer {
 
 namespace {
 
-// Of an increment in which a pushed indenter comes to the body, the movement behind the touch: before it there is no force.
-Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& from, std::size_t k, const Vec3& c,
-                  const Vec3& dc) {
+// Of an increment in which a pushed indenter comes to the body, the movement behind the touch:
+// before it there is no force.
+Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& from,
+                  std::size_t k, const Vec3& c, const Vec3& dc) {
   const std::vector<Vec3>& r = from.r[k];
-  if (!contact.control || std::any_of(r.begin(), r.end(), [](const Vec3& r_i) { return !r_i.isZero(0); })) return dc;
-  const RigidContact pushed{contact.name, contact.shape, 0, contact.nodes, {}, ForceControl{contact.control->along, {}}};
-  const auto position = [&](int node) { return Vec3(mesh.X[node] + from.u[node] - c); };
-  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0)), way = dc.dot(contact.control->along);
+  if (!contact.control ||
+      std::any_of(r.begin(), r.end(), [](const Vec3& r_i) { return !r_i.isZero(0); }))
+    return dc;
+  const RigidContact pushed{
+      contact.name, contact.shape, 0, contact.nodes, {}, ForceControl{contact.control->along, {}}};
+  const auto position = [&](int node) {
+    return Vec3(mesh.X[node] + from.u[node] - c);
+  };
+  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0)),
+               way = dc.dot(contact.control->along);
   return free < way ? Vec3(dc - free * contact.control->along) : dc;
 }
 
@@ -27,8 +34,10 @@ Vec3 of_circle(const Mesh& mesh, const Vec3& sum) {
   return mesh.section && mesh.section->of == SectionOf::axisymmetric ? Vec3(0, sum[1], 0) : sum;
 }
 
-// What bonds make of the force on the body that pulls it towards the indenter, along the mean normal of what bears [N].
-double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state, std::size_t k, const Vec3& c) {
+// What bonds make of the force on the body that pulls it towards the indenter, along the mean
+// normal of what bears [N].
+double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state,
+               std::size_t k, const Vec3& c) {
   Vec3 force = Vec3::Zero(), normal = Vec3::Zero();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const Vec3 &r = state.r[k][i], &bond = state.bonds[k][i];
@@ -43,30 +52,39 @@ double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::
 
 }  // namespace
 
-EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks,
-                       std::vector<TurnedSet> turned)
-    : mesh_(mesh), contacts_(std::move(contacts)), kinks_(std::move(kinks)), turned_(std::move(turned)) {
+EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
+                       std::vector<double> kinks, std::vector<TurnedSet> turned)
+    : mesh_(mesh),
+      contacts_(std::move(contacts)),
+      kinks_(std::move(kinks)),
+      turned_(std::move(turned)) {
   for (const RigidContact& contact : contacts_) slips_.emplace_back(contact.nodes.size(), 0.0);
 }
 
-void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact, std::vector<Vec3>& rates) {
+void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
+                             std::vector<Vec3>& rates) {
   const RigidContact& contact = contacts_[k];
-  const Vec3 c0 = indenter_displacement(contact, last_.t), c = indenter_displacement(contact, now.t), dc = c - c0;
+  const Vec3 c0 = indenter_displacement(contact, last_.t),
+             c = indenter_displacement(contact, now.t), dc = c - c0;
   rates.push_back(dc / step.dt);
   if (k == 0) {
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : now.r[0]) force += r;
     step.way = dc.norm(), step.travel = c.norm(), step.force = of_circle(mesh_, force).norm();
   }
-  if (!now.bonds.empty() && !now.bonds[k].empty()) step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
+  if (!now.bonds.empty() && !now.bonds[k].empty())
+    step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
   double angle = 0;
   if (contact.rotation) {
     angle = contact.rotation->angle.at(now.t) - contact.rotation->angle.at(last_.t);
     rates.push_back(angle / step.dt * contact.rotation->axis.along);
-    step.begin += angle * torque(
-                              contact, [&](int node) { return Vec3(mesh_.X[node] + last_.u[node]); }, c0, last_.r[k]);
+    step.begin +=
+        angle *
+        torque(
+            contact, [&](int node) { return Vec3(mesh_.X[node] + last_.u[node]); }, c0, last_.r[k]);
     step.end += angle * torque(
-                            contact, [&](int node) { return Vec3(mesh_.X[node] + now.u[node]); }, c, now.r[k]);
+                            contact, [&](int node) { return Vec3(mesh_.X[node] + now.u[node]); }, c,
+                            now.r[k]);
   }
   const Vec3 worked = behind_touch(contact, mesh_, last_, k, c0, dc);
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -75,17 +93,22 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     from_contact.begin[node] += r0, from_contact.end[node] += r1;
     step.begin += r0.dot(worked), step.end += r1.dot(worked);
     for (const auto& [state, from, power] :
-         {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin}, {&now, &from_contact.end, &step.end}})
+         {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin},
+          {&now, &from_contact.end, &step.end}})
       if (k < state->bonds.size() && !state->bonds[k].empty())
         (*from)[node] += state->bonds[k][i], *power += state->bonds[k][i].dot(worked);
-    // the slip lies in the tangent plane of the state whose reaction it meets; the part along the normal is no slip
+    // the slip lies in the tangent plane of the state whose reaction it meets; the part along the
+    // normal is no slip
     const Vec3 x0 = mesh_.X[node] + last_.u[node];
     Vec3 v = now.u[node] - last_.u[node] - dc;
-    if (angle != 0) {  // a node at rest slips along an arc about the axis, and this is its chord, seen from the end
+    if (angle != 0) {  // a node at rest slips along an arc about the axis, and this is its chord,
+                       // seen from the end
       v -= carried(contact, angle, x0, c0);
-      v = 0.5 * angle / std::sin(0.5 * angle) * (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
+      v = 0.5 * angle / std::sin(0.5 * angle) *
+          (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
     }
-    for (const auto& [r, x] : {std::pair{r0, Vec3(x0 - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
+    for (const auto& [r, x] :
+         {std::pair{r0, Vec3(x0 - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
       if (r.isZero(0)) continue;
       const Vec3 n = shape_at(contact.shape, x).normal;
       step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
@@ -127,18 +150,22 @@ void EnergyPath::add(State now) {
     if (now.loads.size() > 0) {
       const auto row = 3 * static_cast<Eigen::Index>(i);
       const Vec3 moved = now.u[i] - last_.u[i];
-      step.begin += last_.loads.segment<3>(row).dot(moved), step.end += now.loads.segment<3>(row).dot(moved);
+      step.begin += last_.loads.segment<3>(row).dot(moved),
+          step.end += now.loads.segment<3>(row).dot(moved);
     }
     step.begin += (last_.reaction[i] - from_contact.begin[i]).dot(du.begin[i]);
     step.end += (now.reaction[i] - from_contact.end[i]).dot(du.end[i]);
   }
   step.begin /= step.dt, step.end /= step.dt;
   for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
-    step.goes_on = (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
+    step.goes_on =
+        (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
   for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
   if (const double jump = now.jumps - last_.jumps; jump != 0 || jumped_) {
     step.goes_on = false, jumped_ = jump != 0;
-    if (jumped_) step.begin = step.end = jump / step.dt, step.dissipated = 0;  // friction in a jump is part of what it releases
+    if (jumped_)
+      step.begin = step.end = jump / step.dt,
+      step.dissipated = 0;  // friction in a jump is part of what it releases
   }
   intervals_.push_back(step);
   rates_ = std::move(rates);
@@ -160,7 +187,8 @@ std::vector<PathSums> EnergyPath::sums() const {
     int neighbours = 0;
     if (here.goes_on) {
       const Interval& before = intervals_[k - 1];
-      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt), ++neighbours;
+      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt),
+          ++neighbours;
     }
     if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
       const Interval& after = intervals_[k + 1];
@@ -169,7 +197,8 @@ std::vector<PathSums> EnergyPath::sums() const {
     if (neighbours > 0) curvature /= neighbours;
     PathSums& sum = all[k + 1];
     sum.path = all[k].path + here.way;
-    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) - std::pow(here.dt, 3) / 6 * curvature;
+    sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) -
+               std::pow(here.dt, 3) / 6 * curvature;
     sum.dissipated = all[k].dissipated + here.dissipated;
     sum.hysteresis = sum.work - work_at_begin;
     most_force = std::max(most_force, here.force);

@@ -14,13 +14,15 @@ namespace langer {
 namespace {
 
 const ColumnChoice* find(const std::vector<ColumnChoice>& columns, const std::string& name) {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return column_name(c) == name; });
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const auto& c) { return column_name(c) == name; });
   return found == columns.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-PointColumns read_points(const FigurePoints& points, const std::function<Place(const std::string& key)>& where) {
+PointColumns read_points(const FigurePoints& points,
+                         const std::function<Place(const std::string& key)>& where) {
   const CsvTable table = read_table(points.file.path);
   const auto column = [&](const std::string& key, const std::string& name) {
     std::vector<std::string> known;
@@ -28,7 +30,8 @@ PointColumns read_points(const FigurePoints& points, const std::function<Place(c
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
       throw Failure(Exit::config,
-                    Error{where("points." + key), "points." + key, fmt::format("{} has no column \"{}\"", points.file.path, name),
+                    Error{where("points." + key), "points." + key,
+                          fmt::format("{} has no column \"{}\"", points.file.path, name),
                           "one of " + list_words(known), ""});
     std::vector<double> values;
     for (const CsvRow& row : table.rows)
@@ -41,19 +44,22 @@ PointColumns read_points(const FigurePoints& points, const std::function<Place(c
 
 std::string legend_of(const ColumnChoice& choice) {
   if (choice.name || !choice.quantity) return literal(column_name(choice));
-  const std::string family =
-      line_of(*choice.quantity).needs.fibres && choice.family > 1 ? fmt::format(", family {}", choice.family) : "";
+  const std::string family = line_of(*choice.quantity).needs.fibres && choice.family > 1
+                                 ? fmt::format(", family {}", choice.family)
+                                 : "";
   return label_of(choice) + (choice.at ? " at " + literal(*choice.at) : "") + family;
 }
 
-std::vector<Complaint> complaints(const FigureChoice& figure, const std::vector<ColumnChoice>& columns) {
+std::vector<Complaint> complaints(const FigureChoice& figure,
+                                  const std::vector<ColumnChoice>& columns) {
   std::vector<Complaint> found;
   std::vector<std::string> known;
   for (const ColumnChoice& c : columns) known.push_back(column_name(c));
   const auto check = [&](const std::string& key, const std::string& name) {
     if (find(columns, name)) return;
     const std::string near = nearest(name, known);
-    found.push_back({key, fmt::format("there is no column \"{}\"", name), fmt::format("one of {}", fmt::join(known, ", ")),
+    found.push_back({key, fmt::format("there is no column \"{}\"", name),
+                     fmt::format("one of {}", fmt::join(known, ", ")),
                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   };
   check("x", figure.x);
@@ -61,7 +67,9 @@ std::vector<Complaint> complaints(const FigureChoice& figure, const std::vector<
   if (figure.y.empty()) found.push_back({"y", "an empty list", "one or more columns", ""});
   if (!figure.legends.empty() && figure.legends.size() != figure.y.size())
     found.push_back(
-        {"legends", fmt::format("{} legends for {} columns", figure.legends.size(), figure.y.size()), "one for each y", ""});
+        {"legends",
+         fmt::format("{} legends for {} columns", figure.legends.size(), figure.y.size()),
+         "one for each y", ""});
   if (!found.empty()) return found;
   const std::string first = unit_of(*find(columns, figure.y[0]));
   for (std::size_t i = 1; i < figure.y.size(); ++i)
@@ -71,24 +79,30 @@ std::vector<Complaint> complaints(const FigureChoice& figure, const std::vector<
   return found;
 }
 
-Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& columns, const std::string& csv,
-             std::string (*head)(const std::string&, const std::string&)) {
-  const auto head_of = [&](const std::string& name) { return head(name, unit_of(*find(columns, name))); };
+Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& columns,
+             const std::string& csv, std::string (*head)(const std::string&, const std::string&)) {
+  const auto head_of = [&](const std::string& name) {
+    return head(name, unit_of(*find(columns, name)));
+  };
   const ColumnChoice &x = *find(columns, figure.x), &y = *find(columns, figure.y[0]);
   Plot plot;
   plot.title = figure.title;
   plot.scale = figure.scale;
   plot.x_label = with_unit(figure.x_label.value_or(label_of(x)), unit_of(x));
   // several quantities on one axis have no common name but the one the user gives
-  const bool alike = std::all_of(figure.y.begin(), figure.y.end(),
-                                 [&](const std::string& name) { return label_of(*find(columns, name)) == label_of(y); });
+  const bool alike = std::all_of(figure.y.begin(), figure.y.end(), [&](const std::string& name) {
+    return label_of(*find(columns, name)) == label_of(y);
+  });
   plot.y_label_is_unit = !figure.y_label && !alike;
-  plot.y_label = plot.y_label_is_unit ? unit_of(y) : with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
+  plot.y_label = plot.y_label_is_unit ? unit_of(y)
+                                      : with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
-    plot.lines.push_back({csv, head_of(figure.x), head_of(figure.y[i]),
-                          figure.legends.empty() ? legend_of(*find(columns, figure.y[i])) : figure.legends[i]});
+    plot.lines.push_back(
+        {csv, head_of(figure.x), head_of(figure.y[i]),
+         figure.legends.empty() ? legend_of(*find(columns, figure.y[i])) : figure.legends[i]});
     for (const std::string& band : bands_of(figure.y[i]))
-      if (find(columns, band) && plot.lines.back().error.empty()) plot.lines.back().error = head_of(band);
+      if (find(columns, band) && plot.lines.back().error.empty())
+        plot.lines.back().error = head_of(band);
   }
   return plot;
 }

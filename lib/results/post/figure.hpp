@@ -8,8 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/input_path.hpp"
-#include "results/plot/gnuplot.hpp"
 #include "results/plot/figure_units.hpp"
+#include "results/plot/gnuplot.hpp"
 #include "results/post/curves.hpp"
 
 namespace langer {
@@ -19,7 +19,8 @@ struct FigurePoints {
   InputPath file;
   std::string x, y, legend;
   static void fields(auto& v) {
-    v(&FigurePoints::file, "file", unit::none, "CSV file whose first line names its columns", required);
+    v(&FigurePoints::file, "file", unit::none, "CSV file whose first line names its columns",
+      required);
     v(&FigurePoints::x, "x", unit::none, "column in the unit of the figure's x", required);
     v(&FigurePoints::y, "y", unit::none, "column in the unit of the figure's y", required);
     v(&FigurePoints::legend, "legend", unit::none, "what they are", required);
@@ -30,7 +31,8 @@ struct PointColumns {
   std::vector<double> x, y;  // NaN where the file has no number
 };
 // where(key): of the points. Throws Failure(config) for a column that the file lacks.
-PointColumns read_points(const FigurePoints& points, const std::function<Place(const std::string& key)>& where);
+PointColumns read_points(const FigurePoints& points,
+                         const std::function<Place(const std::string& key)>& where);
 
 struct FigureChoice {
   std::string x;
@@ -53,13 +55,16 @@ struct FigureChoice {
   }
 };
 
-std::string legend_of(const ColumnChoice& choice);  // what it shows and where; the name where the config gives one
+std::string legend_of(
+    const ColumnChoice& choice);  // what it shows and where; the name where the config gives one
 
 // keys relative to the figure: y[0], legends
-std::vector<Complaint> complaints(const FigureChoice& figure, const std::vector<ColumnChoice>& columns);
+std::vector<Complaint> complaints(const FigureChoice& figure,
+                                  const std::vector<ColumnChoice>& columns);
 
 // heads(name, unit) gives the head of a column in the CSV file
-Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& columns, const std::string& csv,
+Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& columns,
+             const std::string& csv,
              std::string (*head)(const std::string& name, const std::string& unit));
 
 }  // namespace langer

@@ -23,23 +23,28 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
     if (!set.empty()) facets.push_back(name);
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) points.push_back(name);
-  const auto need = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known, const char* kind) {
+  const auto need = [&](const std::string& key, const std::string& name,
+                        const std::vector<std::string>& known, const char* kind) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string near = nearest(name, known);
-    found.push_back({key, fmt::format("the mesh has no {} called \"{}\"", kind, name),
-                     known.empty() ? "none at all" : fmt::format("one of {}", fmt::join(known, ", ")),
-                     near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    found.push_back(
+        {key, fmt::format("the mesh has no {} called \"{}\"", kind, name),
+         known.empty() ? "none at all" : fmt::format("one of {}", fmt::join(known, ", ")),
+         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
   };
-  if (mesh.section) return {{"on", "facets of a section, which are lines", "a body in three dimensions", "renders show sections"}};
+  if (mesh.section)
+    return {{"on", "facets of a section, which are lines", "a body in three dimensions",
+             "renders show sections"}};
   need("on", choice.on, facets, "facets");
-  for (std::size_t i = 0; i < choice.points.size(); ++i) need(fmt::format("points[{}]", i), choice.points[i], points, "point");
+  for (std::size_t i = 0; i < choice.points.size(); ++i)
+    need(fmt::format("points[{}]", i), choice.points[i], points, "point");
   if (line_of(choice.field).needs.fibres && choice.family > body.n_families())
     found.push_back({"family", "a fibre family that the material lacks", "another field", ""});
   return found;
 }
 
-SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::string& name, const std::vector<double>& values,
-                       double t) {
+SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::string& name,
+                       const std::vector<double>& values, double t) {
   const Mesh& mesh = body.mesh();
   const QuantityLine& line = line_of(choice.field);
   SurfaceMap map{name, line.label, line.unit, t, {}, {}, {}, {}, {}};
@@ -57,7 +62,8 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
       map.facets.push_back(quad);
       if (body.n_families() == 0) continue;
       const auto fibres = body.fibres(facet.cell);
-      map.fibres.push_back(fibres.empty() ? std::array{0.0, 0.0} : std::array{fibres[0][0], fibres[0][2]});
+      map.fibres.push_back(fibres.empty() ? std::array{0.0, 0.0}
+                                          : std::array{fibres[0][0], fibres[0][2]});
     }
   }
   for (const std::string& point : choice.points) {
@@ -82,7 +88,8 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
     const double Np[] = {-(1 - q), 1 - q, q, -q}, Nq[] = {-(1 - p), -p, p, 1 - p};
     double f[2] = {-place[0], -place[1]}, fp[2] = {0, 0}, fq[2] = {0, 0};
     for (int i = 0; i < 2; ++i)
-      for (int k = 0; k < 4; ++k) f[i] += N[k] * corner[k][i], fp[i] += Np[k] * corner[k][i], fq[i] += Nq[k] * corner[k][i];
+      for (int k = 0; k < 4; ++k)
+        f[i] += N[k] * corner[k][i], fp[i] += Np[k] * corner[k][i], fq[i] += Nq[k] * corner[k][i];
     const double det = fp[0] * fq[1] - fp[1] * fq[0];
     if (det == 0) return {};
     const double dp = (f[0] * fq[1] - f[1] * fq[0]) / det, dq = (fp[0] * f[1] - fp[1] * f[0]) / det;
@@ -97,7 +104,9 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
 
 std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place) {
   for (const auto& facet : map.facets) {
-    const auto at = within({map.places[facet[0]], map.places[facet[1]], map.places[facet[2]], map.places[facet[3]]}, place);
+    const auto at = within(
+        {map.places[facet[0]], map.places[facet[1]], map.places[facet[2]], map.places[facet[3]]},
+        place);
     if (!at) continue;
     const auto [p, q] = *at;
     const double N[] = {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
@@ -114,7 +123,8 @@ double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond) {
   for (std::size_t i = 0; i < b.places.size(); ++i) {
     if (std::hypot(b.places[i][0], b.places[i][1]) < (1 - slack) * beyond) continue;
     size = std::max(size, std::abs(b.values[i]));
-    if (const auto value = value_at(a, b.places[i])) most = std::max(most, std::abs(*value - b.values[i]));
+    if (const auto value = value_at(a, b.places[i]))
+      most = std::max(most, std::abs(*value - b.values[i]));
   }
   return size > 0 ? most / size : 0;
 }

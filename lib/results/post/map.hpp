@@ -20,9 +20,11 @@ struct MapChoice {
   MapStyle style;
   static void fields(auto& v) {
     v(&MapChoice::field, "field", unit::none, "quantity of nodes or points", required);
-    v(&MapChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
+    v(&MapChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1",
+      at_least(1));
     v(&MapChoice::on, "on", unit::none, "facet set of the mesh, seen from above");
-    v(&MapChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
+    v(&MapChoice::step, "step", unit::none,
+      "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&MapChoice::points, "points", unit::none, "observation points that are marked");
     v(&MapChoice::style, "style", unit::none, "how it is drawn");
   }
@@ -33,13 +35,14 @@ struct MapChoice {
 std::vector<Complaint> complaints(const MapChoice& choice, const Body& body);
 
 // values: of the field at every node of the mesh; facets and points must be there
-SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::string& name, const std::vector<double>& values,
-                       double t);
+SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::string& name,
+                       const std::vector<double>& values, double t);
 
 // value at a place by bilinear interpolation; nothing outside the map
 std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place);
 
-// largest |a - b| relative to the largest |b|, over the nodes of b that lie in a and not nearer to x = z = 0 than `beyond`
+// largest |a - b| relative to the largest |b|, over the nodes of b that lie in a and not nearer to
+// x = z = 0 than `beyond`
 double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond = 0);
 
 }  // namespace langer

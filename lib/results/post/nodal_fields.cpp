@@ -8,7 +8,8 @@
 
 namespace langer {
 
-Body::Body(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation)
+Body::Body(const Mesh& mesh, std::vector<Material> materials, Directions directions,
+           Formulation formulation)
     : mesh_(mesh),
       materials_(std::move(materials)),
       directions_(std::move(directions)),
@@ -44,12 +45,14 @@ ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) 
   const auto a = body.fibres(e);
   const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
                                    element_displacements(body.mesh(), u, e), body.branches(e));
-  ElementValues values = ElementValues::Ones(static_cast<Eigen::Index>(states.size()), body.n_values());
+  ElementValues values =
+      ElementValues::Ones(static_cast<Eigen::Index>(states.size()), body.n_values());
   for (std::size_t g = 0; g < states.size(); ++g) {
     values.row(g).head<6>() = voigt(states[g].sigma).transpose();
     values(g, 6) = states[g].J;
     // sqrt(I4_bar) = J^(-1/3) |F a|
-    for (std::size_t k = 0; k < a.size(); ++k) values(g, 7 + k) = (states[g].F * a[k]).norm() / std::cbrt(states[g].J);
+    for (std::size_t k = 0; k < a.size(); ++k)
+      values(g, 7 + k) = (states[g].F * a[k]).norm() / std::cbrt(states[g].J);
   }
   return values;
 }
@@ -57,7 +60,8 @@ ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) 
 VecX element_mean(const Body& body, int e, const ElementValues& gauss) {
   const ElementGeometry& geometry = body.geometry(e);
   VecX mean = VecX::Zero(gauss.cols());
-  for (int g = 0; g < geometry.n_gauss(); ++g) mean += geometry.w[g] / geometry.V * gauss.row(g).transpose();
+  for (int g = 0; g < geometry.n_gauss(); ++g)
+    mean += geometry.w[g] / geometry.V * gauss.row(g).transpose();
   return mean;
 }
 
@@ -68,7 +72,9 @@ Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int
   return Mat3::Identity() + displacement_gradient(element_displacements(body.mesh(), u, e), dN);
 }
 
-Vec3 gauss_position(const Mesh& mesh, int e, int g) { return element_nodes(mesh, e).transpose() * mesh.cell().N[g]; }
+Vec3 gauss_position(const Mesh& mesh, int e, int g) {
+  return element_nodes(mesh, e).transpose() * mesh.cell().N[g];
+}
 
 void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss) {
   gauss.resize(static_cast<std::size_t>(body.mesh().n_cells()));
@@ -90,8 +96,8 @@ VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt 
     const ElementValues& values = gauss[e];
     if (at == StressAt::nodal_average) {
       VecX row = (cell.at_nodes.row(a) * values).transpose();
-      row[6] =
-          std::clamp(row[6], values.col(6).minCoeff(), values.col(6).maxCoeff());  // J: no volume that no point of the cell has
+      row[6] = std::clamp(row[6], values.col(6).minCoeff(),
+                          values.col(6).maxCoeff());  // J: no volume that no point of the cell has
       sum += w * row;
     } else
       sum += w * values.row(cell.nearest_gauss[a]).transpose();

@@ -1,4 +1,5 @@
-// Stress, dilatation and fibre stretch of one state of a body: at Gauss points, as element means, at nodes.   [A23] eqs 17-21
+// Stress, dilatation and fibre stretch of one state of a body: at Gauss points, as element means,
+// at nodes.   [A23] eqs 17-21
 //   a row of values   Cauchy stress 11 22 33 12 23 13 [MPa] | J [-] | fibre stretch sqrt(I4_bar) of each family [-]
 //   element mean      weighted with the Gauss points' shares of the reference volume
 //   node              nodal_average: the trilinear field through the 8 Gauss points (hex27: nearest to the 27), taken at the
@@ -6,18 +7,19 @@
 //                     weighted with reference volume, within one region (bodies of different materials never mix;
 //                     a node between two regions shows the lower numbered one). J is kept within the values of each cell's own points:
 //                     near incompressibility the field through them has swings that no material has.
-// Rows are averaged; von Mises, pressure and principal stresses are taken of the averaged row, so that what a table shows
-// fits together. Pressure is the mean stress tr(sigma)/3, positive in tension.
+// Rows are averaged; von Mises, pressure and principal stresses are taken of the averaged row, so
+// that what a table shows fits together. Pressure is the mean stress tr(sigma)/3, positive in
+// tension.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "core/base/fields.hpp"
+#include "core/tensor/voigt.hpp"
 #include "mechanics/element/solid.hpp"
 #include "mechanics/mesh/directions.hpp"
 #include "mechanics/mesh/mesh.hpp"
-#include "core/tensor/voigt.hpp"
 
 namespace langer {
 
@@ -28,7 +30,8 @@ constexpr auto names(StressAt) { return std::array{"nodal_average", "nearest_gau
 class Body {
  public:
   // materials: one for all cells, or one per body of the mesh; the mesh must outlive this
-  Body(const Mesh& mesh, std::vector<Material> materials, Directions directions, Formulation formulation);
+  Body(const Mesh& mesh, std::vector<Material> materials, Directions directions,
+       Formulation formulation);
 
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }
@@ -36,9 +39,10 @@ class Body {
   int region(int e) const { return materials_.size() > 1 ? mesh_.body[e] : 0; }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }  // unit, reference state
-  int n_families() const { return n_families_; }                           // the most that any cell has
-  int n_values() const { return 7 + n_families_; }                         // length of a row
-  // Of a viscous body's state: sum of the branch stresses at the Gauss points of each cell [MPa]; gauss_values() has those told last.
+  int n_families() const { return n_families_; }    // the most that any cell has
+  int n_values() const { return 7 + n_families_; }  // length of a row
+  // Of a viscous body's state: sum of the branch stresses at the Gauss points of each cell [MPa];
+  // gauss_values() has those told last.
   void tell_branches(std::vector<std::vector<Vec6>> branches) { branches_ = std::move(branches); }
   std::span<const Vec6> branches(int e) const {
     return branches_.empty() ? std::span<const Vec6>() : branches_[static_cast<std::size_t>(e)];
@@ -49,7 +53,9 @@ class Body {
   struct Corner {
     int cell, local;
   };
-  std::span<const Corner> corners(int node) const { return {corners_.data() + first_[node], corners_.data() + first_[node + 1]}; }
+  std::span<const Corner> corners(int node) const {
+    return {corners_.data() + first_[node], corners_.data() + first_[node + 1]};
+  }
 
  private:
   const Mesh& mesh_;
@@ -67,7 +73,8 @@ class Body {
 using ElementValues = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u, int e);
-ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e);  // u (n) [mm]; families a cell lacks: 1
+ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u,
+                           int e);  // u (n) [mm]; families a cell lacks: 1
 VecX element_mean(const Body& body, int e, const ElementValues& gauss);
 Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e);
 Vec3 gauss_position(const Mesh& mesh, int e, int g);  // reference [mm]
@@ -75,7 +82,8 @@ Vec3 gauss_position(const Mesh& mesh, int e, int g);  // reference [mm]
 // A state's Gauss values by element; elements not asked for are empty.
 using GaussValues = std::vector<ElementValues>;
 GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u);
-void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss);  // unless they are there
+void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e,
+                      GaussValues& gauss);  // unless they are there
 
 // needs the Gauss values of the elements at the node
 VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at);

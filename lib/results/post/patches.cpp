@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/section.hpp"
-#include "core/tensor/dense.hpp"
 
 namespace langer {
 
@@ -34,23 +34,27 @@ double monomial(const Vec3& x, const std::array<int, 3>& powers) {
 Vec3 middle(const Mesh& mesh, int e) {
   Vec3 X = Vec3::Zero();
   const int n = mesh.cell().n_corners;
-  for (int a = 0; a < n; ++a) X += mesh.X[static_cast<std::size_t>(mesh.cell(e)[static_cast<std::size_t>(a)])] / n;
+  for (int a = 0; a < n; ++a)
+    X += mesh.X[static_cast<std::size_t>(mesh.cell(e)[static_cast<std::size_t>(a)])] / n;
   return X;
 }
 
 // least squares; of a patch that does not decide its polynomial the smallest one
 MatX fit(const MatX& A, const MatX& values) {
   const PivotedQr qr(A);
-  return qr.rank() == A.cols() ? qr.solve_columns(values) : LeastNorm(A, 1e-6).solve_columns(values);
+  return qr.rank() == A.cols() ? qr.solve_columns(values)
+                               : LeastNorm(A, 1e-6).solve_columns(values);
 }
 
 }  // namespace
 
 Patches::Patches(const Body& body) : body_(body) {
   const ReferenceCell& cell = body.mesh().cell();
-  dim_ = body.mesh().section ? 2 : 3, degree_ = cell.second_order() ? 3 : 2, n_corners_ = cell.n_corners;
+  dim_ = body.mesh().section ? 2 : 3, degree_ = cell.second_order() ? 3 : 2,
+  n_corners_ = cell.n_corners;
   in_corners_ = !cell.second_order();
-  powers_of_nodes_ = powers_up_to(degree_, dim_), powers_of_points_ = powers_up_to(degree_ - 1, dim_);
+  powers_of_nodes_ = powers_up_to(degree_, dim_),
+  powers_of_points_ = powers_up_to(degree_ - 1, dim_);
   find_patches();
   find_inside();
   find_deputies();
@@ -64,14 +68,17 @@ void Patches::find_patches() {
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int a = 0; a < n_corners_; ++a) {
       const int node = mesh.cell(e)[a] % front;
-      const auto [entry, is_new] = known.try_emplace({body_.region(e), node}, static_cast<int>(patches_.size()));
+      const auto [entry, is_new] =
+          known.try_emplace({body_.region(e), node}, static_cast<int>(patches_.size()));
       if (is_new) patches_.push_back({mesh.X[node], 0, {}, true, false, {}});
       const int p = patch_of_[static_cast<std::size_t>(e * n_corners_ + a)] = entry->second;
-      if (patches_[p].cells.empty() || patches_[p].cells.back() != e) patches_[p].cells.push_back(e);
+      if (patches_[p].cells.empty() || patches_[p].cells.back() != e)
+        patches_[p].cells.push_back(e);
     }
   for (Patch& patch : patches_)
     for (int e : patch.cells)
-      for (int n : mesh.cell(e)) patch.size = std::max(patch.size, (mesh.X[n % front] - patch.centre).norm());
+      for (int n : mesh.cell(e))
+        patch.size = std::max(patch.size, (mesh.X[n % front] - patch.centre).norm());
 }
 
 // not on the surface of the region, of a section of its outline
@@ -103,7 +110,9 @@ void Patches::find_deputies() {
       for (int q : corners)
         if (patches_[q].inside) least = std::min(least, (patches_[q].centre - patch.centre).norm());
       for (int q : corners)
-        if (patches_[q].inside && (patches_[q].centre - patch.centre).norm() <= equally_near * least) patch.deputies.push_back(q);
+        if (patches_[q].inside &&
+            (patches_[q].centre - patch.centre).norm() <= equally_near * least)
+          patch.deputies.push_back(q);
       for (int q : corners) cells.insert(patches_[q].cells.begin(), patches_[q].cells.end());
     }
     if (patch.deputies.empty()) patch.deputies = {static_cast<int>(p)};
@@ -140,11 +149,13 @@ MatX Patches::terms(const Patch& patch, const Vec3& X, bool gradient) const {
   return out;
 }
 
-MatX Patches::at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3& X, bool gradient) const {
+MatX Patches::at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3& X,
+                 bool gradient) const {
   MatX out;
   for (int q : patch.deputies) {
     const auto p = static_cast<std::size_t>(q);
-    const MatX here = fitted[p].transpose() * terms(patches_[p], X, gradient) / static_cast<double>(patch.deputies.size());
+    const MatX here = fitted[p].transpose() * terms(patches_[p], X, gradient) /
+                      static_cast<double>(patch.deputies.size());
     out = out.size() == 0 ? here : MatX(out + here);
   }
   return out;
@@ -156,7 +167,8 @@ Patches::Smooth Patches::told_in_corners(std::vector<MatX> fitted, bool gradient
   if (!in_corners_)
     out.of_ = std::move(fitted);
   else
-    for (const Patch& patch : patches_) out.of_.push_back(at(fitted, patch, patch.centre, gradient));
+    for (const Patch& patch : patches_)
+      out.of_.push_back(at(fitted, patch, patch.centre, gradient));
   return out;
 }
 
@@ -185,7 +197,9 @@ Patches::Smooth Patches::of_nodes(const MatX& values) const {
     std::set<int> nodes;
     for (int e : patch.cells)
       for (int n : mesh.cell(e)) nodes.insert(n % front);
-    MatX A(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(powers_of_nodes_.size())), b(A.rows(), values.cols());
+    MatX A(static_cast<Eigen::Index>(nodes.size()),
+           static_cast<Eigen::Index>(powers_of_nodes_.size())),
+        b(A.rows(), values.cols());
     Eigen::Index row = 0;
     for (int n : nodes) {
       const Vec3 x = (mesh.X[static_cast<std::size_t>(n)] - patch.centre) / patch.size;
@@ -209,7 +223,8 @@ Patches::Smooth Patches::of_points(const std::vector<MatX>& values) const {
     for (int e : patch.cells)
       for (Eigen::Index g = 0; g < points; ++g) {
         const Vec3 X = points > 1 ? gauss_position(mesh, e, static_cast<int>(g)) : middle(mesh, e);
-        A.row(row) = terms(patch, X, false).transpose(), b.row(row++) = values[static_cast<std::size_t>(e)].row(g);
+        A.row(row) = terms(patch, X, false).transpose(),
+        b.row(row++) = values[static_cast<std::size_t>(e)].row(g);
       }
     fitted.push_back(patch.serves ? fit(A, b) : MatX());
   }

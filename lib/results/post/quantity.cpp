@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "results/post/curves.hpp"
 #include "core/tensor/stress.hpp"
+#include "results/post/curves.hpp"
 
 namespace langer {
 
@@ -188,8 +188,10 @@ constexpr QuantityLine lines[]{
 std::span<const QuantityLine> quantity_lines() { return lines; }
 
 Quantity quantity(std::string_view word) {
-  const auto found = std::find_if(std::begin(lines), std::end(lines), [&](const QuantityLine& line) { return line.word == word; });
-  if (found == std::end(lines)) throw std::logic_error("no quantity is called " + std::string(word));
+  const auto found = std::find_if(std::begin(lines), std::end(lines),
+                                  [&](const QuantityLine& line) { return line.word == word; });
+  if (found == std::end(lines))
+    throw std::logic_error("no quantity is called " + std::string(word));
   return static_cast<Quantity>(found - lines);
 }
 

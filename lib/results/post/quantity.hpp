@@ -1,12 +1,14 @@
-// A column of a curve is a row: its word, unit and label, its meaning with its sign, the function that gives its value, and what it
-// needs. Where it is measured is what its function takes; `langer describe columns` prints the rows.
+// A column of a curve is a row: its word, unit and label, its meaning with its sign, the function
+// that gives its value, and what it needs. Where it is measured is what its function takes; `langer
+// describe columns` prints the rows.
 //   StepState            one number of the whole state, or of the indenter: nothing to name
 //   displacement         mean over the nodes of a named set (an observation point is a set of one node)
 //   row of values        the same, of a row of post/fields.hpp at each node
 //   ContactNode          the same, of what the indenters do to each node
 //   SetState             reaction summed, or movement averaged, over a named set
 //   Extremes             over all Gauss points of the body; their place is the reference position [mm]
-// Signs: stress and pressure positive in tension; force positive where the body resists the indenter's travel.
+// Signs: stress and pressure positive in tension; force positive where the body resists the
+// indenter's travel.
 #pragma once
 
 #include <limits>
@@ -32,11 +34,13 @@ struct Extremes {
   Vec3 place = Vec3::Zero();  // of the greatest von Mises stress
 };
 
-// What all indenters together do to a node; of several that touch it the one with the greatest pressure.
+// What all indenters together do to a node; of several that touch it the one with the greatest
+// pressure.
 struct ContactNode {
-  double pressure = 0, friction = 0;  // along the normal and across it, over the deformed area [MPa]
-  double slip = 0;                    // way against the indenter while it touches [mm]
-  int status = -1;                    // -1: not a candidate, else as in ContactRecord
+  double pressure = 0,
+         friction = 0;  // along the normal and across it, over the deformed area [MPa]
+  double slip = 0;      // way against the indenter while it touches [mm]
+  int status = -1;      // -1: not a candidate, else as in ContactRecord
 };
 
 using OfState = double (*)(const StepState& state);
@@ -70,14 +74,18 @@ enum class Quantity : int {};
 Quantity quantity(std::string_view word);  // throws std::logic_error where none has it
 std::vector<const char*> names(Quantity);
 
-inline const QuantityLine& line_of(Quantity quantity) { return quantity_lines()[static_cast<std::size_t>(quantity)]; }
+inline const QuantityLine& line_of(Quantity quantity) {
+  return quantity_lines()[static_cast<std::size_t>(quantity)];
+}
 
 template <class Of>
 bool is(const QuantityLine& line) {
   return std::holds_alternative<Of>(line.value);
 }
 // has a value at every node
-inline bool is_field(const QuantityLine& line) { return is<OfNodes>(line) || is<OfPoint>(line) || is<OfContact>(line); }
+inline bool is_field(const QuantityLine& line) {
+  return is<OfNodes>(line) || is<OfPoint>(line) || is<OfContact>(line);
+}
 inline bool needs_place(const QuantityLine& line) { return is_field(line) || is<OfSet>(line); }
 
 }  // namespace langer

@@ -17,7 +17,8 @@ std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int regio
   std::vector<double> V(mesh.X.size(), 0);
   for (int e = 0; e < mesh.n_cells(); ++e) {
     if (body.region(e) != region) continue;
-    const Eigen::Matrix<double, Eigen::Dynamic, 6> at_nodes = cell.at_nodes * gauss[e].leftCols<6>();
+    const Eigen::Matrix<double, Eigen::Dynamic, 6> at_nodes =
+        cell.at_nodes * gauss[e].leftCols<6>();
     for (int a = 0; a < cell.n_nodes; ++a) {
       const int node = mesh.cell(e)[a];
       sum[node] += body.geometry(e).V * at_nodes.row(a).transpose(), V[node] += body.geometry(e).V;
@@ -28,14 +29,17 @@ std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int regio
   return sum;
 }
 
-// Greatest difference of the von Mises stress between a cell and the average, over the nodes of all cells at a node: at the node itself,
-// where a corner belongs to one cell alone or cells mirror each other, there may be none.
-double spread_around(const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth, int region, int node) {
+// Greatest difference of the von Mises stress between a cell and the average, over the nodes of all
+// cells at a node: at the node itself, where a corner belongs to one cell alone or cells mirror
+// each other, there may be none.
+double spread_around(const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth,
+                     int region, int node) {
   const Mesh& mesh = body.mesh();
   const ReferenceCell& cell = mesh.cell();
   std::vector<char> is_near(mesh.X.size(), 0);
   for (int e = 0; e < mesh.n_cells(); ++e)
-    if (const auto nodes = mesh.cell(e); body.region(e) == region && std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+    if (const auto nodes = mesh.cell(e);
+        body.region(e) == region && std::find(nodes.begin(), nodes.end(), node) != nodes.end())
       for (int n : nodes) is_near[n] = 1;
   double spread = 0;
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -50,7 +54,9 @@ double spread_around(const Body& body, const GaussValues& gauss, const std::vect
   return spread;
 }
 
-double deviatoric(const Vec6& stress) { return std::pow(von_mises(tensor(stress)), 2) / 1.5; }  // |dev s|^2
+double deviatoric(const Vec6& stress) {
+  return std::pow(von_mises(tensor(stress)), 2) / 1.5;
+}  // |dev s|^2
 
 int n_regions(const Body& body) {
   int regions = 1;
@@ -63,8 +69,8 @@ struct Energies {
   double eta() const { return whole > 0 ? std::sqrt(error / whole) : 0; }
 };
 // of_cell: where the error of each is put, or nullptr
-void add_region(Energies& energies, const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth, int region,
-                std::vector<double>* of_cell) {
+void add_region(Energies& energies, const Body& body, const GaussValues& gauss,
+                const std::vector<Vec6>& smooth, int region, std::vector<double>* of_cell) {
   const Mesh& mesh = body.mesh();
   const ReferenceCell& cell = mesh.cell();
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -74,7 +80,8 @@ void add_region(Energies& energies, const Body& body, const GaussValues& gauss, 
       Vec6 s = Vec6::Zero();
       for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
       const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
-      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()), energies.whole += w * deviatoric(s);
+      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()),
+          energies.whole += w * deviatoric(s);
     }
     if (of_cell) (*of_cell)[static_cast<std::size_t>(e)] = energies.error - before;
   }
@@ -103,7 +110,8 @@ RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (body.region(e) != region) continue;
       for (int node : mesh.cell(e))
-        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max) out.von_mises_max = here, worst = node;
+        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max)
+          out.von_mises_max = here, worst = node;
     }
     if (worst >= 0) out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
   }

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double margin = 24;
 constexpr int most_patches = 6000;
-const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89}, grey{0.45, 0.47, 0.50},
-    vermilion{0.835, 0.369, 0}, blue{0, 0.447, 0.698};
+const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89},
+    grey{0.45, 0.47, 0.50}, vermilion{0.835, 0.369, 0}, blue{0, 0.447, 0.698};
 
 // One thing to paint; those further from the eye come first.
 struct Item {
@@ -37,19 +37,24 @@ Mat3 eye(const std::array<double, 2>& view) {
   return R;
 }
 
-// light from above, left and in front of the eye; the shadow side keeps enough of its colour to be read
+// light from above, left and in front of the eye; the shadow side keeps enough of its colour to be
+// read
 double light(const Vec3& n) { return std::max(0.0, n.dot(Vec3(-0.35, 0.80, 0.49).normalized())); }
 double shade(const Vec3& n) { return 0.74 + 0.26 * light(n); }
 
 // Seen positions to the page.
 struct Page {
   double scale = 1, left = 0, top = 0;  // [pt/mm], page position of (0, 0)
-  PagePoint operator()(const Vec3& seen) const { return {left + scale * seen[0], top - scale * seen[1]}; }
+  PagePoint operator()(const Vec3& seen) const {
+    return {left + scale * seen[0], top - scale * seen[1]};
+  }
 };
 
-Vec3 normal_of(const std::vector<Vec3>& corners) {  // Newell's sum: also of polygons that are not plane
+Vec3 normal_of(
+    const std::vector<Vec3>& corners) {  // Newell's sum: also of polygons that are not plane
   Vec3 n = Vec3::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i) n += corners[i].cross(corners[(i + 1) % corners.size()]);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    n += corners[i].cross(corners[(i + 1) % corners.size()]);
   return n.normalized();
 }
 
@@ -59,19 +64,23 @@ double mean_depth(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
-void add_colour_bar(Drawing& drawing, double title_room, double low, double high, const std::string& label, double bar_room,
-                    ColourMap colours) {
+void add_colour_bar(Drawing& drawing, double title_room, double low, double high,
+                    const std::string& label, double bar_room, ColourMap colours) {
   constexpr int bands = 128;
   // label above, the axes below
-  const double x = drawing.width - bar_room + 30, width = 22, height = std::min(300.0, drawing.height - title_room - 190);
+  const double x = drawing.width - bar_room + 30, width = 22,
+               height = std::min(300.0, drawing.height - title_room - 190);
   const double top = title_room + (drawing.height - title_room - height - 100) / 2;
   for (int i = 0; i < bands; ++i) {
     // from the top, each down to the end: no seams
     const double y0 = top + height * i / bands, y1 = top + height;
-    drawing.marks.push_back(
-        Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}}, scale_colour(1 - (i + 0.5) / bands, colours)});
+    drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}},
+                                  scale_colour(1 - (i + 0.5) / bands, colours)});
   }
-  drawing.marks.push_back(Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}}, ink, 0.8});
+  drawing.marks.push_back(
+      Stroke{{{x, top}, {x + width, top}, {x + width, top + height}, {x, top + height}, {x, top}},
+             ink,
+             0.8});
   const std::vector<double> at = ticks(low, high);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -79,21 +88,26 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
     drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
     drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, texts[i], 13});
   }
-  add_lines_above(drawing, {drawing.width - margin, top - 16}, label, 14, bar_room < 150 ? bar_room + 40 : drawing.width);
+  add_lines_above(drawing, {drawing.width - margin, top - 16}, label, 14,
+                  bar_room < 150 ? bar_room + 40 : drawing.width);
 }
 
 void add_axes(Drawing& drawing, const Mat3& R, double bar_room) {
   const PagePoint origin{drawing.width - bar_room + 60, drawing.height - margin - 36};
   for (int i = 0; i < 3; ++i) {
     const Vec3 seen = R.col(i);
-    drawing.marks.push_back(Stroke{{origin, {origin[0] + 36 * seen[0], origin[1] - 36 * seen[1]}}, ink, 1.4});
     drawing.marks.push_back(
-        Label{{origin[0] + 48 * seen[0], origin[1] - 48 * seen[1] + 5}, names(CutNormal{})[i], 14, Label::Anchor::middle});
+        Stroke{{origin, {origin[0] + 36 * seen[0], origin[1] - 36 * seen[1]}}, ink, 1.4});
+    drawing.marks.push_back(Label{{origin[0] + 48 * seen[0], origin[1] - 48 * seen[1] + 5},
+                                  names(CutNormal{})[i],
+                                  14,
+                                  Label::Anchor::middle});
   }
 }
 
 // Edges where the surface turns by more than 40 degrees.
-std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>>& surface, const std::vector<Vec3>& x) {
+std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>>& surface,
+                                            const std::vector<Vec3>& x) {
   std::map<std::array<int, 2>, std::vector<Vec3>> normals;
   for (const auto& q : surface) {
     const Vec3 n = normal_of({x[q[0]], x[q[1]], x[q[2]], x[q[3]]});
@@ -110,14 +124,15 @@ std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>
 }
 
 void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, const Colour& colour) {
-  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::max(std::hypot(dx, dy), 1e-9),
-               head = std::min(11.0, length);
+  const double dx = to[0] - from[0], dy = to[1] - from[1],
+               length = std::max(std::hypot(dx, dy), 1e-9), head = std::min(11.0, length);
   const double ex = dx / length, ey = dy / length;
   const PagePoint neck{to[0] - head * ex, to[1] - head * ey};
   drawing.marks.push_back(Stroke{{from, neck}, colour, 2});
-  drawing.marks.push_back(Patch{
-      {to, {neck[0] - 0.45 * head * ey, neck[1] + 0.45 * head * ex}, {neck[0] + 0.45 * head * ey, neck[1] - 0.45 * head * ex}},
-      colour});
+  drawing.marks.push_back(Patch{{to,
+                                 {neck[0] - 0.45 * head * ey, neck[1] + 0.45 * head * ex},
+                                 {neck[0] + 0.45 * head * ey, neck[1] - 0.45 * head * ex}},
+                                colour});
 }
 
 // its ends, as long as a share of the body
@@ -132,21 +147,23 @@ void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const
     for (const auto& [radius, colour] : {std::pair{5.5, Colour{1, 1, 1}}, {4.0, vermilion}}) {
       std::vector<PagePoint> round;
       for (int k = 0; k < 20; ++k)
-        round.push_back(
-            {at[0] + radius * std::cos(k * std::numbers::pi / 10), at[1] + radius * std::sin(k * std::numbers::pi / 10)});
+        round.push_back({at[0] + radius * std::cos(k * std::numbers::pi / 10),
+                         at[1] + radius * std::sin(k * std::numbers::pi / 10)});
       drawing.marks.push_back(Patch{round, colour});
     }
     // black on white, so that it is read on any ground
-    drawing.marks.push_back(Patch{{{at[0] + 6, at[1] - 6},
-                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
-                                   {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 24},
-                                   {at[0] + 6, at[1] - 24}},
-                                  Colour{1, 1, 1}});
+    drawing.marks.push_back(
+        Patch{{{at[0] + 6, at[1] - 6},
+               {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
+               {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 24},
+               {at[0] + 6, at[1] - 24}},
+              Colour{1, 1, 1}});
     drawing.marks.push_back(Label{{at[0] + 8, at[1] - 9}, name, 16});
   }
 }
 
-void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page, double size) {
+void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page,
+                 double size) {
   for (const Action& action : scene.actions) {
     const Colour& colour = action.moves ? vermilion : blue;
     Vec3 end = Vec3::Zero();  // of the arrow nearest to the eye: there it says what
@@ -174,8 +191,10 @@ void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, cons
 std::vector<Complaint> RenderChoice::complaints() const {
   std::vector<Complaint> found;
   if (field && !is_field(line_of(*field)))
-    found.push_back({"field", line_of(*field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
-  if (range && !((*range)[0] < (*range)[1])) found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
+    found.push_back(
+        {"field", line_of(*field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
+  if (range && !((*range)[0] < (*range)[1]))
+    found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
   return found;
 }
 
@@ -200,7 +219,8 @@ namespace {
 std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
   std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
   for (const Cut& cut : cuts) {
-    if (mesh.section && cut.axis == CutNormal::z) continue;  // it lies in such a plane: a cut beside it would leave nothing
+    if (mesh.section && cut.axis == CutNormal::z)
+      continue;  // it lies in such a plane: a cut beside it would leave nothing
     for (int e = 0; e < mesh.n_cells(); ++e) {
       const double centre = element_nodes(mesh, e).col(static_cast<int>(cut.axis)).mean();
       if ((centre > cut.at) != (cut.keep == Side::above)) kept[e] = false;
@@ -213,7 +233,9 @@ std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
 OpenedOutline opened(const Outline& outline, const std::vector<Cut>& cuts) {
   for (const Cut& cut : cuts) {
     const int axis = static_cast<int>(cut.axis);
-    const auto below = [&](const Vec3& x) { return x[axis] < cut.at; };
+    const auto below = [&](const Vec3& x) {
+      return x[axis] < cut.at;
+    };
     const auto n = std::count_if(outline.points.begin(), outline.points.end(), below);
     if (n > 0 && n < static_cast<std::ptrdiff_t>(outline.points.size()))
       return cut_open(outline, axis, cut.at, cut.keep == Side::above ? 1 : -1);
@@ -233,7 +255,8 @@ struct Seen {
   std::vector<std::array<int, 2>> outline;  // of the undeformed body
   Eigen::AlignedBox3d box;
   double extent = 1;
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();  // of the field
+  double low = std::numeric_limits<double>::infinity(),
+         high = -std::numeric_limits<double>::infinity();  // of the field
   bool coloured = false;
 };
 
@@ -248,7 +271,8 @@ void look_at_indenters(const RenderScene& scene, const RenderChoice& choice, See
 Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
   const Mesh& mesh = scene.mesh;
   Seen seen;
-  const Mat3& R = seen.R = eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
+  const Mat3& R = seen.R =
+      eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
   std::vector<Vec3> x;
   for (const Vec3& place : scene.x) x.push_back(R * place);
   for (const auto& nodes : outer_surface(mesh, cells_kept(mesh, choice.cuts))) {
@@ -256,12 +280,16 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
     for (const Vec3& c : corners) seen.box.extend(c);
     if (normal_of(corners)[2] <= 0) continue;
     if (!scene.values.empty())
-      for (int node : nodes) seen.low = std::min(seen.low, scene.values[node]), seen.high = std::max(seen.high, scene.values[node]);
+      for (int node : nodes)
+        seen.low = std::min(seen.low, scene.values[node]),
+        seen.high = std::max(seen.high, scene.values[node]);
     seen.quads.push_back({nodes, corners});
   }
   look_at_indenters(scene, choice, seen);
   if (choice.outline) {
-    seen.outline = sharp_edges(outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true)), mesh.X);
+    seen.outline = sharp_edges(
+        outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true)),
+        mesh.X);
     for (const auto& edge : seen.outline)
       for (int node : edge) seen.box.extend(Vec3(R * mesh.X[node]));
   }
@@ -269,22 +297,28 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
   for (const Action& action : scene.actions)
     for (const Vec3& at : action.at) {
       const auto [from, to] = arrow_of(action, at, seen.extent);
-      const Vec3 far = R * Vec3(action.moves ? to : from), label(0.11 * seen.extent, 0.04 * seen.extent, 0);
+      const Vec3 far = R * Vec3(action.moves ? to : from),
+                 label(0.11 * seen.extent, 0.04 * seen.extent, 0);
       seen.box.extend(far), seen.box.extend(far + label), seen.box.extend(far - label);
     }
   if (choice.range) seen.low = (*choice.range)[0], seen.high = (*choice.range)[1];
-  seen.coloured = !scene.values.empty() && seen.low <= seen.high;  // nothing to be seen, no colour bar
+  seen.coloured =
+      !scene.values.empty() && seen.low <= seen.high;  // nothing to be seen, no colour bar
   if (!(seen.high - seen.low > 1e-12 * std::max(std::abs(seen.low), std::abs(seen.high))))
     seen.low -= 0.5, seen.high += 0.5;  // one value everywhere
   return seen;
 }
 
-void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, ColourMap colours, std::vector<Item>& items) {
-  const int m = std::clamp(static_cast<int>(std::sqrt(most_patches / std::max<double>(1, seen.quads.size()))), 1, 6);
+void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, ColourMap colours,
+                std::vector<Item>& items) {
+  const int m = std::clamp(
+      static_cast<int>(std::sqrt(most_patches / std::max<double>(1, seen.quads.size()))), 1, 6);
   for (const Seen::Quad& quad : seen.quads) {
     Item item{mean_depth(quad.corners), {}};
     const double s = shade(normal_of(quad.corners));
-    const auto weights = [](double p, double q) { return std::array{(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q}; };
+    const auto weights = [](double p, double q) {
+      return std::array{(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
+    };
     const auto at = [&](double p, double q) {
       const auto N = weights(p, q);
       Vec3 x = Vec3::Zero();
@@ -298,12 +332,15 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, Co
       for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
       return shaded(scale_colour((value - seen.low) / (seen.high - seen.low), colours), s);
     };
-    // below the parts of a quad the quad itself, so that the page does not shine through between them
+    // below the parts of a quad the quad itself, so that the page does not shine through between
+    // them
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
     for (int i = 0; i < m && m > 1 && seen.coloured; ++i)
       for (int j = 0; j < m; ++j) {
-        const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m, q1 = double(j + 1) / m;
-        item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)}, colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
+        const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m,
+                     q1 = double(j + 1) / m;
+        item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)},
+                                   colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
       }
     item.marks.push_back(Stroke{{at(0, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0)}, ink, 0.7, 0.8});
     items.push_back(std::move(item));
@@ -324,14 +361,17 @@ void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector
   for (const auto& face : indenter.kept.faces) {
     const std::vector<Vec3> corners = at(indenter.kept, face);
     const Vec3 n = normal_of(corners);
-    if (n[2] > 0) items.push_back({mean_depth(corners), {Patch{on_page(corners), shaded(steel, 0.35 + 0.65 * light(n)), 0.5}}});
+    if (n[2] > 0)
+      items.push_back({mean_depth(corners),
+                       {Patch{on_page(corners), shaded(steel, 0.35 + 0.65 * light(n)), 0.5}}});
   }
   for (const auto& face : indenter.cap.faces) {
     const std::vector<Vec3> corners = at(indenter.cap, face);
     if (normal_of(corners)[2] <= 0) continue;
     std::vector<PagePoint> border = on_page(corners);
     border.push_back(border.front());
-    items.push_back({mean_depth(corners), {Patch{border, Colour{0.88, 0.89, 0.91}}, Stroke{border, ink, 0.8}}});
+    items.push_back(
+        {mean_depth(corners), {Patch{border, Colour{0.88, 0.89, 0.91}}, Stroke{border, ink, 0.8}}});
   }
   for (const auto& line : indenter.kept.lines) {
     const std::vector<Vec3> points = at(indenter.kept, line);
@@ -344,14 +384,16 @@ void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector
 Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look) {
   const Seen seen = look_at(scene, choice);
   const bool titled = look.titles && !choice.title.empty();
-  const double title_room = titled ? 40 : 0, page_width = look.width.value_or(960), bar_room = page_width < 500 ? 118 : 150;
+  const double title_room = titled ? 40 : 0, page_width = look.width.value_or(960),
+               bar_room = page_width < 500 ? 118 : 150;
   const double room = page_width - bar_room - 2 * margin, tallest = page_width / 1.5;
   const Vec3 size = seen.box.isEmpty() ? Vec3(1, 1, 1) : Vec3(seen.box.sizes());
   Page page;
   page.scale = std::min(room / size[0], tallest / size[1]);
   Drawing drawing;
   drawing.width = page_width;
-  drawing.height = std::round(std::max(std::min(400.0, 0.8 * page_width), page.scale * size[1] + 2 * margin + title_room));
+  drawing.height = std::round(
+      std::max(std::min(400.0, 0.8 * page_width), page.scale * size[1] + 2 * margin + title_room));
   const Vec3 middle = seen.box.isEmpty() ? Vec3(0, 0, 0) : Vec3(seen.box.center());
   page.left = margin + room / 2 - page.scale * middle[0];
   page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
@@ -359,16 +401,27 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look&
   std::vector<Item> items;
   paint_body(scene, seen, page, look.colours, items);
   for (const OpenedOutline& indenter : seen.indenters) paint_indenter(indenter, page, items);
-  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
-  for (Item& item : items) std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Item& a, const Item& b) { return a.depth < b.depth; });
+  for (Item& item : items)
+    std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
   for (const auto& edge : seen.outline)
-    drawing.marks.push_back(Stroke{{page(seen.R * scene.mesh.X[edge[0]]), page(seen.R * scene.mesh.X[edge[1]])}, grey, 1.3});
+    drawing.marks.push_back(Stroke{
+        {page(seen.R * scene.mesh.X[edge[0]]), page(seen.R * scene.mesh.X[edge[1]])}, grey, 1.3});
   add_actions(drawing, scene, seen.R, page, seen.extent);
   add_points(drawing, scene, seen.R, page);
-  if (seen.coloured) add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label, bar_room, look.colours);
+  if (seen.coloured)
+    add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label, bar_room, look.colours);
   add_axes(drawing, seen.R, bar_room);
   if (titled)
-    drawing.marks.push_back(Label{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle, false, false, 0, true});
+    drawing.marks.push_back(Label{{page_width / 2, margin + 12},
+                                  choice.title,
+                                  17,
+                                  Label::Anchor::middle,
+                                  false,
+                                  false,
+                                  0,
+                                  true});
   return drawing;
 }
 

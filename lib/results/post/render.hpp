@@ -1,5 +1,6 @@
-// A picture of the deformed body: its outer surface in orthographic projection, coloured by a field, with colour bar,
-// axes and the rigid indenters. Painted from back to front; made without a display.
+// A picture of the deformed body: its outer surface in orthographic projection, coloured by a
+// field, with colour bar, axes and the rigid indenters. Painted from back to front; made without a
+// display.
 //   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
 //   outline  the edges of the undeformed body; points  named places, with their names; actions  what holds and moves the body
 //   cuts  only the cells on one side of each plane are shown; the first plane that meets an indenter cuts it too
@@ -44,17 +45,23 @@ struct RenderChoice {
   bool outline = false, actions = false;
   std::string title;
   static void fields(auto& v) {
-    v(&RenderChoice::field, "field", unit::none, "quantity of nodes or points that colours the surface; none: the mesh alone");
-    v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1", at_least(1));
-    v(&RenderChoice::step, "step", unit::none, "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
-    v(&RenderChoice::view, "view", unit::deg, "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0",
+    v(&RenderChoice::field, "field", unit::none,
+      "quantity of nodes or points that colours the surface; none: the mesh alone");
+    v(&RenderChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1",
+      at_least(1));
+    v(&RenderChoice::step, "step", unit::none,
+      "which state: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
+    v(&RenderChoice::view, "view", unit::deg,
+      "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0",
       between(-360, 360));
-    v(&RenderChoice::cuts, "cuts", unit::none, "planes; the cells on one side of each are left out");
+    v(&RenderChoice::cuts, "cuts", unit::none,
+      "planes; the cells on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");
     v(&RenderChoice::points, "points", unit::none, "observation points that are marked and named");
     v(&RenderChoice::outline, "outline", unit::none, "draw the edges of the undeformed body");
-    v(&RenderChoice::actions, "actions", unit::none, "draw supports and imposed displacements with what they impose");
+    v(&RenderChoice::actions, "actions", unit::none,
+      "draw supports and imposed displacements with what they impose");
     v(&RenderChoice::title, "title", unit::none, "above the picture");
   }
   std::vector<Complaint> complaints() const;
@@ -70,10 +77,10 @@ struct Action {
 
 struct RenderScene {
   const Mesh& mesh;
-  std::vector<Vec3> x;                                    // deformed positions (n) [mm]
-  std::vector<double> values;                             // of the field (n); empty without one
-  std::string label;                                      // of the colour bar, with unit; enhanced text
-  std::vector<Outline> indenters;                         // where they are now
+  std::vector<Vec3> x;             // deformed positions (n) [mm]
+  std::vector<double> values;      // of the field (n); empty without one
+  std::string label;               // of the colour bar, with unit; enhanced text
+  std::vector<Outline> indenters;  // where they are now
   std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
   std::vector<Action> actions = {};
 };

@@ -9,11 +9,16 @@ std::optional<StepChoice> parse_step(const std::string& text) {
   StepChoice choice;
   if (text == "last") return choice;
   const char *begin = text.data(), *end = begin + text.size();
-  const auto whole = [&](const auto& read) { return read.ec == std::errc{} && read.ptr == end; };
-  for (const auto& [word, by] : {std::pair{std::string("t="), StepChoice::By::t}, {"u_ind=", StepChoice::By::u_ind}}) {
+  const auto whole = [&](const auto& read) {
+    return read.ec == std::errc{} && read.ptr == end;
+  };
+  for (const auto& [word, by] :
+       {std::pair{std::string("t="), StepChoice::By::t}, {"u_ind=", StepChoice::By::u_ind}}) {
     if (!text.starts_with(word)) continue;
     choice.by = by;
-    if (whole(std::from_chars(begin + word.size(), end, choice.value)) && std::isfinite(choice.value)) return choice;
+    if (whole(std::from_chars(begin + word.size(), end, choice.value)) &&
+        std::isfinite(choice.value))
+      return choice;
     return {};
   }
   choice.by = StepChoice::By::row;
@@ -21,7 +26,8 @@ std::optional<StepChoice> parse_step(const std::string& text) {
   return {};
 }
 
-int row_of(const StepChoice& choice, const std::vector<double>& t, const std::vector<double>& u_ind) {
+int row_of(const StepChoice& choice, const std::vector<double>& t,
+           const std::vector<double>& u_ind) {
   const int n = static_cast<int>(t.size());
   if (choice.by == StepChoice::By::last) return n - 1;
   if (choice.by == StepChoice::By::row) return choice.row < n ? choice.row : -1;
@@ -32,9 +38,11 @@ int row_of(const StepChoice& choice, const std::vector<double>& t, const std::ve
   return -1;
 }
 
-bool is_exact(const StepChoice& choice, int row, const std::vector<double>& t, const std::vector<double>& u_ind) {
+bool is_exact(const StepChoice& choice, int row, const std::vector<double>& t,
+              const std::vector<double>& u_ind) {
   if (choice.by == StepChoice::By::last || choice.by == StepChoice::By::row) return row >= 0;
-  return row >= 0 && std::abs((choice.by == StepChoice::By::t ? t : u_ind)[row] - choice.value) <= 1e-9;
+  return row >= 0 &&
+         std::abs((choice.by == StepChoice::By::t ? t : u_ind)[row] - choice.value) <= 1e-9;
 }
 
 }  // namespace langer

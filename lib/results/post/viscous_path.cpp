@@ -3,7 +3,8 @@
 namespace langer {
 
 ViscousPath::ViscousPath(const Body& body)
-    : points_(body.materials(), body.mesh().body, body.mesh().n_cells(), body.mesh().cell().n_gauss),
+    : points_(body.materials(), body.mesh().body, body.mesh().n_cells(),
+              body.mesh().cell().n_gauss),
       u_(body.mesh().X.size(), Vec3::Zero()) {}
 
 void ViscousPath::add(const Body& body, double time, const std::vector<Vec3>& u) {

@@ -1,4 +1,5 @@
-// The branch stresses of a viscous body's states, from the displacements of its steps one after another (element/viscous_points.hpp).
+// The branch stresses of a viscous body's states, from the displacements of its steps one after
+// another (element/viscous_points.hpp).
 #pragma once
 
 #include "results/post/nodal_fields.hpp"

@@ -21,7 +21,8 @@ std::string csv_name(const std::string& name, const std::string& unit) {
 }
 
 std::string csv_cell(const std::string& text) {
-  const bool blank = !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '#');
+  const bool blank =
+      !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '#');
   if (!blank && text.find_first_of(",;\"\n\r\t") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -33,14 +34,20 @@ std::string csv(const std::vector<Column>& columns) {
   const std::size_t rows = columns.empty() ? 0 : columns[0].values.size();
   for (const Column& c : columns) {
     if (c.values.size() != rows)
-      throw Failure(Exit::bug, Error{{}, c.name, fmt::format("{} values", c.values.size()), fmt::format("{} rows", rows), ""});
+      throw Failure(Exit::bug, Error{{},
+                                     c.name,
+                                     fmt::format("{} values", c.values.size()),
+                                     fmt::format("{} rows", rows),
+                                     ""});
     text += (text.empty() ? "" : ",") + csv_cell(csv_name(c.name, c.unit));
   }
   text += "\n";
   for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t c = 0; c < columns.size(); ++c)  // shortest digits that read back as the same number
-      text += fmt::format("{}{}", std::isnan(columns[c].values[i]) ? "" : fmt::format("{}", columns[c].values[i]),
-                          c + 1 < columns.size() ? "," : "\n");
+    for (std::size_t c = 0; c < columns.size();
+         ++c)  // shortest digits that read back as the same number
+      text += fmt::format(
+          "{}{}", std::isnan(columns[c].values[i]) ? "" : fmt::format("{}", columns[c].values[i]),
+          c + 1 < columns.size() ? "," : "\n");
   return text;
 }
 
@@ -77,13 +84,22 @@ void write_map(const h5::Group& group, const SurfaceMap& map) {
   group.write<double>("fibres", {map.fibres.size(), 2}, flat<double>(map.fibres), "-");
   std::string names;
   std::vector<std::array<double, 2>> points;
-  for (const auto& [name, at] : map.points) names += (names.empty() ? "" : " ") + name, points.push_back(at);
+  for (const auto& [name, at] : map.points)
+    names += (names.empty() ? "" : " ") + name, points.push_back(at);
   group.write<double>("points", {points.size(), 2}, flat<double>(points), "mm");
   group.annotate("points", "names", names);
 }
 
 SurfaceMap read_map(const h5::Group& group, const std::string& name) {
-  SurfaceMap map{name, group.annotation("values", "label"), group.unit("values"), group.read_scalar("t"), {}, {}, {}, {}, {}};
+  SurfaceMap map{name,
+                 group.annotation("values", "label"),
+                 group.unit("values"),
+                 group.read_scalar("t"),
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
   need_known_unit(group, "values");
   for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
   map.values = group.read_finite("values", {h5::any});
@@ -92,7 +108,8 @@ SurfaceMap read_map(const h5::Group& group, const std::string& name) {
   map.facets = rows_of<int, 4>(group.read<std::int64_t>("facets", {h5::any, 4}).values);
   for (const auto& facet : map.facets)
     for (int node : facet)
-      if (node < 0 || node >= static_cast<int>(n)) group.refuse("facets", fmt::format("node {}", node), "a node of the map");
+      if (node < 0 || node >= static_cast<int>(n))
+        group.refuse("facets", fmt::format("node {}", node), "a node of the map");
   map.fibres = rows_of<double, 2>(group.read_finite("fibres", {h5::any, 2}));
   if (!map.fibres.empty() && map.fibres.size() != map.facets.size())
     group.refuse("fibres", fmt::format("{} rows", map.fibres.size()), "one for each facet");
@@ -107,10 +124,13 @@ SurfaceMap read_map(const h5::Group& group, const std::string& name) {
 }  // namespace
 
 void write_curves(const std::string& path, const Curves& all, const Identity& identity) {
-  if (!all.columns.empty()) write_text_file(std::filesystem::path(path).replace_extension(".csv").string(), csv(all.columns));
+  if (!all.columns.empty())
+    write_text_file(std::filesystem::path(path).replace_extension(".csv").string(),
+                    csv(all.columns));
   h5::File file = h5::File::create(path);
   write_identity(file.root(), curves_schema, identity);
-  const h5::Group curves = file.root().make_group("curves"), columns = file.root().make_group("columns");
+  const h5::Group curves = file.root().make_group("curves"),
+                  columns = file.root().make_group("columns");
   for (const NamedCurve& c : all.curves) {
     const h5::Group one = curves.make_group(c.name);
     one.write<double>("x", {c.x.size()}, c.x, c.x_unit);
@@ -139,7 +159,13 @@ CurvesFile read_curves(const std::string& path) {
   const h5::Group curves = file.root().group("curves"), columns = file.root().group("columns");
   for (const std::string& name : curves.groups()) {
     const h5::Group one = curves.group(name);
-    NamedCurve c{name, one.annotation("x", "label"), one.unit("x"), one.annotation("y", "label"), one.unit("y"), {}, {}};
+    NamedCurve c{name,
+                 one.annotation("x", "label"),
+                 one.unit("x"),
+                 one.annotation("y", "label"),
+                 one.unit("y"),
+                 {},
+                 {}};
     for (const char* axis : {"x", "y"}) need_known_unit(one, axis);
     c.x = one.read<double>("x", {h5::any}).values;
     c.y = one.read<double>("y", {c.x.size()}).values;
@@ -155,7 +181,8 @@ CurvesFile read_curves(const std::string& path) {
   }
   if (file.root().has("maps")) {
     const h5::Group maps = file.root().group("maps");
-    for (const std::string& name : maps.groups()) result.curves.maps.push_back(read_map(maps.group(name), name));
+    for (const std::string& name : maps.groups())
+      result.curves.maps.push_back(read_map(maps.group(name), name));
   }
   result.curves.summary = read_summary(file.root());
   return result;

@@ -1,5 +1,6 @@
-// curves.h5: named curves, a table of columns, maps of the surface and a summary; table and maps also as CSV beside it.
-// CSV columns are called name_unit (name alone for pure numbers); what is not a number is an empty cell. docs/schema.md
+// curves.h5: named curves, a table of columns, maps of the surface and a summary; table and maps
+// also as CSV beside it. CSV columns are called name_unit (name alone for pure numbers); what is
+// not a number is an empty cell. docs/schema.md
 #pragma once
 
 #include <array>
@@ -29,11 +30,11 @@ using PlanePoint = std::array<double, 2>;  // x, z
 // A field on a part of the surface in one state, seen from above: x to the right, z downwards.
 struct SurfaceMap {
   std::string name, label, unit;
-  double t = 0;                              // of the state
-  std::vector<PlanePoint> places;            // x, z of the nodes, undeformed [mm]
-  std::vector<double> values;                // at the nodes
-  std::vector<std::array<int, 4>> facets;    // corners, in order round
-  std::vector<PlanePoint> fibres;            // x, z of the first family's direction in each facet's cell
+  double t = 0;                            // of the state
+  std::vector<PlanePoint> places;          // x, z of the nodes, undeformed [mm]
+  std::vector<double> values;              // at the nodes
+  std::vector<std::array<int, 4>> facets;  // corners, in order round
+  std::vector<PlanePoint> fibres;  // x, z of the first family's direction in each facet's cell
   std::map<std::string, PlanePoint> points;  // named places
 };
 
@@ -53,9 +54,10 @@ struct CurvesFile {
 };
 CurvesFile read_curves(const std::string& path);
 
-std::string csv_name(const std::string& name, const std::string& unit);  // "1/MPa" becomes per_MPa, "N mm" N_mm
-std::string csv_cell(
-    const std::string& text);  // between quotes where it holds a comma, a quote, a semicolon, a line's end or outer blanks
+std::string csv_name(const std::string& name,
+                     const std::string& unit);  // "1/MPa" becomes per_MPa, "N mm" N_mm
+std::string csv_cell(const std::string& text);  // between quotes where it holds a comma, a quote, a
+                                                // semicolon, a line's end or outer blanks
 std::string csv(const std::vector<Column>& columns);
 std::vector<Column> columns_of(const SurfaceMap& map);  // x, z, value: one row per node
 

@@ -15,13 +15,16 @@ struct Cost {
 };
 
 struct Identity {
-  std::string stage;                          // "mesh", "fit", "solve", ...
-  std::string config;                         // full effective YAML text
-  std::string config_hash;                    // FNV-1a 64 of `config` with input files by name: what they hold is in `inputs`
+  std::string stage;   // "mesh", "fit", "solve", ...
+  std::string config;  // full effective YAML text
+  std::string
+      config_hash;  // FNV-1a 64 of `config` with input files by name: what they hold is in `inputs`
   std::map<std::string, std::string> inputs;  // port -> content id of the input file
   std::string command;                        // command line as typed
-  std::optional<Cost> solution_cost;          // of the solution it is made of, where that took one run from start to end
-  std::string steps_hash;                     // of what in `config` decides whether kept steps are of this task; empty: all of it
+  std::optional<Cost>
+      solution_cost;  // of the solution it is made of, where that took one run from start to end
+  std::string steps_hash;  // of what in `config` decides whether kept steps are of this task;
+                           // empty: all of it
 };
 
 // 16 hex digits of FNV-1a 64

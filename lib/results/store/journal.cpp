@@ -25,13 +25,16 @@ constexpr std::string_view magic = "langer journal 1\n";
 constexpr std::uint64_t header = magic.size() + sizeof(std::uint64_t);
 
 [[noreturn]] void cannot_write(const std::string& path, const char* hint) {
-  throw Failure(Exit::input, Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", hint});
+  throw Failure(
+      Exit::input,
+      Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", hint});
 }
 
 bool read_at(int fd, std::uint64_t at, void* to, std::uint64_t bytes) {
   char* place = static_cast<char*>(to);
   while (bytes > 0) {
-    const ssize_t n = ::pread(fd, place, std::min<std::uint64_t>(bytes, 1u << 30), static_cast<off_t>(at));
+    const ssize_t n =
+        ::pread(fd, place, std::min<std::uint64_t>(bytes, 1u << 30), static_cast<off_t>(at));
     if (n <= 0) return false;
     place += n, at += static_cast<std::uint64_t>(n), bytes -= static_cast<std::uint64_t>(n);
   }
@@ -40,14 +43,17 @@ bool read_at(int fd, std::uint64_t at, void* to, std::uint64_t bytes) {
 
 bool write_at(int fd, std::uint64_t at, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = ::pwrite(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30), static_cast<off_t>(at));
+    const ssize_t n = ::pwrite(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30),
+                               static_cast<off_t>(at));
     if (n <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(n)), at += static_cast<std::uint64_t>(n);
   }
   return true;
 }
 
-std::string_view bytes_of(const std::uint64_t& word) { return {reinterpret_cast<const char*>(&word), sizeof word}; }
+std::string_view bytes_of(const std::uint64_t& word) {
+  return {reinterpret_cast<const char*>(&word), sizeof word};
+}
 
 std::uint64_t size_of(int fd) {
   struct stat file {};
@@ -61,13 +67,16 @@ Journal::Journal(const std::string& path) : path_(path) {
   if (fd_ < 0) cannot_write(path, "does the folder exist, and may it be written?");
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);
-    throw Failure(Exit::input, Error{{path}, "", "is being written by another run", "", "wait for it, or end it"});
+    throw Failure(
+        Exit::input,
+        Error{{path}, "", "is being written by another run", "", "wait for it, or end it"});
   }
   std::string begin(magic.size(), '\0');
   std::uint64_t seed = 0;
   if (size_of(fd_) == 0)
     clear();
-  else if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic && read_at(fd_, magic.size(), &seed, sizeof seed))
+  else if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic &&
+           read_at(fd_, magic.size(), &seed, sizeof seed))
     end_ = header, chain_ = seed;
 }
 
@@ -83,9 +92,11 @@ std::optional<std::string> Journal::next() {
   if (end_ == 0 || !read_at(fd_, end_, &length, sizeof length) || length > size - end_) return {};
   std::string record(length, '\0');
   const std::uint64_t at = end_ + sizeof length;
-  if (!read_at(fd_, at, record.data(), length) || !read_at(fd_, at + length, &sum, sizeof sum)) return {};
+  if (!read_at(fd_, at, record.data(), length) || !read_at(fd_, at + length, &sum, sizeof sum))
+    return {};
   if (sum != checksum(record, chain_)) return {};
-  end_before_ = std::exchange(end_, at + length + sizeof sum), chain_before_ = std::exchange(chain_, sum);
+  end_before_ = std::exchange(end_, at + length + sizeof sum),
+  chain_before_ = std::exchange(chain_, sum);
   return record;
 }
 
@@ -96,7 +107,8 @@ bool Journal::at_end() const { return end_ > 0 && end_ == size_of(fd_); }
 void Journal::clear() {
   std::random_device random;
   chain_ = (static_cast<std::uint64_t>(random()) << 32) ^ random();
-  if (::ftruncate(fd_, 0) != 0 || !write_at(fd_, 0, magic) || !write_at(fd_, magic.size(), bytes_of(chain_)))
+  if (::ftruncate(fd_, 0) != 0 || !write_at(fd_, 0, magic) ||
+      !write_at(fd_, magic.size(), bytes_of(chain_)))
     cannot_write(path_, "is the disk full?");
   end_ = header;
   sync();
@@ -108,11 +120,13 @@ void Journal::append(std::string_view record) {
   const std::uint64_t length = record.size(), sum = checksum(record, chain_);
   const std::uint64_t at = end_ + sizeof length, behind = at + length + sizeof sum;
   // what was damaged goes first, so that nothing of it stands behind the new end
-  if (size_of(fd_) > end_ && ::ftruncate(fd_, static_cast<off_t>(end_)) != 0) cannot_write(path_, "");
-  if (!write_at(fd_, end_, bytes_of(length)) || !write_at(fd_, at, record) || !write_at(fd_, at + length, bytes_of(sum))) {
+  if (size_of(fd_) > end_ && ::ftruncate(fd_, static_cast<off_t>(end_)) != 0)
+    cannot_write(path_, "");
+  if (!write_at(fd_, end_, bytes_of(length)) || !write_at(fd_, at, record) ||
+      !write_at(fd_, at + length, bytes_of(sum))) {
     const int reason = errno;
-    const bool cut =
-        ::ftruncate(fd_, static_cast<off_t>(end_)) == 0;  // not needed to be right: half a record does not fit its checksum
+    const bool cut = ::ftruncate(fd_, static_cast<off_t>(end_)) ==
+                     0;  // not needed to be right: half a record does not fit its checksum
     (void)cut;
     errno = reason;
     cannot_write(path_, "is the disk full?");
@@ -122,7 +136,8 @@ void Journal::append(std::string_view record) {
 }
 
 void Journal::sync() {
-  if (::fdatasync(fd_) != 0 && errno != EINVAL && errno != EROFS) cannot_write(path_, "is the disk full?");
+  if (::fdatasync(fd_) != 0 && errno != EINVAL && errno != EROFS)
+    cannot_write(path_, "is the disk full?");
   synced_ = std::chrono::steady_clock::now();
 }
 

@@ -2,7 +2,8 @@
 //   numbers and switches   scalar datasets with `unit` (bool as 0 or 1)
 //   words and enums        strings
 //   struct, chosen variant group;  lists: groups 0, 1, ...;  an optional that is empty is left out
-// Reading refuses what is missing, not finite, out of the listing's range, or a word the listing does not know.
+// Reading refuses what is missing, not finite, out of the listing's range, or a word the listing
+// does not know.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,8 @@ template <Listed T>
 void read_listing(const h5::Group& group, T& object);
 
 template <class V>
-void write_member(const h5::Group& group, const Member& m, const std::string& name, const V& value) {
+void write_member(const h5::Group& group, const Member& m, const std::string& name,
+                  const V& value) {
   if constexpr (std::is_arithmetic_v<V>)
     group.write_scalar(name, static_cast<double>(value), m.unit);
   else if constexpr (std::is_same_v<V, std::string>)
@@ -32,10 +34,15 @@ void write_member(const h5::Group& group, const Member& m, const std::string& na
     if (value) write_member(group, m, name, *value);
   } else if constexpr (is_choice<V>) {
     const h5::Group choice = is_among_keys<V>(m) ? group : group.make_group(name);
-    std::visit([&](const auto& a) { write_listing(choice.make_group(std::remove_cvref_t<decltype(a)>::key), a); }, value);
+    std::visit(
+        [&](const auto& a) {
+          write_listing(choice.make_group(std::remove_cvref_t<decltype(a)>::key), a);
+        },
+        value);
   } else if constexpr (is_vector<V>) {
     const h5::Group list = group.make_group(name);
-    for (std::size_t i = 0; i < value.size(); ++i) write_member(list, m, std::to_string(i), value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      write_member(list, m, std::to_string(i), value[i]);
   } else
     write_listing(group.make_group(name), value);
 }
@@ -46,7 +53,8 @@ void read_member(const h5::Group& group, const Member& m, const std::string& nam
     const double x = group.read_scalar(name);
     need_unit(group, name, m.unit);
     const Range& r = m.range;
-    if (!std::isfinite(x) || x < r.low || x > r.high || (x == r.low && !r.low_included) || (x == r.high && !r.high_included))
+    if (!std::isfinite(x) || x < r.low || x > r.high || (x == r.low && !r.low_included) ||
+        (x == r.high && !r.high_included))
       group.refuse(name, std::to_string(x), type_words<V>(m));
     value = static_cast<V>(x);
   } else if constexpr (std::is_same_v<V, std::string>)
@@ -72,14 +80,16 @@ void read_member(const h5::Group& group, const Member& m, const std::string& nam
   } else if constexpr (is_vector<V>) {
     const h5::Group list = group.group(name);
     value.clear();
-    for (std::size_t i = 0; list.has(std::to_string(i)); ++i) read_member(list, m, std::to_string(i), value.emplace_back());
+    for (std::size_t i = 0; list.has(std::to_string(i)); ++i)
+      read_member(list, m, std::to_string(i), value.emplace_back());
   } else
     read_listing(group.group(name), value);
 }
 
 template <Listed T>
 void write_listing(const h5::Group& group, const T& object) {
-  for_each_line(object, [&](const Member& m, const auto& value) { write_member(group, m, m.key, value); });
+  for_each_line(object,
+                [&](const Member& m, const auto& value) { write_member(group, m, m.key, value); });
 }
 
 template <Listed T>

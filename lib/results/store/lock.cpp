@@ -21,7 +21,8 @@ namespace {
 std::string this_run(const std::string& command) {
   char host[256] = "";
   gethostname(host, sizeof host - 1);
-  return fmt::format("pid {} on {} since {:%Y-%m-%dT%H:%M:%SZ}: {}\n", getpid(), host, fmt::gmtime(std::time(nullptr)), command);
+  return fmt::format("pid {} on {} since {:%Y-%m-%dT%H:%M:%SZ}: {}\n", getpid(), host,
+                     fmt::gmtime(std::time(nullptr)), command);
 }
 
 std::string content(int fd) {
@@ -35,13 +36,14 @@ std::string content(int fd) {
 bool is_named(int fd, const std::string& path) {
   struct stat opened {
   }, named{};
-  return fstat(fd, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
+  return fstat(fd, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
 }  // namespace
 
-OutputLock::OutputLock(const std::string& output, const std::string& command) : path_(output + ".lock") {
+OutputLock::OutputLock(const std::string& output, const std::string& command)
+    : path_(output + ".lock") {
   while (true) {
     fd_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (fd_ < 0)
@@ -54,11 +56,12 @@ OutputLock::OutputLock(const std::string& output, const std::string& command) : 
       if (errno != EWOULDBLOCK) return;  // a file system without locks
       const std::string holder = content(fd_);
       close(fd_);
-      throw Failure(Exit::input, Error{{output},
-                                       "",
-                                       "is being written by another run" + (holder.empty() ? "" : ", " + holder),
-                                       "",
-                                       "wait for it, or end it"});
+      throw Failure(Exit::input,
+                    Error{{output},
+                          "",
+                          "is being written by another run" + (holder.empty() ? "" : ", " + holder),
+                          "",
+                          "wait for it, or end it"});
     }
     if (is_named(fd_, path_)) break;
     close(fd_);

@@ -4,10 +4,10 @@
 #include <limits>
 #include <sstream>
 
-#include "results/store/vtk_grid.hpp"
 #include "results/store/listing.hpp"
 #include "results/store/matrices.hpp"
 #include "results/store/provenance.hpp"
+#include "results/store/vtk_grid.hpp"
 
 namespace langer {
 
@@ -21,15 +21,19 @@ MatX read_matrix(const h5::Group& group, const std::string& name, const h5::Shap
 }
 
 void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
-  for (const auto& [name, value] :
-       {std::pair{"fitted", s.fitted}, {"allowed", s.allowed}, {"least", s.least}, {"taken", s.taken}, {"noise", s.noise}})
+  for (const auto& [name, value] : {std::pair{"fitted", s.fitted},
+                                    {"allowed", s.allowed},
+                                    {"least", s.least},
+                                    {"taken", s.taken},
+                                    {"noise", s.noise}})
     group.write_scalar(name, value, "MPa");
   group.write_scalar("error_before", s.error_before, "percent");
   group.write_scalar("error_after", s.error_after, "percent");
   group.attribute("key", s.key);
 }
 
-void check_units(const h5::Group& group, std::initializer_list<std::pair<const char*, const char*>> units) {
+void check_units(const h5::Group& group,
+                 std::initializer_list<std::pair<const char*, const char*>> units) {
   for (const auto& [name, unit] : units) need_unit(group, name, unit);
 }
 
@@ -41,8 +45,11 @@ StiffnessAtRest read_at_rest(const h5::Group& group) {
                       {"noise", "MPa"},
                       {"error_before", "percent"},
                       {"error_after", "percent"}});
-  const auto value = [&](const char* name) { return group.read_scalar(name); };
-  return {value("fitted"),       value("allowed"),    value("least"), value("taken"), value("noise"), group.text_attribute("key"),
+  const auto value = [&](const char* name) {
+    return group.read_scalar(name);
+  };
+  return {value("fitted"),       value("allowed"),    value("least"),
+          value("taken"),        value("noise"),      group.text_attribute("key"),
           value("error_before"), value("error_after")};
 }
 
@@ -56,7 +63,9 @@ void write_parameters(const h5::Group& group, const std::vector<FittedParameter>
     one.write_scalar("upper", p.upper, p.unit);
     one.write_scalar("standard_error", p.standard_error, p.unit);
     one.write_scalar("interval_factor", p.factor);
-    if (!std::isnan(p.low)) one.write_scalar("interval_low", p.low, p.unit), one.write_scalar("interval_high", p.high, p.unit);
+    if (!std::isnan(p.low))
+      one.write_scalar("interval_low", p.low, p.unit),
+          one.write_scalar("interval_high", p.high, p.unit);
     if (std::isfinite(p.truth)) one.write_scalar("truth", p.truth, p.unit);
     if (!p.key.empty()) one.attribute("key", p.key);
     order += (order.empty() ? "" : " ") + p.name;
@@ -100,7 +109,8 @@ void write_curves_of_scenes(const h5::Group& root, const std::vector<FittedCurve
     write_vector(one, "x", curve.x, curve.x_unit);
     write_vector(one, "measured", curve.measured, curve.unit);
     write_vector(one, "model", curve.model, curve.unit);
-    if (!curve.places.empty()) one.write<double>("place", {curve.places.size(), 3}, flat(curve.places), "mm");
+    if (!curve.places.empty())
+      one.write<double>("place", {curve.places.size(), 3}, flat(curve.places), "mm");
     one.write_scalar("r2", curve.r2);
     one.write_scalar("mean_error", curve.mean_error_percent, "percent");
     one.write_scalar("max_error", curve.max_error_percent, "percent");
@@ -130,10 +140,13 @@ std::vector<FittedCurve> read_curves_of_scenes(const h5::Group& root) {
     curve.model = one.read_finite("model", {curve.x.size()});
     if (one.has("place")) {
       const std::vector<double> all = one.read_finite("place", {curve.x.size(), 3});
-      for (std::size_t k = 0; k < all.size(); k += 3) curve.places.push_back({all[k], all[k + 1], all[k + 2]});
+      for (std::size_t k = 0; k < all.size(); k += 3)
+        curve.places.push_back({all[k], all[k + 1], all[k + 2]});
     }
-    curve.r2 = one.read_scalar("r2"), curve.discretisation_percent = one.read_scalar("discretisation_error");
-    curve.mean_error_percent = one.read_scalar("mean_error"), curve.max_error_percent = one.read_scalar("max_error");
+    curve.r2 = one.read_scalar("r2"),
+    curve.discretisation_percent = one.read_scalar("discretisation_error");
+    curve.mean_error_percent = one.read_scalar("mean_error"),
+    curve.max_error_percent = one.read_scalar("max_error");
     fitted.push_back(std::move(curve));
   }
   return fitted;
@@ -143,11 +156,16 @@ std::vector<Summary> summary_of(const FitRecord& fit) {
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   if (!fit.curves.empty())
-    for (const FittedParameter& p : fit.parameters) summary.push_back({p.name + "_standard_error", p.standard_error, p.unit});
+    for (const FittedParameter& p : fit.parameters)
+      summary.push_back({p.name + "_standard_error", p.standard_error, p.unit});
   for (const FittedCurve& c : fit.curves) {  // root mean square of what is missed
     double square = 0;
-    for (std::size_t i = 0; i < c.model.size(); ++i) square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
-    summary.push_back({c.name + "_rms", std::sqrt(square / static_cast<double>(std::max<std::size_t>(c.model.size(), 1))), c.unit});
+    for (std::size_t i = 0; i < c.model.size(); ++i)
+      square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
+    summary.push_back(
+        {c.name + "_rms",
+         std::sqrt(square / static_cast<double>(std::max<std::size_t>(c.model.size(), 1))),
+         c.unit});
   }
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
   summary.push_back({"max_error", fit.max_error_percent, "percent"});
@@ -171,7 +189,8 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   group.write_scalar("max_error", fit.max_error_percent, "percent");
   group.write<double>("strain_range", {2}, std::vector{fit.strain_min, fit.strain_max}, "-");
   std::vector<double> residual;
-  for (std::size_t i = 0; i < fit.stress.size(); ++i) residual.push_back(fit.model[i] - fit.stress[i]);
+  for (std::size_t i = 0; i < fit.stress.size(); ++i)
+    residual.push_back(fit.model[i] - fit.stress[i]);
   write_vector(group, "residual", residual, "MPa");
   group.write_scalar("r2", fit.r2);
   group.write_scalar("aicc", fit.aicc);
@@ -179,7 +198,8 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   group.write_scalar("residual_correlation", fit.residual_correlation, "-");
   group.write_scalar("effective_values", fit.effective_values, "-");
   std::string ties;
-  for (const Tie& tie : fit.ties) ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
+  for (const Tie& tie : fit.ties)
+    ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
   if (!ties.empty()) group.attribute("ties", ties);
   if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
 
@@ -199,16 +219,31 @@ std::vector<Tie> read_ties(const std::string& text) {
   std::istringstream all(text);
   for (std::string one; std::getline(all, one, ';');) {
     const std::size_t equals = one.find('='), first = one.find_first_not_of(' ');
-    const auto tie = equals == std::string::npos || equals == 0 || first >= equals
-                         ? std::nullopt
-                         : parse_tie(one.substr(first, one.find_last_not_of(' ', equals - 1) + 1 - first), one.substr(equals + 1));
+    const auto tie =
+        equals == std::string::npos || equals == 0 || first >= equals
+            ? std::nullopt
+            : parse_tie(one.substr(first, one.find_last_not_of(' ', equals - 1) + 1 - first),
+                        one.substr(equals + 1));
     if (tie) ties.push_back(*tie);
   }
   return ties;
 }
 
 FittedTest read_test(const h5::Group& one, const std::string& name) {
-  FittedTest test{name, one.text_attribute("kind"), one.text_attribute("measure"), 0, 1, {}, {}, {}, {}, {}, {}, 0, 0, 0};
+  FittedTest test{name,
+                  one.text_attribute("kind"),
+                  one.text_attribute("measure"),
+                  0,
+                  1,
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  0,
+                  0,
+                  0};
   check_units(one, {{"fibre_angle", "deg"},
                     {"first", "-"},
                     {"second", "-"},
@@ -219,8 +254,10 @@ FittedTest read_test(const h5::Group& one, const std::string& name) {
                     {"mean_error", "percent"},
                     {"max_error", "percent"}});
   test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
-  test.first = one.read_finite("first", {h5::any}), test.second = one.read_finite("second", {h5::any});
-  test.stress_x = one.read_finite("stress_x", {test.first.size()}), test.stress_z = one.read_finite("stress_z", {h5::any});
+  test.first = one.read_finite("first", {h5::any}),
+  test.second = one.read_finite("second", {h5::any});
+  test.stress_x = one.read_finite("stress_x", {test.first.size()}),
+  test.stress_z = one.read_finite("stress_z", {h5::any});
   test.model_x = one.read_finite("model_x", {test.first.size()});
   test.model_z = one.read_finite("model_z", {test.stress_z.size()});
   test.r2 = one.read_scalar("r2"), test.mean_error_percent = one.read_scalar("mean_error");
@@ -229,21 +266,29 @@ FittedTest read_test(const h5::Group& one, const std::string& name) {
 }
 
 FitRecord read_fit(const h5::Group& root) {
-  const h5::Group group = root.group("fit"), parameters = group.group("parameters"), curve = root.group("curve");
-  check_units(group, {{"cost", "MPa^2"}, {"mean_error", "percent"}, {"max_error", "percent"}, {"strain_range", "-"}});
+  const h5::Group group = root.group("fit"), parameters = group.group("parameters"),
+                  curve = root.group("curve");
+  check_units(group, {{"cost", "MPa^2"},
+                      {"mean_error", "percent"},
+                      {"max_error", "percent"},
+                      {"strain_range", "-"}});
   check_units(curve, {{"strain", "-"}, {"stress", "MPa"}, {"model", "MPa"}});
   FitRecord fit;
   std::istringstream order(parameters.text_attribute("order"));
   for (std::string name; order >> name;) {
     const h5::Group one = parameters.group(name);
     need_known_unit(one, "value");
-    for (const char* other : {"lower", "upper", "standard_error"}) need_unit(one, other, one.unit("value"));
-    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"), one.read_scalar("lower"), one.read_scalar("upper"),
+    for (const char* other : {"lower", "upper", "standard_error"})
+      need_unit(one, other, one.unit("value"));
+    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"),
+                              one.read_scalar("lower"), one.read_scalar("upper"),
                               one.read_scalar("standard_error")});
     if (one.has("truth")) fit.parameters.back().truth = one.read_scalar("truth");
-    if (one.has("interval_factor")) fit.parameters.back().factor = one.read_scalar("interval_factor");
+    if (one.has("interval_factor"))
+      fit.parameters.back().factor = one.read_scalar("interval_factor");
     if (one.has("interval_low"))
-      fit.parameters.back().low = one.read_scalar("interval_low"), fit.parameters.back().high = one.read_scalar("interval_high");
+      fit.parameters.back().low = one.read_scalar("interval_low"),
+      fit.parameters.back().high = one.read_scalar("interval_high");
     if (one.has_attribute("key")) fit.parameters.back().key = one.text_attribute("key");
   }
   const std::size_t p = fit.parameters.size();
@@ -260,15 +305,18 @@ FitRecord read_fit(const h5::Group& root) {
   fit.model = curve.read_finite("model", {fit.strain.size()});
   fit.curves = read_curves_of_scenes(root);
   if (root.has("identifiability") && root.group("identifiability").has("bootstrap"))
-    fit.sets = read_matrix(root.group("identifiability").group("bootstrap"), "samples", {h5::any, p});
-  fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"), fit.bic = group.read_scalar("bic");
+    fit.sets =
+        read_matrix(root.group("identifiability").group("bootstrap"), "samples", {h5::any, p});
+  fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"),
+  fit.bic = group.read_scalar("bic");
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));
   for (std::string name; names >> name;) {
     fit.tests.push_back(read_test(tests.group(name), name));
   }
   if (group.has("at_rest")) fit.at_rest = read_at_rest(group.group("at_rest"));
-  if (group.has("residual_correlation")) fit.residual_correlation = group.read_scalar("residual_correlation");
+  if (group.has("residual_correlation"))
+    fit.residual_correlation = group.read_scalar("residual_correlation");
   if (group.has("effective_values")) fit.effective_values = group.read_scalar("effective_values");
   if (group.has_attribute("ties")) fit.ties = read_ties(group.text_attribute("ties"));
   fit.study = read_study(root);
@@ -285,7 +333,8 @@ std::array<double, 2> interval_95(const FittedParameter& p) {
 
 MatX correlation(const MatX& covariance) {
   const VecX deviation = covariance.diagonal().cwiseSqrt();
-  MatX r = MatX::Constant(covariance.rows(), covariance.cols(), std::numeric_limits<double>::quiet_NaN());
+  MatX r = MatX::Constant(covariance.rows(), covariance.cols(),
+                          std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     for (Eigen::Index j = 0; j < r.cols(); ++j)
       if (std::isgreater(deviation[i], 0) && std::isgreater(deviation[j], 0))
@@ -293,8 +342,8 @@ MatX correlation(const MatX& covariance) {
   return r;
 }
 
-void write_material(const std::string& path, const Material& material, const std::optional<FitRecord>& fit,
-                    const Identity& identity) {
+void write_material(const std::string& path, const Material& material,
+                    const std::optional<FitRecord>& fit, const Identity& identity) {
   h5::File file = h5::File::create(path);
   write_identity(file.root(), material_schema, identity);
   write_listing(file.root().make_group("material"), material);
@@ -305,7 +354,8 @@ void write_material(const std::string& path, const Material& material, const std
 MaterialFile read_material(const std::string& path) {
   const h5::File file = h5::File::open(path);
   MaterialFile result;
-  result.content_id = content_id(read_identity(file.root(), material_schema), material_schema.version);
+  result.content_id =
+      content_id(read_identity(file.root(), material_schema), material_schema.version);
   read_listing(file.root().group("material"), result.material);
   if (file.root().has("fit")) result.fit = read_fit(file.root());
   return result;

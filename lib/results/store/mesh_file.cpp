@@ -4,7 +4,8 @@
 
 namespace langer {
 
-void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity, const std::vector<Summary>& summary) {
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity,
+                const std::vector<Summary>& summary) {
   h5::File file = h5::File::create(path);
   write_identity(file.root(), schema_of(mesh_schema, mesh), identity);
   write_grid(file.root(), mesh, {1, 0});

@@ -1,4 +1,4 @@
-// mesh.h5: a static VTKHDF file with sets and frames.                                  docs/schema.md
+// mesh.h5: a static VTKHDF file with sets and frames. docs/schema.md
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@
 
 namespace langer {
 
-void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity, const std::vector<Summary>& summary = {});
+void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity,
+                const std::vector<Summary>& summary = {});
 
 struct MeshFile {
   Mesh mesh;
   std::string content_id;
 };
-MeshFile read_mesh(const std::string& path);  // throws Failure(input) with the path and what is wrong
+MeshFile read_mesh(
+    const std::string& path);  // throws Failure(input) with the path and what is wrong
 
 }  // namespace langer

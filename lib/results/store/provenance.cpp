@@ -34,7 +34,8 @@ std::map<std::string, std::string> separated(const std::string& text) {
   std::map<std::string, std::string> inputs;
   std::istringstream in(text);
   for (std::string item; in >> item;)
-    if (const auto equals = item.find('='); equals != std::string::npos) inputs[item.substr(0, equals)] = item.substr(equals + 1);
+    if (const auto equals = item.find('='); equals != std::string::npos)
+      inputs[item.substr(0, equals)] = item.substr(equals + 1);
   return inputs;
 }
 
@@ -47,7 +48,9 @@ void write(const h5::Group& group, const Cost& cost) {
 std::optional<Cost> read_cost(const h5::Group& provenance, const char* name) {
   if (!provenance.has(name)) return {};
   const h5::Group cost = provenance.group(name);
-  const auto number = [&](const char* part) { return cost.read_finite(part, {}).at(0); };
+  const auto number = [&](const char* part) {
+    return cost.read_finite(part, {}).at(0);
+  };
   return Cost{number("cpu"), number("wall"), number("memory")};
 }
 
@@ -57,7 +60,8 @@ std::string code_version() { return fmt::format("{} ({})", version, revision); }
 
 std::string utc_now() {
   std::time_t now = std::time(nullptr);
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
   char text[32] = "";
   std::tm parts{};
   if (gmtime_r(&now, &parts)) std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
@@ -70,7 +74,8 @@ std::string host_name() {
 }
 
 std::string content_id(const Identity& identity, int schema_version) {
-  return fnv1a(fmt::format("{}\n{}\n{}\n{}", identity.stage, schema_version, identity.config_hash, joined(identity.inputs)));
+  return fnv1a(fmt::format("{}\n{}\n{}\n{}", identity.stage, schema_version, identity.config_hash,
+                           joined(identity.inputs)));
 }
 
 void write_identity(const h5::Group& root, const Schema& schema, const Identity& identity) {
@@ -83,14 +88,16 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   const h5::Group provenance = root.make_group("provenance");
   provenance.write_text("config", identity.config);
   provenance.write_text("code_version", code_version());
-  provenance.write_text("libraries", fmt::format("{}; Eigen {}.{}.{}; compiler {}", h5::library(), EIGEN_WORLD_VERSION,
-                                                 EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
+  provenance.write_text("libraries", fmt::format("{}; Eigen {}.{}.{}; compiler {}", h5::library(),
+                                                 EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                                                 EIGEN_MINOR_VERSION, __VERSION__));
   provenance.write_text("created_utc", utc_now());
   provenance.write_text("host", host_name());
   provenance.write_text("command", identity.command);
   if (std::getenv("SOURCE_DATE_EPOCH")) return;
   write(provenance.make_group("cost"), cost_so_far());
-  if (identity.solution_cost) write(provenance.make_group("solution_cost"), *identity.solution_cost);
+  if (identity.solution_cost)
+    write(provenance.make_group("solution_cost"), *identity.solution_cost);
 }
 
 Cost cost_so_far() { return {cpu_seconds(), wall_seconds(), 1e-6 * peak_bytes()}; }
@@ -133,13 +140,18 @@ Origin origin(const h5::Group& root) {
 
 Identity read_identity(const h5::Group& root, const Schema& schema) {
   const Origin found = origin(root);
-  if (found.schema != schema.name || found.version < schema.version || found.version > schema.newest)
-    root.refuse("", fmt::format("schema {}/{}", found.schema, found.version), fmt::format("{}/{}", schema.name, schema.version),
-                found.schema == schema.name ? "written by another version of langer: make it again" : "");
+  if (found.schema != schema.name || found.version < schema.version ||
+      found.version > schema.newest)
+    root.refuse(
+        "", fmt::format("schema {}/{}", found.schema, found.version),
+        fmt::format("{}/{}", schema.name, schema.version),
+        found.schema == schema.name ? "written by another version of langer: make it again" : "");
   return found.identity;
 }
 
-int schema_version(const h5::Group& root) { return static_cast<int>(root.integer_attribute("schema_version")); }
+int schema_version(const h5::Group& root) {
+  return static_cast<int>(root.integer_attribute("schema_version"));
+}
 
 Origin read_origin(const std::string& path) { return origin(h5::File::open(path).root()); }
 

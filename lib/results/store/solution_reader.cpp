@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include "core/hdf5/unit_attribute.hpp"
-#include "results/store/vtk_grid.hpp"
 #include "results/store/listing.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
 #include "results/store/solution_layout.hpp"
+#include "results/store/vtk_grid.hpp"
 
 namespace langer {
 
@@ -20,15 +20,17 @@ namespace {
 
 double one(const h5::Group& group, const std::string& name, std::size_t i) {
   const double value = group.read_rows<double>(name, i, 1, {}).values[0];
-  if (!std::isfinite(value)) group.refuse(name, fmt::format("{} at step {}", value, i), "a finite number");
+  if (!std::isfinite(value))
+    group.refuse(name, fmt::format("{} at step {}", value, i), "a finite number");
   return value;
 }
 
-std::vector<double> finite_rows(const h5::Group& group, const std::string& name, std::size_t first, std::size_t count,
-                                const h5::Shape& row) {
+std::vector<double> finite_rows(const h5::Group& group, const std::string& name, std::size_t first,
+                                std::size_t count, const h5::Shape& row) {
   auto values = group.read_rows<double>(name, first, count, row).values;
   for (double value : values)
-    if (!std::isfinite(value)) group.refuse(name, fmt::format("{} in row {} or after", value, first), "finite numbers");
+    if (!std::isfinite(value))
+      group.refuse(name, fmt::format("{} in row {} or after", value, first), "finite numbers");
   return values;
 }
 
@@ -50,7 +52,8 @@ Directions read_directions(const h5::Group& cells, const SolutionHeader& header)
   }
   Directions directions(true);
   for (std::size_t e = 0; e < n; ++e) {
-    const std::size_t families = angles[angles.size() > 1 ? static_cast<std::size_t>(header.mesh.body[e]) : 0].size();
+    const std::size_t families =
+        angles[angles.size() > 1 ? static_cast<std::size_t>(header.mesh.body[e]) : 0].size();
     if (fibres[e].size() != families)
       cells.refuse("fibre_1", fmt::format("{} directions in cell {}", fibres[e].size(), e),
                    fmt::format("{}, one for each fibre family of its material", families));
@@ -63,7 +66,9 @@ void check_units(const h5::Group& root) {
   const auto units_of = [](const h5::Group& group, auto&& unit) {
     for (const std::string& name : group.datasets()) need_unit(group, name, unit(name));
   };
-  const auto of_list = [](const std::string& name) { return solution::unit_of(name); };
+  const auto of_list = [](const std::string& name) {
+    return solution::unit_of(name);
+  };
   units_of(root.group("history"), of_list);
   units_of(root.group("VTKHDF").group("CellData"), of_list);
   units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) {
@@ -80,7 +85,8 @@ void check_units(const h5::Group& root) {
 
 }  // namespace
 
-SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::File::open(path), {}, {}, 0}) {
+SolutionReader::SolutionReader(const std::string& path)
+    : state_(new State{h5::File::open(path), {}, {}, 0}) {
   const h5::Group root = state_->file.root();
   SolutionHeader& header = state_->header;
   header.identity = read_identity(root, solution_schema);
@@ -90,7 +96,8 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   read_listing(root.group("material"), header.material);
   if (root.has("materials"))
     for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b)
-      read_listing(root.group("materials").group(std::to_string(b)), header.materials.emplace_back());
+      read_listing(root.group("materials").group(std::to_string(b)),
+                   header.materials.emplace_back());
   header.directions = read_directions(root.group("VTKHDF").group("CellData"), header);
   if (root.has("contact")) {
     const h5::Group contacts = root.group("contact");
@@ -111,7 +118,8 @@ SolutionReader::SolutionReader(const std::string& path) : state_(new State{h5::F
   const h5::Shape times = n == 0 ? h5::Shape{0} : root.group("history").shape("t");
   if (times.empty()) root.group("history").refuse("t", "a scalar", "one time for each step");
   const std::int64_t rows = static_cast<std::int64_t>(times[0]);
-  if (n < 0 || n > rows) steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
+  if (n < 0 || n > rows)
+    steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
   state_->n_steps = static_cast<std::size_t>(n);
 }
 
@@ -126,13 +134,19 @@ StepRecord SolutionReader::step(int index) const {
   const std::size_t i = static_cast<std::size_t>(index), n = state_->header.mesh.X.size(),
                     e = static_cast<std::size_t>(state_->header.mesh.n_cells());
   if (index < 0 || i >= state_->n_steps)
-    throw Failure(Exit::bug, Error{{}, "SolutionReader::step", std::to_string(index), fmt::format("0 to {}", n_steps() - 1), ""});
-  const h5::Group root = state_->file.root(), history = root.group("history"), grid = root.group("VTKHDF");
+    throw Failure(Exit::bug, Error{{},
+                                   "SolutionReader::step",
+                                   std::to_string(index),
+                                   fmt::format("0 to {}", n_steps() - 1),
+                                   ""});
+  const h5::Group root = state_->file.root(), history = root.group("history"),
+                  grid = root.group("VTKHDF");
   StepRecord record;
   record.t = one(history, "t", i);
   record.increment = one(history, "increment", i);
   record.residual = one(history, "residual", i);
-  record.iterations = static_cast<int>(history.read_rows<std::int64_t>("iterations", i, 1, {}).values[0]);
+  record.iterations =
+      static_cast<int>(history.read_rows<std::int64_t>("iterations", i, 1, {}).values[0]);
   for (const std::string& name : history.datasets())
     if (!solution::among(solution::histories, name)) record.scalars[name] = one(history, name, i);
 
@@ -140,11 +154,13 @@ StepRecord SolutionReader::step(int index) const {
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
   record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
   for (const std::string& name : points.datasets())
-    if (name != "u" && name != "reaction") record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
+    if (name != "u" && name != "reaction")
+      record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
   for (const std::string& name : cells.datasets())
     if (!solution::is_static(name)) {
       const auto components = static_cast<std::size_t>(solution::components_of(name));
-      record.cell_fields[name] = finite_rows(cells, name, i * e, e, components == 1 ? h5::Shape{} : h5::Shape{components});
+      record.cell_fields[name] =
+          finite_rows(cells, name, i * e, e, components == 1 ? h5::Shape{} : h5::Shape{components});
     }
 
   if (state_->header.contact_nodes.empty()) return record;
@@ -155,8 +171,10 @@ StepRecord SolutionReader::step(int index) const {
     ContactRecord& contact = record.contacts[name];
     contact.r = vectors(finite_rows(group, "r", i, 1, {nodes.size(), 3}));
     contact.gap = finite_rows(group, "gap", i, 1, {nodes.size()});
-    for (std::int64_t status : group.read_rows<std::int64_t>("status", i, 1, {nodes.size()}).values) {
-      if (status < 0 || status > 2) group.refuse("status", std::to_string(status), "0 open, 1 stick or 2 slip");
+    for (std::int64_t status :
+         group.read_rows<std::int64_t>("status", i, 1, {nodes.size()}).values) {
+      if (status < 0 || status > 2)
+        group.refuse("status", std::to_string(status), "0 open, 1 stick or 2 slip");
       contact.status.push_back(static_cast<int>(status));
     }
     if (!group.has("beta")) continue;

@@ -5,18 +5,19 @@
 #include <fmt/format.h>
 
 #include "core/hdf5/seal.hpp"
-#include "results/store/vtk_grid.hpp"
 #include "results/store/listing.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
 #include "results/store/solution_layout.hpp"
 #include "results/store/step_journal.hpp"
+#include "results/store/vtk_grid.hpp"
 #include "results/store/xdmf.hpp"
 
 namespace langer {
 
 struct SolutionWriter::State {
-  State(h5::File f, const SolutionHeader& h, std::string where) : file(std::move(f)), header(h), path(std::move(where)) {}
+  State(h5::File f, const SolutionHeader& h, std::string where)
+      : file(std::move(f)), header(h), path(std::move(where)) {}
   h5::File file;
   SolutionHeader header;
   std::string path;
@@ -36,8 +37,8 @@ namespace {
 constexpr std::size_t history_chunk = 128;  // steps; one chunk holds a usual run
 
 template <class T>
-void extend(const h5::Group& group, const std::string& name, const h5::Shape& row, std::size_t chunk, const std::vector<T>& rows,
-            const std::string& unit = "") {
+void extend(const h5::Group& group, const std::string& name, const h5::Shape& row,
+            std::size_t chunk, const std::vector<T>& rows, const std::string& unit = "") {
   if (!group.has(name)) group.make_extendible<T>(name, row, chunk, unit);
   group.append<T>(name, rows);
 }
@@ -45,14 +46,17 @@ void extend(const h5::Group& group, const std::string& name, const h5::Shape& ro
 void add(const h5::Group& group, const std::string& name, double value, const std::string& unit) {
   extend<double>(group, name, {}, history_chunk, {value}, unit);
 }
-void add(const h5::Group& group, const std::string& name, const Vec3& value, const std::string& unit) {
+void add(const h5::Group& group, const std::string& name, const Vec3& value,
+         const std::string& unit) {
   extend<double>(group, name, {3}, history_chunk, {value[0], value[1], value[2]}, unit);
 }
-void add(const h5::Group& group, const std::string& name, std::int64_t value, const h5::Shape& row = {}) {
+void add(const h5::Group& group, const std::string& name, std::int64_t value,
+         const h5::Shape& row = {}) {
   extend<std::int64_t>(group, name, row, history_chunk, {value});
 }
 
-[[noreturn]] void bug(const std::string& key, const std::string& found, const std::string& expected) {
+[[noreturn]] void bug(const std::string& key, const std::string& found,
+                      const std::string& expected) {
   throw Failure(Exit::bug, Error{{}, "StepRecord." + key, found, expected, ""});
 }
 
@@ -77,19 +81,22 @@ std::string names_of(const auto& map) {
 
 }  // namespace
 
-SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header, const StillGood& still_good) {
+SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header,
+                               const StillGood& still_good) {
   const auto begin = [&] {  // the journal looks first at what is there
     if (state_) return;
     state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header, path);
     state_->begin();
     sync_folder_of(path);
   };
-  auto journal = std::make_unique<StepJournal>(path, header, [&](const StepRecord& step, const EarlierRun& run) {
-    if (still_good && !still_good(step, run)) return false;
-    begin();
-    state_->append(step);
-    return true;
-  });
+  auto journal = std::make_unique<StepJournal>(path, header,
+                                               [&](const StepRecord& step, const EarlierRun& run) {
+                                                 if (still_good && !still_good(step, run))
+                                                   return false;
+                                                 begin();
+                                                 state_->append(step);
+                                                 return true;
+                                               });
   begin();
   state_->journal = std::move(journal);
 }
@@ -99,7 +106,9 @@ SolutionWriter::~SolutionWriter() = default;
 std::optional<StepRecord> SolutionWriter::resumed() const { return state_->last; }
 std::optional<StepRecord> SolutionWriter::before_resumed() const { return state_->before; }
 int SolutionWriter::n_steps() const { return state_->n_steps; }
-const std::vector<EarlierRun>& SolutionWriter::earlier() const { return state_->journal->earlier(); }
+const std::vector<EarlierRun>& SolutionWriter::earlier() const {
+  return state_->journal->earlier();
+}
 
 void SolutionWriter::State::begin() {
   const h5::Group root = file.root();
@@ -120,9 +129,12 @@ void SolutionWriter::State::begin() {
     std::vector<Vec3> directions;  // zero in cells without this family
     for (int e = 0; e < header.mesh.n_cells(); ++e) {
       const auto a = header.directions.of(e);
-      directions.push_back(static_cast<std::size_t>(k) < a.size() ? a[static_cast<std::size_t>(k)] : Vec3(Vec3::Zero()));
+      directions.push_back(static_cast<std::size_t>(k) < a.size() ? a[static_cast<std::size_t>(k)]
+                                                                  : Vec3(Vec3::Zero()));
     }
-    grid.group("CellData").write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions), "-");
+    grid.group("CellData")
+        .write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions),
+                       "-");
   }
   grid.make_group("PointData");
   const h5::Group steps = grid.make_group("Steps");
@@ -131,8 +143,8 @@ void SolutionWriter::State::begin() {
   steps.attribute("NSteps", std::int64_t{0});
   root.make_group("history").make_group("reactions");
   for (const auto& [name, nodes] : header.contact_nodes)
-    root.make_group("contact").make_group(name).write<std::int64_t>("nodes", {nodes.size()},
-                                                                    std::vector<std::int64_t>(nodes.begin(), nodes.end()));
+    root.make_group("contact").make_group(name).write<std::int64_t>(
+        "nodes", {nodes.size()}, std::vector<std::int64_t>(nodes.begin(), nodes.end()));
   for (const auto& [name, triangles] : header.indenter_surfaces)
     write_triangles(root.group("contact").group(name).make_group("surface"), triangles);
   file.flush();
@@ -145,48 +157,59 @@ void SolutionWriter::State::check(const StepRecord& record) const {
   check_finite("u", record.u);
   check_finite("reaction", record.reaction);
   check_finite("u_ind, force_ind, t, increment or residual",
-               std::vector<Vec3>{record.u_ind, record.force_ind, {record.t, record.increment, record.residual}});
+               std::vector<Vec3>{
+                   record.u_ind, record.force_ind, {record.t, record.increment, record.residual}});
   for (const auto& [name, values] : record.point_fields) {
     check_length(name, values.size(), header.mesh.X.size());
     check_finite(name, values);
   }
   for (const auto& [name, values] : record.cell_fields) {
-    check_length(name, values.size(), static_cast<std::size_t>(header.mesh.n_cells() * solution::components_of(name)));
+    check_length(name, values.size(),
+                 static_cast<std::size_t>(header.mesh.n_cells() * solution::components_of(name)));
     check_finite(name, values);
   }
   for (const auto& [name, value] : record.scalars) {
     check_finite(name, std::vector{value});
-    if (solution::among(solution::histories, name)) bug("scalars." + name, "a name of the file's own", "another name");
+    if (solution::among(solution::histories, name))
+      bug("scalars." + name, "a name of the file's own", "another name");
   }
   const auto all_names = [](const StepRecord& r) {
     return names_of(r.point_fields) + names_of(r.cell_fields) + names_of(r.scalars);
   };
   if (last && all_names(record) != all_names(*last))
-    bug("point_fields, cell_fields and scalars", all_names(record), all_names(*last) + "as in the steps before");
+    bug("point_fields, cell_fields and scalars", all_names(record),
+        all_names(*last) + "as in the steps before");
   check_length("contacts", record.contacts.size(), header.contact_nodes.size());
   for (const auto& [name, nodes] : header.contact_nodes) {
     const auto found = record.contacts.find(name);
-    if (found == record.contacts.end()) bug("contacts", "nothing for " + name, "every contact of the header");
+    if (found == record.contacts.end())
+      bug("contacts", "nothing for " + name, "every contact of the header");
     check_length(name + ".r", found->second.r.size(), nodes.size());
     check_length(name + ".status", found->second.status.size(), nodes.size());
     check_length(name + ".gap", found->second.gap.size(), nodes.size());
     check_finite(name + ".r", found->second.r);
     check_finite(name + ".gap", found->second.gap);
     for (int status : found->second.status)
-      if (status < 0 || status > 2) bug(name + ".status", std::to_string(status), "0 open, 1 stick or 2 slip");
+      if (status < 0 || status > 2)
+        bug(name + ".status", std::to_string(status), "0 open, 1 stick or 2 slip");
   }
 }
 
 void SolutionWriter::State::append(const StepRecord& record) {
   check(record);
-  if (journal) journal->append(record);  // from here on the step has been made, whatever becomes of the HDF5 file
+  if (journal)
+    journal->append(
+        record);  // from here on the step has been made, whatever becomes of the HDF5 file
   const h5::Group root = file.root(), grid = root.group("VTKHDF"), history = root.group("history");
   const std::size_t n = header.mesh.X.size(), e = static_cast<std::size_t>(header.mesh.n_cells());
-  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"), steps = grid.group("Steps");
-  const h5::Group point_offsets = steps.group("PointDataOffsets"), cell_offsets = steps.group("CellDataOffsets");
+  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"),
+                  steps = grid.group("Steps");
+  const h5::Group point_offsets = steps.group("PointDataOffsets"),
+                  cell_offsets = steps.group("CellDataOffsets");
   extend<double>(points, "u", {3}, n, flat(record.u), "mm");
   extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
-  for (const char* name : {"u", "reaction"}) add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
+  for (const char* name : {"u", "reaction"})
+    add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
   for (const auto& [name, values] : record.point_fields) {
     extend<double>(points, name, {3}, n, flat(values), "-");
     add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
@@ -194,13 +217,15 @@ void SolutionWriter::State::append(const StepRecord& record) {
   for (const auto& [name, values] : record.cell_fields) {
     const auto components = static_cast<std::size_t>(solution::components_of(name));
     if (components == 9 && n_steps == 0) cells.attribute("Tensors", name);  // as VTK marks them
-    extend<double>(cells, name, components == 1 ? h5::Shape{} : h5::Shape{components}, e, values, solution::unit_of(name));
+    extend<double>(cells, name, components == 1 ? h5::Shape{} : h5::Shape{components}, e, values,
+                   solution::unit_of(name));
     add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
   }
   add(steps, "Values", record.t, "-");
   for (const char* name : {"PartOffsets", "PointOffsets"}) add(steps, name, std::int64_t{0});
   add(steps, "NumberOfParts", std::int64_t{1});
-  for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) add(steps, name, std::int64_t{0}, {1});
+  for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"})
+    add(steps, name, std::int64_t{0}, {1});
   for (const std::string& name : cells.datasets())
     if (solution::is_static(name)) add(cell_offsets, name, std::int64_t{0});
 
@@ -208,7 +233,8 @@ void SolutionWriter::State::append(const StepRecord& record) {
   add(history, "increment", record.increment, "-");
   add(history, "iterations", std::int64_t{record.iterations});
   add(history, "residual", record.residual, "-");
-  for (const auto& [name, value] : record.scalars) add(history, name, value, solution::unit_of(name));
+  for (const auto& [name, value] : record.scalars)
+    add(history, name, value, solution::unit_of(name));
   for (const auto& [name, nodes] : header.mesh.node_sets) {
     Vec3 sum = Vec3::Zero();
     for (int node : nodes) sum += record.reaction[static_cast<std::size_t>(node)];
@@ -243,7 +269,8 @@ void SolutionWriter::State::contact(const StepRecord& record) {
     extend<double>(group, "adhesive", {k, 3}, 1, flat(contact.adhesive), "N");
   }
   for (int s = 0; s < 3; ++s)
-    add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]), counts[s]);
+    add(history, fmt::format("contact_{}", solution::status_words[static_cast<std::size_t>(s)]),
+        counts[s]);
 }
 
 // empty: cells that XDMF does not know, or no step
@@ -252,12 +279,15 @@ std::string SolutionWriter::State::as_xdmf() {
   const h5::Group grid = file.root().group("VTKHDF");
   std::vector<XdmfArray> arrays;
   for (const bool of_cells : {false, true})
-    for (const h5::Group group = grid.group(of_cells ? "CellData" : "PointData"); const std::string& name : group.datasets()) {
+    for (const h5::Group group = grid.group(of_cells ? "CellData" : "PointData");
+         const std::string& name : group.datasets()) {
       const h5::Shape shape = group.shape(name);
       if (name == "body") continue;  // whole numbers, in the mesh
-      arrays.push_back({name, shape.size() > 1 ? static_cast<int>(shape[1]) : 1, of_cells, of_cells && solution::is_static(name)});
+      arrays.push_back({name, shape.size() > 1 ? static_cast<int>(shape[1]) : 1, of_cells,
+                        of_cells && solution::is_static(name)});
     }
-  const auto times = grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
+  const auto times =
+      grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
   return xdmf(header.mesh, std::filesystem::path(path).filename().string(), times, arrays);
 }
 
@@ -269,8 +299,11 @@ void SolutionWriter::say_image_of(const std::string& which) {
 
 namespace {
 // steps that were made by other settings than those of the config in the file
-void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs, const std::string& config) {
-  if (std::all_of(runs.begin(), runs.end(), [&](const EarlierRun& r) { return r.config == config; })) return;
+void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs,
+                   const std::string& config) {
+  if (std::all_of(runs.begin(), runs.end(),
+                  [&](const EarlierRun& r) { return r.config == config; }))
+    return;
   const h5::Group earlier = provenance.make_group("earlier");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const h5::Group one = earlier.make_group(std::to_string(i));
@@ -283,7 +316,8 @@ void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& r
 }
 }  // namespace
 
-void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary, const Histories& found_later) {
+void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary,
+                            const Histories& found_later) {
   const h5::Group history = state_->file.root().group("history");
   for (const auto& [name, values] : found_later) {
     check_length(name, values.size(), static_cast<std::size_t>(n_steps()));

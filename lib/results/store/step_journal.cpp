@@ -37,10 +37,14 @@ class Packer {
     put(map.size());
     for (const auto& [name, value] : map) put(name), put(value);
   }
-  void put(const ContactRecord& c) { put(c.r), put(c.status), put(c.gap), put(c.beta), put(c.bonded_at), put(c.adhesive); }
+  void put(const ContactRecord& c) {
+    put(c.r), put(c.status), put(c.gap), put(c.beta), put(c.bonded_at), put(c.adhesive);
+  }
 
  private:
-  void put_all(const double* values, std::size_t n) { bytes.append(reinterpret_cast<const char*>(values), n * sizeof(double)); }
+  void put_all(const double* values, std::size_t n) {
+    bytes.append(reinterpret_cast<const char*>(values), n * sizeof(double));
+  }
 };
 
 // The other way; what does not fit makes `good` false and the rest empty.
@@ -49,7 +53,9 @@ class Unpacker {
   explicit Unpacker(std::string_view bytes) : rest_(bytes) {}
   bool good = true;
   bool done() const { return good && rest_.empty(); }
-  void get(auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> { copy(&value, sizeof value); }
+  void get(auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> {
+    copy(&value, sizeof value);
+  }
   void get(std::string& text) { text.resize(length(1)), copy(text.data(), text.size()); }
   void get(Vec3& v) { copy(v.data(), 3 * sizeof(double)); }
   template <class T>
@@ -67,7 +73,9 @@ class Unpacker {
       get(name), get(map[name]);
     }
   }
-  void get(ContactRecord& c) { get(c.r), get(c.status), get(c.gap), get(c.beta), get(c.bonded_at), get(c.adhesive); }
+  void get(ContactRecord& c) {
+    get(c.r), get(c.status), get(c.gap), get(c.beta), get(c.bonded_at), get(c.adhesive);
+  }
 
  private:
   std::size_t length(std::size_t of_one) {
@@ -88,8 +96,8 @@ class Unpacker {
 enum Kind : char { of_task = 'T', of_run = 'R', of_step = 'S' };
 
 void each_field(auto& r, auto&& field) {
-  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u), field(r.reaction), field(r.point_fields),
-      field(r.cell_fields);
+  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u),
+      field(r.reaction), field(r.point_fields), field(r.cell_fields);
   field(r.scalars), field(r.u_ind), field(r.force_ind), field(r.contacts);
 }
 
@@ -110,7 +118,8 @@ std::optional<StepRecord> unpacked_step(std::string_view bytes) {
 std::string packed_run(const Identity& identity) {
   Packer p;
   p.put(static_cast<char>(of_run));
-  for (const std::string& text : {identity.config, identity.command, code_version(), utc_now()}) p.put(text);
+  for (const std::string& text : {identity.config, identity.command, code_version(), utc_now()})
+    p.put(text);
   return std::move(p.bytes);
 }
 
@@ -126,7 +135,8 @@ struct Task {
   std::string code, config, arrays;
 };
 
-// directions that a field gave, by cell; empty where angles and frames, which stand beside them, tell them
+// directions that a field gave, by cell; empty where angles and frames, which stand beside them,
+// tell them
 std::vector<std::vector<Vec3>> field_of(const SolutionHeader& header) {
   std::vector<std::vector<Vec3>> fibres;
   for (int e = 0; header.directions.from_field() && e < header.mesh.n_cells(); ++e)
@@ -134,16 +144,19 @@ std::vector<std::vector<Vec3>> field_of(const SolutionHeader& header) {
   return fibres;
 }
 
-// ids know configs, not code: another version of the mesher may have made another mesh of the same config
+// ids know configs, not code: another version of the mesher may have made another mesh of the same
+// config
 Task task_of(const SolutionHeader& header) {
   Packer arrays;
   const Mesh& mesh = header.mesh;
-  arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity), arrays.put(mesh.body),
-      arrays.put(mesh.frames);
-  arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(field_of(header)), arrays.put(header.contact_nodes);
+  arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity),
+      arrays.put(mesh.body), arrays.put(mesh.frames);
+  arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(field_of(header)),
+      arrays.put(header.contact_nodes);
   if (mesh.section) arrays.put(static_cast<int>(mesh.section->of)), arrays.put(mesh.section->depth);
   const Identity& identity = header.identity;
-  const std::string& steps = identity.steps_hash.empty() ? identity.config_hash : identity.steps_hash;
+  const std::string& steps =
+      identity.steps_hash.empty() ? identity.config_hash : identity.steps_hash;
   std::string config = identity.stage + "\n" + steps + "\n" + header.formulation;
   for (const auto& [port, id] : identity.inputs) config += "\n" + port + "=" + id;
   return {code_version(), config, fmt::format("{:016x}", checksum(arrays.bytes))};
@@ -175,13 +188,16 @@ StepJournal::StepJournal(const std::string& output, const SolutionHeader& header
   const std::optional<std::string> first = journal_.next();
   std::string why;  // nothing is kept
   if (!first)
-    why = !journal_.at_end() ? "is damaged" : has_part ? "left by a version of langer that kept no checksums" : "";
+    why = !journal_.at_end() ? "is damaged"
+          : has_part         ? "left by a version of langer that kept no checksums"
+                             : "";
   else if (!has_part)  // whoever removes it wants to begin anew
     why = "is without its " + part;
   else
     why = difference(*first, task);
   if (!first || !why.empty()) {
-    if (!why.empty()) say_line("{}: {}; starting anew", first || !journal_.at_end() ? journal_.path() : part, why);
+    if (!why.empty())
+      say_line("{}: {}; starting anew", first || !journal_.at_end() ? journal_.path() : part, why);
     journal_.clear();
     journal_.append(packed(task));
   } else
@@ -206,7 +222,8 @@ void StepJournal::replay(const Take& take) {
       ++earlier_.back().steps, ++steps;
   }
   if (!dropped && !journal_.at_end())
-    say_line("{}: damaged, or a step was cut off; continuing after the {} steps before", journal_.path(), steps);
+    say_line("{}: damaged, or a step was cut off; continuing after the {} steps before",
+             journal_.path(), steps);
   std::erase_if(earlier_, [](const EarlierRun& r) { return r.steps == 0; });
 }
 
@@ -214,7 +231,8 @@ void StepJournal::append(const StepRecord& record) { journal_.append(packed(reco
 
 void forget_steps(const std::string& output) {
   std::error_code what_stays_is_said;  // by the journal that finds it
-  for (const char* ending : {".part", ".steps"}) std::filesystem::remove(output + ending, what_stays_is_said);
+  for (const char* ending : {".part", ".steps"})
+    std::filesystem::remove(output + ending, what_stays_is_said);
 }
 
 }  // namespace langer

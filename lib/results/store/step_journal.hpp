@@ -1,7 +1,9 @@
-// <output>.steps: the journal of a solve that has not ended, from which the next run goes on.                     docs/schema.md
+// <output>.steps: the journal of a solve that has not ended, from which the next run goes on.
+// docs/schema.md
 //   first record   the task: what the steps are steps of
 //   then           a record for each run (its config, command, code) and one for each accepted step, in the order they came
-// The HDF5 file <output>.part is made from it anew: after a crash nobody can tell what of an HDF5 file is whole, and HDF5 may crash on it.
+// The HDF5 file <output>.part is made from it anew: after a crash nobody can tell what of an HDF5
+// file is whole, and HDF5 may crash on it.
 #pragma once
 
 #include <string>
@@ -14,8 +16,9 @@ namespace langer {
 
 class StepJournal {
  public:
-  // Reads what an earlier run of the same task left and gives its steps one after another to `take`, until that says false: this step
-  // and all behind it are dropped. Of another task, another version of langer, or without its <output>.part: begun anew, which is said.
+  // Reads what an earlier run of the same task left and gives its steps one after another to
+  // `take`, until that says false: this step and all behind it are dropped. Of another task,
+  // another version of langer, or without its <output>.part: begun anew, which is said.
   using Take = SolutionWriter::StillGood;
   StepJournal(const std::string& output, const SolutionHeader& header, const Take& take);
   void append(const StepRecord& step);

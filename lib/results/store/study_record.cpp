@@ -42,10 +42,12 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
     const h5::Group advice = group.make_group("advice");
     std::vector<std::string> tests;
     std::vector<double> worst, gain;
-    MatX relative(static_cast<Eigen::Index>(r.advice.size()), static_cast<Eigen::Index>(r.names.size()));
+    MatX relative(static_cast<Eigen::Index>(r.advice.size()),
+                  static_cast<Eigen::Index>(r.names.size()));
     for (const AdviceRecord& a : r.advice) {
       for (std::size_t j = 0; j < a.relative.size(); ++j)
-        relative(static_cast<Eigen::Index>(tests.size()), static_cast<Eigen::Index>(j)) = a.relative[j];
+        relative(static_cast<Eigen::Index>(tests.size()), static_cast<Eigen::Index>(j)) =
+            a.relative[j];
       tests.push_back(a.test), worst.push_back(a.worst), gain.push_back(a.gain);
     }
     advice.attribute("tests", fmt::format("{}", fmt::join(tests, "; ")));
@@ -59,7 +61,8 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   const StabilityMap& map = r.map;
   group.attribute("verdict", r.verdict);
   std::string order;
-  for (Path path : all_paths) order += (order.empty() ? "" : " ") + std::string(names(path)[static_cast<std::size_t>(path)]);
+  for (Path path : all_paths)
+    order += (order.empty() ? "" : " ") + std::string(names(path)[static_cast<std::size_t>(path)]);
   group.attribute("paths", order);
   write_vector(group, "amount", map.amount, "-");
   write_vector(group, "angle", map.angle, "deg");
@@ -67,10 +70,12 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   write_matrix(group, "plane", map.plane, "MPa");
   group.write_scalar("safe_hencky", map.safe_hencky, "-");
   group.write_scalar("hencky_end", map.hencky_end, "-");
-  const std::size_t paths = all_paths.size(), angles = map.angle.size(), amounts = map.amount.size();
+  const std::size_t paths = all_paths.size(), angles = map.angle.size(),
+                    amounts = map.amount.size();
   std::vector<double> slope_loss, ellipticity_loss, end, nominal, slope, ellipticity;
   for (const PathStability& p : map.paths) {
-    slope_loss.push_back(p.slope_loss), ellipticity_loss.push_back(p.ellipticity_loss), end.push_back(p.end);
+    slope_loss.push_back(p.slope_loss), ellipticity_loss.push_back(p.ellipticity_loss),
+        end.push_back(p.end);
     nominal.insert(nominal.end(), p.nominal.begin(), p.nominal.end());
     slope.insert(slope.end(), p.slope.begin(), p.slope.end());
     ellipticity.insert(ellipticity.end(), p.ellipticity.begin(), p.ellipticity.end());
@@ -86,7 +91,8 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
 }  // namespace
 
 void write_study(const h5::Group& root, const StudyRecord& study) {
-  if (study.identifiability) write_identifiability(root.make_group("identifiability"), *study.identifiability);
+  if (study.identifiability)
+    write_identifiability(root.make_group("identifiability"), *study.identifiability);
   if (study.stability) write_stability(root.make_group("stability"), *study.stability);
   if (study.range) {
     const h5::Group range = root.make_group("fitted_range");

@@ -1,4 +1,4 @@
-// What data tell about a fit, and where its law is stable, in material.h5.               docs/schema.md
+// What data tell about a fit, and where its law is stable, in material.h5. docs/schema.md
 //   /identifiability/{noise, residual_correlation, effective_values, error, correlation, singular, combination}   attribute `words` of /identifiability
 //   /identifiability/profiles/<name>/{value, rise, interval}   attributes low_open, high_open
 //   /identifiability/bootstrap/{samples, interval}
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/hdf5/h5.hpp"
-#include "mechanics/material/stability.hpp"
 #include "core/tensor/types.hpp"
+#include "mechanics/material/stability.hpp"
 
 namespace langer {
 
@@ -34,14 +34,16 @@ struct IdentifiabilityRecord {
   std::vector<std::string> names;
   std::vector<double> value, size;
   double noise = 0;
-  double rho = 0, effective = 0;  // correlation of residuals from value to value; number of values that they count as
+  double rho = 0, effective = 0;  // correlation of residuals from value to value; number of values
+                                  // that they count as
   std::vector<bool> symmetric;    // angles of symmetry, which have no standard error
   VecX error, singular;
   MatX correlation, combination;
   std::string words;  // of the least felt combination
   std::vector<ProfileRecord> profiles;
   MatX bootstrap;           // (n, p)
-  bool linearised = false;  // the bootstrap is that of the linearised model; noise is in standard deviations of the tests
+  bool linearised = false;  // the bootstrap is that of the linearised model; noise is in standard
+                            // deviations of the tests
   VecX bootstrap_low, bootstrap_high;
   std::vector<AdviceRecord> advice;
 };

@@ -20,7 +20,8 @@ namespace {
 using Integers = std::vector<std::int64_t>;
 constexpr const char* axes[3] = {"e_x", "e_y", "e_z"};
 
-void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape, const Integers& values) {
+void write_integers(const h5::Group& group, const std::string& name, const h5::Shape& shape,
+                    const Integers& values) {
   group.write<std::int64_t>(name, shape, values);
 }
 
@@ -33,16 +34,19 @@ Mat3 orthonormal(const h5::Group& group, const std::vector<double>* columns, int
   return frame;
 }
 
-std::vector<int> indices(const h5::Group& group, const std::string& name, const h5::Shape& shape, std::int64_t below) {
+std::vector<int> indices(const h5::Group& group, const std::string& name, const h5::Shape& shape,
+                         std::int64_t below) {
   const auto array = group.read<std::int64_t>(name, shape);
   for (std::int64_t value : array.values)
-    if (value < 0 || value >= below) group.refuse(name, fmt::format("index {}", value), fmt::format("0 to {}", below - 1));
+    if (value < 0 || value >= below)
+      group.refuse(name, fmt::format("index {}", value), fmt::format("0 to {}", below - 1));
   return {array.values.begin(), array.values.end()};
 }
 
 std::int64_t count(const h5::Group& group, const std::string& name) {
   const std::int64_t n = group.read<std::int64_t>(name, {1}).values[0];
-  if (n < 1 || n > std::numeric_limits<int>::max() / 8) group.refuse(name, fmt::format("{}", n), "a count of at least 1");
+  if (n < 1 || n > std::numeric_limits<int>::max() / 8)
+    group.refuse(name, fmt::format("{}", n), "a count of at least 1");
   return n;
 }
 
@@ -65,16 +69,19 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   const h5::Group grid = root.make_group("VTKHDF");
   grid.attribute("Version", version);
   grid.attribute("Type", std::string("UnstructuredGrid"));
-  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()), per_cell = nodes_per_cell(mesh.type);
+  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()),
+                    per_cell = nodes_per_cell(mesh.type);
   write_integers(grid, "NumberOfPoints", {1}, {static_cast<std::int64_t>(n)});
   write_integers(grid, "NumberOfCells", {1}, {static_cast<std::int64_t>(e)});
   write_integers(grid, "NumberOfConnectivityIds", {1}, {static_cast<std::int64_t>(e * per_cell)});
   grid.write<double>("Points", {n, 3}, flat(mesh.X), "mm");
-  write_integers(grid, "Connectivity", {e * per_cell}, {mesh.connectivity.begin(), mesh.connectivity.end()});
+  write_integers(grid, "Connectivity", {e * per_cell},
+                 {mesh.connectivity.begin(), mesh.connectivity.end()});
   Integers offsets(e + 1);
   for (std::size_t i = 0; i <= e; ++i) offsets[i] = static_cast<std::int64_t>(i * per_cell);
   write_integers(grid, "Offsets", {e + 1}, offsets);
-  grid.write<std::uint8_t>("Types", {e}, std::vector<std::uint8_t>(e, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
+  grid.write<std::uint8_t>(
+      "Types", {e}, std::vector<std::uint8_t>(e, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
 
   const h5::Group cells = grid.make_group("CellData");
   write_integers(cells, "body", {e}, {mesh.body.begin(), mesh.body.end()});
@@ -90,8 +97,10 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
 }
 
 void write_sets(const h5::Group& root, const Mesh& mesh) {
-  const h5::Group sets = root.make_group("sets"), nodes = sets.make_group("nodes"), facets = sets.make_group("facets");
-  for (const auto& [name, set] : mesh.node_sets) write_integers(nodes, name, {set.size()}, {set.begin(), set.end()});
+  const h5::Group sets = root.make_group("sets"), nodes = sets.make_group("nodes"),
+                  facets = sets.make_group("facets");
+  for (const auto& [name, set] : mesh.node_sets)
+    write_integers(nodes, name, {set.size()}, {set.begin(), set.end()});
   for (const auto& [name, set] : mesh.facet_sets) {
     Integers pairs;
     for (const Facet& facet : set) pairs.insert(pairs.end(), {facet.cell, facet.local});
@@ -103,14 +112,16 @@ void write_section(const h5::Group& root, const Mesh& mesh) {
   if (!mesh.section) return;
   const h5::Group group = root.make_group("section");
   group.attribute("of", std::string(names(mesh.section->of)[static_cast<int>(mesh.section->of)]));
-  group.write_scalar("depth", mesh.section->depth, mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
+  group.write_scalar("depth", mesh.section->depth,
+                     mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
 }
 
 void write_hanging(const h5::Group& root, const Mesh& mesh) {
   if (mesh.hanging.empty()) return;
   const h5::Group group = root.make_group("hanging");
   Integers nodes, of;
-  for (const HangingNode& h : mesh.hanging) nodes.push_back(h.node), of.insert(of.end(), h.of.begin(), h.of.end());
+  for (const HangingNode& h : mesh.hanging)
+    nodes.push_back(h.node), of.insert(of.end(), h.of.begin(), h.of.end());
   write_integers(group, "node", {nodes.size()}, nodes);
   write_integers(group, "of", {nodes.size(), 4}, of);
 }
@@ -128,16 +139,19 @@ void read_section(const h5::Group& root, Mesh& mesh) {
   const std::string of = group.text_attribute("of");
   const auto known = names(SectionOf{});
   const auto kind = std::find(known.begin(), known.end(), of);
-  if (kind == known.end()) group.refuse("of", "\"" + of + "\"", fmt::format("one of {}", fmt::join(known, ", ")));
+  if (kind == known.end())
+    group.refuse("of", "\"" + of + "\"", fmt::format("one of {}", fmt::join(known, ", ")));
   mesh.section = Section{static_cast<SectionOf>(kind - known.begin()), group.read_scalar("depth")};
-  if (const std::string fault = section_fault(mesh); !fault.empty()) group.refuse("", fault, "one layer of cells behind z = 0");
+  if (const std::string fault = section_fault(mesh); !fault.empty())
+    group.refuse("", fault, "one layer of cells behind z = 0");
 }
 
 void read_hanging(const h5::Group& root, Mesh& mesh) {
   if (!root.has("hanging")) return;
   const h5::Group group = root.group("hanging");
   const auto below = static_cast<std::int64_t>(mesh.X.size());
-  const std::vector<int> nodes = indices(group, "node", {h5::any}, below), of = indices(group, "of", {nodes.size(), 4}, below);
+  const std::vector<int> nodes = indices(group, "node", {h5::any}, below),
+                         of = indices(group, "of", {nodes.size(), 4}, below);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     mesh.hanging.push_back({nodes[i], {of[4 * i], of[4 * i + 1], of[4 * i + 2], of[4 * i + 3]}});
   if (const std::string fault = hanging_fault(mesh); !fault.empty())
@@ -147,11 +161,16 @@ void read_hanging(const h5::Group& root, Mesh& mesh) {
 CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) {
   std::string known;
   for (const ReferenceCell& cell : reference_cells()) {
-    if (std::all_of(types.begin(), types.end(), [&](std::uint8_t type) { return type == cell.names.vtk; })) return cell.type;
-    known += fmt::format("{}{} ({})", known.empty() ? "one of " : ", ", cell.names.vtk, cell.names.vtk_word);
+    if (std::all_of(types.begin(), types.end(),
+                    [&](std::uint8_t type) { return type == cell.names.vtk; }))
+      return cell.type;
+    known += fmt::format("{}{} ({})", known.empty() ? "one of " : ", ", cell.names.vtk,
+                         cell.names.vtk_word);
   }
-  const auto other = std::find_if(types.begin(), types.end(), [&](std::uint8_t type) { return type != types[0]; });
-  grid.refuse("Types", fmt::format("VTK cell type {}", other == types.end() ? types[0] : *other), known + "; one for all");
+  const auto other =
+      std::find_if(types.begin(), types.end(), [&](std::uint8_t type) { return type != types[0]; });
+  grid.refuse("Types", fmt::format("VTK cell type {}", other == types.end() ? types[0] : *other),
+              known + "; one for all");
 }
 
 }  // namespace
@@ -177,18 +196,22 @@ Mesh read_grid(const h5::Group& root) {
   mesh.body = indices(cells, "body", {e}, static_cast<std::int64_t>(mesh.bodies.size()));
   std::vector<double> columns[3];
   for (int i = 0; i < 3; ++i) columns[i] = cells.read_finite(axes[i], {e, 3});
-  for (std::size_t i = 0; i < e; ++i) mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
+  for (std::size_t i = 0; i < e; ++i)
+    mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
 
-  const h5::Group sets = root.group("sets"), nodes = sets.group("nodes"), facets = sets.group("facets");
+  const h5::Group sets = root.group("sets"), nodes = sets.group("nodes"),
+                  facets = sets.group("facets");
   for (const std::string& name : nodes.datasets())
     mesh.node_sets[name] = indices(nodes, name, {h5::any}, static_cast<std::int64_t>(n));
   for (const std::string& name : facets.datasets()) {
     const std::vector<int> pairs =
-        indices(facets, name, {h5::any, 2}, std::max(static_cast<std::int64_t>(e), std::int64_t{mesh.cell().n_facets()}));
+        indices(facets, name, {h5::any, 2},
+                std::max(static_cast<std::int64_t>(e), std::int64_t{mesh.cell().n_facets()}));
     auto& set = mesh.facet_sets[name];
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
       if (pairs[i] >= static_cast<int>(e) || pairs[i + 1] >= mesh.cell().n_facets())
-        facets.refuse(name, fmt::format("cell {}, local facet {}", pairs[i], pairs[i + 1]), "a facet of this mesh");
+        facets.refuse(name, fmt::format("cell {}, local facet {}", pairs[i], pairs[i + 1]),
+                      "a facet of this mesh");
       set.push_back({pairs[i], pairs[i + 1]});
     }
   }
@@ -200,7 +223,8 @@ Mesh read_grid(const h5::Group& root) {
 void write_triangles(const h5::Group& group, const Triangles& triangles) {
   group.write<double>("points", {triangles.points.size(), 3}, flat(triangles.points), "mm");
   Integers corners;
-  for (const auto& triangle : triangles.corners) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  for (const auto& triangle : triangles.corners)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
   write_integers(group, "triangles", {triangles.corners.size(), 3}, corners);
 }
 
@@ -208,9 +232,11 @@ Triangles read_triangles(const h5::Group& group) {
   Triangles triangles;
   need_unit(group, "points", "mm");
   triangles.points = vectors(group.read_finite("points", {h5::any, 3}));
-  const std::vector<int> corners = indices(group, "triangles", {h5::any, 3}, static_cast<std::int64_t>(triangles.points.size()));
+  const std::vector<int> corners =
+      indices(group, "triangles", {h5::any, 3}, static_cast<std::int64_t>(triangles.points.size()));
   if (corners.empty()) group.refuse("triangles", "none", "the triangles of a surface");
-  for (std::size_t i = 0; i < corners.size(); i += 3) triangles.corners.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    triangles.corners.push_back({corners[i], corners[i + 1], corners[i + 2]});
   return triangles;
 }
 

@@ -23,9 +23,11 @@ struct Vtu {
   std::string text, bytes;
 
   template <class T>
-  void array(const char* type, const std::string& name, int components, const std::vector<T>& values) {
-    text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-                        xml_text(name), components, bytes.size());
+  void array(const char* type, const std::string& name, int components,
+             const std::vector<T>& values) {
+    text += fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+        type, xml_text(name), components, bytes.size());
     const std::uint64_t size = values.size() * sizeof(T);
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
     bytes.append(reinterpret_cast<const char*>(values.data()), size);
@@ -34,7 +36,9 @@ struct Vtu {
   void place(const char* tag, const std::vector<Field>& fields) {
     const ActiveFields active = active_fields(fields);
     text += fmt::format("<{}", tag);
-    for (const auto& [key, name] : {std::pair{"Scalars", active.scalars}, {"Vectors", active.vectors}, {"Tensors", active.tensors}})
+    for (const auto& [key, name] : {std::pair{"Scalars", active.scalars},
+                                    {"Vectors", active.vectors},
+                                    {"Tensors", active.tensors}})
       if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, xml_text(name));
     text += ">\n";
     for (const Field& f : fields) array("Float64", f.name, f.components, f.values);
@@ -56,13 +60,14 @@ ActiveFields active_fields(const std::vector<Field>& fields) {
   return active;
 }
 
-void write_vtu(const std::string& path, const Mesh& mesh, double time, const std::vector<Field>& point_fields,
-               const std::vector<Field>& cell_fields) {
+void write_vtu(const std::string& path, const Mesh& mesh, double time,
+               const std::vector<Field>& point_fields, const std::vector<Field>& cell_fields) {
   const auto n_cells = static_cast<std::size_t>(mesh.n_cells());
   const std::vector<std::int64_t> connectivity(mesh.connectivity.begin(), mesh.connectivity.end());
   const std::size_t per_cell = connectivity.size() / std::max<std::size_t>(1, n_cells);
   std::vector<std::int64_t> offsets;
-  for (std::size_t e = 1; e <= n_cells; ++e) offsets.push_back(static_cast<std::int64_t>(e * per_cell));
+  for (std::size_t e = 1; e <= n_cells; ++e)
+    offsets.push_back(static_cast<std::int64_t>(e * per_cell));
   Vtu file;
   file.text = fmt::format(
       "{}<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
@@ -73,7 +78,8 @@ void write_vtu(const std::string& path, const Mesh& mesh, double time, const std
   file.text += "</Points>\n<Cells>\n";
   file.array("Int64", "connectivity", 1, connectivity);
   file.array("Int64", "offsets", 1, offsets);
-  file.array("UInt8", "types", 1, std::vector<std::uint8_t>(n_cells, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
+  file.array("UInt8", "types", 1,
+             std::vector<std::uint8_t>(n_cells, static_cast<std::uint8_t>(mesh.cell().names.vtk)));
   file.text += "</Cells>\n";
   file.place("PointData", point_fields);
   file.place("CellData", cell_fields);
@@ -82,10 +88,12 @@ void write_vtu(const std::string& path, const Mesh& mesh, double time, const std
 }
 
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& files) {
-  std::string text =
-      fmt::format("{}<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n", first_line);
+  std::string text = fmt::format(
+      "{}<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+      first_line);
   for (const auto& [time, file] : files)
-    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, xml_text(file));
+    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time,
+                        xml_text(file));
   write_text_file(path, text + "</Collection>\n</VTKFile>\n");
 }
 

@@ -12,17 +12,23 @@ namespace {
 constexpr int vtk_hexahedron = 12, vtk_triquadratic = 29;
 
 // an array of the file, or the rows of it that belong to a step
-std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t rows, std::size_t step, std::size_t n_steps) {
-  const std::string place = fmt::format("{}:/VTKHDF/{}/{}", file, array.of_cells ? "CellData" : "PointData", array.name);
+std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t rows,
+                    std::size_t step, std::size_t n_steps) {
+  const std::string place =
+      fmt::format("{}:/VTKHDF/{}/{}", file, array.of_cells ? "CellData" : "PointData", array.name);
   const bool many = array.components > 1;
-  const auto sizes = [&](std::size_t n) { return many ? fmt::format("{} {}", n, array.components) : fmt::format("{}", n); };
+  const auto sizes = [&](std::size_t n) {
+    return many ? fmt::format("{} {}", n, array.components) : fmt::format("{}", n);
+  };
   const auto item = [&](std::size_t n) {
-    return fmt::format("<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{}\">{}</DataItem>", sizes(n),
-                       place);
+    return fmt::format(
+        "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{}\">{}</DataItem>",
+        sizes(n), place);
   };
   if (array.of_mesh) return item(rows);
   const std::string window =
-      many ? fmt::format("{} 0 1 1 {} {}", step * rows, rows, array.components) : fmt::format("{} 1 {}", step * rows, rows);
+      many ? fmt::format("{} 0 1 1 {} {}", step * rows, rows, array.components)
+           : fmt::format("{} 1 {}", step * rows, rows);
   return fmt::format(
       "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Format=\"XML\" Dimensions=\"3 {}\">{}</DataItem>{}</DataItem>",
       sizes(rows), many ? 2 : 1, window, item(rows * n_steps));
@@ -37,28 +43,33 @@ std::string without_xdmf(const Mesh& mesh) {
 
 std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<double>& times,
                  const std::vector<XdmfArray>& arrays) {
-  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()), per_cell = nodes_per_cell(mesh.type);
+  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()),
+                    per_cell = nodes_per_cell(mesh.type);
   const std::string name = xml_text(file);
   std::string s =
       "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
-    s += fmt::format("<Grid Name=\"step_{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", i + 1, times[i]);
+    s += fmt::format("<Grid Name=\"step_{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", i + 1,
+                     times[i]);
     s += fmt::format(
         "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
         "Dimensions=\"{}\">{}:/VTKHDF/Connectivity</DataItem></Topology>\n",
-        mesh.cell().names.vtk == vtk_hexahedron ? "Hexahedron" : "Hexahedron_27", e, e * per_cell, name);
+        mesh.cell().names.vtk == vtk_hexahedron ? "Hexahedron" : "Hexahedron_27", e, e * per_cell,
+        name);
     s += fmt::format(
         "<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" "
         "Dimensions=\"{} 3\">{}:/VTKHDF/Points</DataItem></Geometry>\n",
         n, name);
     for (const XdmfArray& array : arrays)
-      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_text(array.name),
+      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                       xml_text(array.name),
                        array.components == 1   ? "Scalar"
                        : array.components == 3 ? "Vector"
                        : array.components == 9 ? "Tensor"
                                                : "Matrix",
-                       array.of_cells ? "Cell" : "Node", rows_of(name, array, array.of_cells ? e : n, i, times.size()));
+                       array.of_cells ? "Cell" : "Node",
+                       rows_of(name, array, array.of_cells ? e : n, i, times.size()));
     s += "</Grid>\n";
   }
   return s + "</Grid>\n</Domain>\n</Xdmf>\n";

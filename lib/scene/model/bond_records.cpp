@@ -17,8 +17,10 @@ void tell_bonds(const Statics& statics, StepRecord& record) {
       contact.beta.push_back(bond.made ? bond.beta : -1), contact.bonded_at.push_back(bond.at);
     const Vec3 sum = bonds.sum(k);
     record.force_ind -= sum;
-    for (int j = 0; j < 3 && statics.contacts().size() > 1; ++j) record.scalars.at("force_" + law.name + "_" + "xyz"[j]) -= sum[j];
-    for (std::size_t i = 0; i < law.nodes.size(); ++i) bonded += law.area[i] * state.bonds[k][i].beta;
+    for (int j = 0; j < 3 && statics.contacts().size() > 1; ++j)
+      record.scalars.at("force_" + law.name + "_" + "xyz"[j]) -= sum[j];
+    for (std::size_t i = 0; i < law.nodes.size(); ++i)
+      bonded += law.area[i] * state.bonds[k][i].beta;
   }
   record.scalars["bonded_area"] = bonded;
   record.scalars["adhesion_stored"] = bonds.stored();
@@ -28,7 +30,8 @@ void tell_bonds(const Statics& statics, StepRecord& record) {
 }
 
 Bond bond_of(const ContactRecord& contact, std::size_t candidate) {
-  return {std::max(contact.beta[candidate], 0.0), contact.bonded_at[candidate], contact.beta[candidate] >= 0};
+  return {std::max(contact.beta[candidate], 0.0), contact.bonded_at[candidate],
+          contact.beta[candidate] >= 0};
 }
 
 BondEnergy bond_energies(const StepRecord& step) {
@@ -38,7 +41,8 @@ BondEnergy bond_energies(const StepRecord& step) {
           of.at("energy") + of.at("adhesion_stored")};
 }
 
-void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts, BodyState& state) {
+void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts,
+                BodyState& state) {
   state.in_bonds = bond_energies(step);
   if (!step.scalars.count("adhesion_stored")) return;
   for (const RigidContact& contact : contacts) {

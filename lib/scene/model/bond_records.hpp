@@ -11,6 +11,7 @@ void tell_bonds(const Statics& statics, StepRecord& record);
 
 Bond bond_of(const ContactRecord& contact, std::size_t candidate);
 BondEnergy bond_energies(const StepRecord& step);
-void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts, BodyState& state);
+void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts,
+                BodyState& state);
 
 }  // namespace langer

@@ -32,23 +32,29 @@ namespace {
 
 using Six = std::array<double, 6>;  // place and direction
 
-void add_point(MeasuredDirections& points, const Six& v, const Place& where, const std::string& key) {
+void add_point(MeasuredDirections& points, const Six& v, const Place& where,
+               const std::string& key) {
   const Vec3 a(v[3], v[4], v[5]);
-  if (!(a.stableNorm() > 1e-12)) throw Failure(Exit::input, Error{where, key, "a direction of no length", "a vector", ""});
+  if (!(a.stableNorm() > 1e-12))
+    throw Failure(Exit::input, Error{where, key, "a direction of no length", "a vector", ""});
   points.x.emplace_back(v[0], v[1], v[2]);
   points.a.push_back(a.stableNormalized());
 }
 
 MeasuredDirections from_csv(const PointField& field) {
   const CsvTable table = read_table(field.file.path);
-  const auto refuse = [&](int line, int column, const std::string& key, const std::string& found, const std::string& expected) {
+  const auto refuse = [&](int line, int column, const std::string& key, const std::string& found,
+                          const std::string& expected) {
     throw Failure(Exit::input, Error{{table.name, line, column}, key, found, expected, ""});
   };
   std::array<std::size_t, 6> at{};
   for (int i = 0; i < 6; ++i) {
     const auto& names = table.header.cells;
-    const auto found = std::find_if(names.begin(), names.end(), [&](const CsvCell& c) { return c.text == field.columns[i]; });
-    if (found == names.end()) refuse(table.header.line, 1, field.columns[i], "no such column", "columns as `columns` names them");
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const CsvCell& c) { return c.text == field.columns[i]; });
+    if (found == names.end())
+      refuse(table.header.line, 1, field.columns[i], "no such column",
+             "columns as `columns` names them");
     at[i] = found - names.begin();
   }
   MeasuredDirections points;
@@ -58,7 +64,8 @@ MeasuredDirections from_csv(const PointField& field) {
       const CsvCell& cell = row.cells[at[i]];
       const auto number = csv_number(cell.text);
       if (!number || !std::isfinite(*number))
-        refuse(row.line, cell.column, field.columns[i], "found \"" + cell.text + "\"", "a finite number");
+        refuse(row.line, cell.column, field.columns[i], "found \"" + cell.text + "\"",
+               "a finite number");
       value[i] = *number;
     }
     add_point(points, value, {table.name, row.line, 1}, field.columns[3]);
@@ -74,11 +81,12 @@ MeasuredDirections from_hdf5(const PointField& field) {
     column[i] = file.root().read_finite(field.columns[i], {h5::any});
     need_unit(file.root(), field.columns[i], i < 3 ? "mm" : "-");
     if (column[i].size() != column[0].size())
-      throw Failure(Exit::input, Error{{field.file.path, 0, 0},
-                                       field.columns[i],
-                                       fmt::format("found {} numbers", column[i].size()),
-                                       fmt::format("{}, as {} has", column[0].size(), field.columns[0]),
-                                       ""});
+      throw Failure(Exit::input,
+                    Error{{field.file.path, 0, 0},
+                          field.columns[i],
+                          fmt::format("found {} numbers", column[i].size()),
+                          fmt::format("{}, as {} has", column[0].size(), field.columns[0]),
+                          ""});
   }
   MeasuredDirections points;
   for (std::size_t k = 0; k < column[0].size(); ++k) {
@@ -93,8 +101,11 @@ MeasuredDirections from_hdf5(const PointField& field) {
 
 MeasuredDirections read_directions(const PointField& field) {
   const std::string type = std::filesystem::path(field.file.path).extension().string();
-  MeasuredDirections points = type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
-  if (points.x.empty()) throw Failure(Exit::input, Error{{field.file.path, 0, 0}, "", "found no points", "at least one row", ""});
+  MeasuredDirections points =
+      type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
+  if (points.x.empty())
+    throw Failure(Exit::input,
+                  Error{{field.file.path, 0, 0}, "", "found no points", "at least one row", ""});
   return points;
 }
 
@@ -106,13 +117,16 @@ Vec3 direction_at(const MeasuredDirections& points, const Vec3& x, Between metho
   if (method == Between::nearest || least == 0) return points.a[near];
   Mat3 sum = Mat3::Zero();  // weights relative to the nearest point's, so that no power overflows
   for (std::size_t i = 0; i < points.x.size(); ++i)
-    sum += std::pow(least / (points.x[i] - x).norm(), power) * points.a[i] * points.a[i].transpose();
+    sum +=
+        std::pow(least / (points.x[i] - x).norm(), power) * points.a[i] * points.a[i].transpose();
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(sum);
-  if (axes.eigenvalues()[2] - axes.eigenvalues()[1] <= 1e-9 * axes.eigenvalues()[2]) return Vec3::Zero();
+  if (axes.eigenvalues()[2] - axes.eigenvalues()[1] <= 1e-9 * axes.eigenvalues()[2])
+    return Vec3::Zero();
   return axes.eigenvectors().col(2);
 }
 
-FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<const int> cells, const std::string& key,
+FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<const int> cells,
+                         const std::string& key,
                          const std::function<Place(const std::string&)>& where) {
   if (const auto* formula = std::get_if<FormulaField>(&field)) {
     std::vector<FormulaPoint> centres;
@@ -129,9 +143,11 @@ FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<co
   for (int e : cells) {
     const Vec3 x = cell_centre(mesh, e), a = direction_at(points, x, given.method, given.power);
     if (a.isZero(0))
-      throw Failure(Exit::config, Error{where(key + ".points"), key + ".points",
-                                        fmt::format("the points agree on no direction at ({:g}, {:g}, {:g})", x[0], x[1], x[2]),
-                                        "directions with one main axis", "method: nearest always has one"});
+      throw Failure(Exit::config,
+                    Error{where(key + ".points"), key + ".points",
+                          fmt::format("the points agree on no direction at ({:g}, {:g}, {:g})",
+                                      x[0], x[1], x[2]),
+                          "directions with one main axis", "method: nearest always has one"});
     directions.push_back(a);
   }
   return directions;
@@ -147,7 +163,8 @@ FibreJump largest_jump(const Mesh& mesh, const Directions& directions) {
       if (is_new) continue;
       const auto here = directions.of(e), there = directions.of(entry->second);
       for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
-        const double angle = std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
+        const double angle =
+            std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;
         if (angle <= jump.degrees) continue;
         jump = {angle, entry->second, e, static_cast<int>(k), Vec3::Zero()};
         for (int node : nodes) jump.place += mesh.X[node] / 4;

@@ -1,4 +1,5 @@
-// Loads as the solve stage's YAML may name them: imposed displacements and rotations of sets, forces, tractions and pressures on facets.
+// Loads as the solve stage's YAML may name them: imposed displacements and rotations of sets,
+// forces, tractions and pressures on facets.
 #pragma once
 
 #include <array>
@@ -14,9 +15,12 @@ namespace langer {
 
 struct Displacement {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  const std::optional<HistoryConfig>& along(int axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
   static void fields(auto& v) {
-    constexpr const char* says = "displacement at the end of the path, in proportion to t; or [{t: 0.5, to: 2}, {t: 1, to: 2}]";
+    constexpr const char* says =
+        "displacement at the end of the path, in proportion to t; or [{t: 0.5, to: 2}, {t: 1, to: 2}]";
     v(&Displacement::x, "x", unit::mm, says);
     v(&Displacement::y, "y", unit::mm, says);
     v(&Displacement::z, "z", unit::mm, says);
@@ -25,9 +29,12 @@ struct Displacement {
 
 struct DeadForce {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  const std::optional<HistoryConfig>& along(int axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
   static void fields(auto& v) {
-    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
+    constexpr const char* says =
+        "at the end of the path, in proportion to t; or a history, as a displacement";
     v(&DeadForce::x, "x", unit::N, says);
     v(&DeadForce::y, "y", unit::N, says);
     v(&DeadForce::z, "z", unit::N, says);
@@ -36,9 +43,12 @@ struct DeadForce {
 
 struct DeadTraction {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  const std::optional<HistoryConfig>& along(int axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
   static void fields(auto& v) {
-    constexpr const char* says = "at the end of the path, in proportion to t; or a history, as a displacement";
+    constexpr const char* says =
+        "at the end of the path, in proportion to t; or a history, as a displacement";
     v(&DeadTraction::x, "x", unit::MPa, says);
     v(&DeadTraction::y, "y", unit::MPa, says);
     v(&DeadTraction::z, "z", unit::MPa, says);
@@ -51,9 +61,11 @@ struct RotationConfig {
   std::optional<std::array<double, 3>> through = {};
   static void fields(auto& v) {
     v(&RotationConfig::angle, "angle", unit::deg,
-      "by the right hand about the axis, at the end of the path, in proportion to t; or a history", required);
+      "by the right hand about the axis, at the end of the path, in proportion to t; or a history",
+      required);
     v(&RotationConfig::axis, "axis", unit::none, "direction of the axis; any length");
-    v(&RotationConfig::through, "through", unit::mm, "a point of the axis; none: the middle of the box that holds the set");
+    v(&RotationConfig::through, "through", unit::mm,
+      "a point of the axis; none: the middle of the box that holds the set");
   }
   std::vector<Complaint> complaints() const {
     if (axis == std::array<double, 3>{}) return {{"axis", "found [0, 0, 0]", "a direction", ""}};
@@ -69,28 +81,34 @@ struct LoadConfig {
   std::optional<DeadTraction> traction;
   std::optional<HistoryConfig> pressure;
   static void fields(auto& v) {
-    v(&LoadConfig::on, "on", unit::none, "node set of the mesh; of a force, a traction or a pressure one that covers facets",
+    v(&LoadConfig::on, "on", unit::none,
+      "node set of the mesh; of a force, a traction or a pressure one that covers facets",
       required);
     v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement");
     v(&LoadConfig::rotation, "rotation", unit::none,
       "the set is turned as a rigid body, as what is glued to it; displacement beside it moves that as a whole");
-    v(&LoadConfig::force, "force", unit::none, "dead force on the whole set, spread evenly over its area at rest");
+    v(&LoadConfig::force, "force", unit::none,
+      "dead force on the whole set, spread evenly over its area at rest");
     v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");
     v(&LoadConfig::pressure, "pressure", unit::MPa,
       "pressure that follows the surface, positive into the body; at the end of the path, in proportion to t; or a history");
   }
   bool on_surface() const { return !displacement && !rotation; }
   // components along an axis; none where there is none
-  std::optional<HistoryConfig> imposed(int axis) const { return displacement ? displacement->along(axis) : std::nullopt; }
-  bool tells(int axis) const { return rotation || imposed(axis); }  // where the set's nodes go along it
+  std::optional<HistoryConfig> imposed(int axis) const {
+    return displacement ? displacement->along(axis) : std::nullopt;
+  }
+  bool tells(int axis) const {
+    return rotation || imposed(axis);
+  }  // where the set's nodes go along it
   std::optional<HistoryConfig> dead(int axis) const {
     return force ? force->along(axis) : traction ? traction->along(axis) : std::nullopt;
   }
   std::map<std::string, HistoryConfig> histories_by_key() const {
     std::map<std::string, HistoryConfig> all;
     for (int axis = 0; axis < 3; ++axis)
-      for (const auto& [kind, one] :
-           {std::pair("displacement.", imposed(axis)), std::pair(force ? "force." : "traction.", dead(axis))})
+      for (const auto& [kind, one] : {std::pair("displacement.", imposed(axis)),
+                                      std::pair(force ? "force." : "traction.", dead(axis))})
         if (one) all[std::string(kind) + "xyz"[axis]] = *one;
     if (rotation) all["rotation.angle"] = rotation->angle;
     if (pressure) all["pressure"] = *pressure;
@@ -102,11 +120,15 @@ struct LoadConfig {
     return all;
   }
   std::vector<Complaint> complaints() const {
-    constexpr const char* kinds = "exactly one of displacement (with or without rotation), force, traction, pressure";
+    constexpr const char* kinds =
+        "exactly one of displacement (with or without rotation), force, traction, pressure";
     const int n = !on_surface() + force.has_value() + traction.has_value() + pressure.has_value();
     if (n != 1) return {{"", n == 0 ? "found no load" : "found several kinds of load", kinds, ""}};
     if (!histories().empty()) return {};
-    return {{displacement ? "displacement" : force ? "force" : "traction", "found no component", "x, y or z", ""}};
+    return {{displacement ? "displacement"
+             : force      ? "force"
+                          : "traction",
+             "found no component", "x, y or z", ""}};
   }
 };
 

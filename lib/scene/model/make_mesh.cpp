@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <set>
 
-#include "meshing/grading.hpp"
 #include "mechanics/mesh/cut.hpp"
 #include "mechanics/mesh/order.hpp"
 #include "mechanics/mesh/raise.hpp"
 #include "mechanics/mesh/section.hpp"
+#include "meshing/grading.hpp"
 
 namespace langer {
 
@@ -21,8 +21,10 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
   for (const auto& [name, set] : config.sets) {
     std::vector<int> nodes = select(mesh, set.within, set.of ? mesh.node_sets.at(*set.of) : all);
     if (mesh.section) nodes = through_layers(mesh, in_front(mesh, nodes));
-    if (nodes.empty()) refuse("sets." + name, "no node of the mesh is in this set", "at least one", "");
-    const std::vector<Facet> facets = facets_within(mesh, set.of ? mesh.facet_sets.at(*set.of) : outer, nodes);
+    if (nodes.empty())
+      refuse("sets." + name, "no node of the mesh is in this set", "at least one", "");
+    const std::vector<Facet> facets =
+        facets_within(mesh, set.of ? mesh.facet_sets.at(*set.of) : outer, nodes);
     mesh.node_sets[name] = nodes;
     if (!facets.empty()) mesh.facet_sets[name] = facets;
   }
@@ -47,24 +49,28 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
     const double high = low + config.bodies[b].thickness, slack = 1e-9 * size[1];
     for (int e = 0; e < mesh.n_cells(); ++e) {
       double least = mesh.X[mesh.cell(e)[0]][1], most = least;
-      for (int n : mesh.cell(e)) least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
+      for (int n : mesh.cell(e))
+        least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
       if (least > low - slack && most < high + slack) mesh.body[e] = static_cast<int>(b);
       if (least < high - slack && most > high + slack)
         refuse(fmt::format("bodies[{}].thickness", b),
-               fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm", high, least, most),
-               "a border between cells", "change the thickness, or the divisions or layers of the geometry");
+               fmt::format("its upper border y = {:g} mm cuts through cells from {:g} to {:g} mm",
+                           high, least, most),
+               "a border between cells",
+               "change the thickness, or the divisions or layers of the geometry");
     }
     low = high;
   }
 }
 
-// Lines of a grid go through the borders of layers: cells that one number gives, or that were made longer or shorter for an estimate, nobody
-// could lay between them by hand.
+// Lines of a grid go through the borders of layers: cells that one number gives, or that were made
+// longer or shorter for an estimate, nobody could lay between them by hand.
 Geometry with_borders(const MeshConfig& config) {
   Geometry geometry = config.geometry;
   std::vector<double> borders;
   double y = box(geometry).origin[1];
-  for (std::size_t b = 0; b + 1 < config.bodies.size(); ++b) borders.push_back(y += config.bodies[b].thickness);
+  for (std::size_t b = 0; b + 1 < config.bodies.size(); ++b)
+    borders.push_back(y += config.bodies[b].thickness);
   const auto put = [&](auto* with_lines) {
     if (with_lines) with_lines->borders = borders;
   };
@@ -74,7 +80,8 @@ Geometry with_borders(const MeshConfig& config) {
 }
 
 CutRegion region_of(const Selection& within) {
-  if (const auto* box = std::get_if<InBox>(&within)) return {Vec3(box->from.data()), Vec3(box->to.data())};
+  if (const auto* box = std::get_if<InBox>(&within))
+    return {Vec3(box->from.data()), Vec3(box->to.data())};
   const auto& round = std::get<InCylinder>(within);
   const Vec3 half(round.radius, 1e9, round.radius);
   const Vec3 through(round.through.data());
@@ -94,14 +101,14 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
     const long long more = 7LL * std::count(marked.begin(), marked.end(), 1);
     if (more == 0) return cells.mesh();
     if (cells.mesh().n_cells() + more > most_cells)
-      refuse("cuts", fmt::format("found more than {} cells", cells.mesh().n_cells() + more), fmt::format("at most {}", most_cells),
-             "smaller regions, or fewer times");
+      refuse("cuts", fmt::format("found more than {} cells", cells.mesh().n_cells() + more),
+             fmt::format("at most {}", most_cells), "smaller regions, or fewer times");
     cells.cut(std::move(marked));
   }
 }
 
-// A section's lines go through the radii of its sets, too: a hole or a ring is then the same on all cells. Not in y: a set may be of
-// nodes inside.
+// A section's lines go through the radii of its sets, too: a hole or a ring is then the same on all
+// cells. Not in y: a set may be of nodes inside.
 Points with_radii(const MeshConfig& config) {
   Points points = config.positions();
   const auto* section = std::get_if<SectionBox>(&config.geometry);
@@ -111,7 +118,8 @@ Points with_radii(const MeshConfig& config) {
     const auto* cylinder = std::get_if<InCylinder>(&set.within);
     if (!cylinder || cylinder->axis != "y" || cylinder->through[0] != 0) continue;
     for (double radius : {cylinder->radius, cylinder->beyond.value_or(0)})
-      if (radius > low && radius < high) points[fmt::format("{} {}", name, radius)] = {radius, section->origin[1], 0};
+      if (radius > low && radius < high)
+        points[fmt::format("{} {}", name, radius)] = {radius, section->origin[1], 0};
   }
   return points;
 }
@@ -146,7 +154,8 @@ MadeMesh made(const MeshConfig& config) {
     if (section)
       make_section(mesh, *section);
     else
-      number_in_order(mesh), make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
+      number_in_order(mesh),
+          make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
   }
   if (!config.cuts.empty()) mesh = with_cuts(std::move(mesh), config.cuts);
   name_points(mesh, config.positions());
@@ -157,13 +166,16 @@ MadeMesh made(const MeshConfig& config) {
   const auto node_sets = mesh.node_sets;
   const auto facet_sets = mesh.facet_sets;
   name_sides(mesh);
-  for (const auto& [name, set] : node_sets) mesh.node_sets[name] = set;  // a file's own sides come before ours
+  for (const auto& [name, set] : node_sets)
+    mesh.node_sets[name] = set;  // a file's own sides come before ours
   for (const auto& [name, set] : facet_sets) mesh.facet_sets[name] = set;
   for (const auto& [name, set] : config.sets)
-    if (node_sets.count(name)) refuse("sets." + name, "found the name of a set of the file", "another name", "");
+    if (node_sets.count(name))
+      refuse("sets." + name, "found the name of a set of the file", "another name", "");
   name_sets(mesh, config);
   if (mesh.section) {
-    for (const char* side : {"z_min", "z_max"}) mesh.node_sets.erase(side), mesh.facet_sets.erase(side);
+    for (const char* side : {"z_min", "z_max"})
+      mesh.node_sets.erase(side), mesh.facet_sets.erase(side);
     for (auto& [name, nodes] : mesh.node_sets) nodes = in_front(mesh, nodes);
   }
   return result;
@@ -171,7 +183,8 @@ MadeMesh made(const MeshConfig& config) {
 
 }  // namespace
 
-MadeMesh make_mesh(const MeshConfig& config, const std::function<Place(const std::string&)>& where) {
+MadeMesh make_mesh(const MeshConfig& config,
+                   const std::function<Place(const std::string&)>& where) {
   try {
     return made(config);
   } catch (const Failure& failure) {

@@ -1,5 +1,6 @@
 // Config -> mesh with sets and frames.
-// Throws Failure(config) with the place of the key: a folded cell, a point without node, an empty set.
+// Throws Failure(config) with the place of the key: a folded cell, a point without node, an empty
+// set.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
-// What the mesh stage's YAML may say: one geometry, the frames of its cells, observation points and further named sets.
-// The sides x_min x_max y_min y_max z_min z_max and top, bottom (= y_max, y_min) are always there, as nodes and facets.
+// What the mesh stage's YAML may say: one geometry, the frames of its cells, observation points and
+// further named sets. The sides x_min x_max y_min y_max z_min z_max and top, bottom (= y_max,
+// y_min) are always there, as nodes and facets.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,11 +13,11 @@
 #include <string>
 
 #include "core/base/fields.hpp"
-#include "meshing/block.hpp"
-#include "meshing/exchange.hpp"
 #include "mechanics/mesh/frames.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/select.hpp"
+#include "meshing/block.hpp"
+#include "meshing/exchange.hpp"
 
 namespace langer {
 
@@ -42,7 +43,8 @@ struct LayerConfig {
   static void fields(auto& v) {
     v(&LayerConfig::name, "name", unit::none, "name of the body", required);
     v(&LayerConfig::thickness, "thickness", unit::mm,
-      "along y; cells end at its borders: lines of a grid go through them, those of a file must lie there", required, positive);
+      "along y; cells end at its borders: lines of a grid go through them, those of a file must lie there",
+      required, positive);
   }
   std::vector<Complaint> complaints() const {
     if (!name.empty() && name.find_first_of(" \t\n./") == std::string::npos) return {};
@@ -54,12 +56,15 @@ struct CutConfig {
   Selection within;
   int times = 1;
   static void fields(auto& v) {
-    v(&CutConfig::within, "within", unit::none, "box, or cylinder along y: cells that have a part of it", required);
+    v(&CutConfig::within, "within", unit::none,
+      "box, or cylinder along y: cells that have a part of it", required);
     v(&CutConfig::times, "times", unit::none, "cuts, each into eight", between(1, 8));
   }
   std::vector<Complaint> complaints() const {
     if (std::holds_alternative<InBox>(within)) return {};
-    if (const auto* round = std::get_if<InCylinder>(&within); round && round->axis == "y" && !round->beyond) return {};
+    if (const auto* round = std::get_if<InCylinder>(&within);
+        round && round->axis == "y" && !round->beyond)
+      return {};
     return {{"within", "found another region", "a box, or a cylinder along y", ""}};
   }
 };
@@ -75,8 +80,10 @@ struct MeshConfig {
   std::map<std::string, SetConfig> sets;
   std::vector<MeshFormat> exports;
   static void fields(auto& v) {
-    v(&MeshConfig::body, "body", unit::none, "name of the body, where it is one, or of what a file gives no name");
-    v(&MeshConfig::bodies, "bodies", unit::none, "layers from the bottom up, each a body of its own; none: one body");
+    v(&MeshConfig::body, "body", unit::none,
+      "name of the body, where it is one, or of what a file gives no name");
+    v(&MeshConfig::bodies, "bodies", unit::none,
+      "layers from the bottom up, each a body of its own; none: one body");
     v(&MeshConfig::geometry, "geometry", unit::none, "what is meshed", required);
     v(&MeshConfig::cells, "cells", unit::none,
       "hex8, or hex27: quadratic displacements with nodes in the middles of edges, facets and cells too; about 8 times the work of "
@@ -86,8 +93,10 @@ struct MeshConfig {
       "regions whose hex8 are cut into eight; the nodes in the middles of larger cells beside them move with the corners of these");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
-    v(&MeshConfig::points, "points", unit::mm, "observation points by name: sets of one node, exactly there");
-    v(&MeshConfig::sets, "sets", unit::none, "further sets by name: nodes, and the facets of the surface between them");
+    v(&MeshConfig::points, "points", unit::mm,
+      "observation points by name: sets of one node, exactly there");
+    v(&MeshConfig::sets, "sets", unit::none,
+      "further sets by name: nodes, and the facets of the surface between them");
     v(&MeshConfig::exports, "export", unit::none,
       "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
   }
@@ -97,7 +106,8 @@ struct MeshConfig {
     return positions;
   }
   std::vector<Complaint> complaints() const {
-    std::vector<Complaint> found = std::visit([&](const auto& g) { return contradictions(g, positions()); }, geometry);
+    std::vector<Complaint> found =
+        std::visit([&](const auto& g) { return contradictions(g, positions()); }, geometry);
     const ReferenceCell& cell = reference(cells);
     const char* name = names(cells)[static_cast<std::size_t>(cells)];
     double thickness = 0;
@@ -105,23 +115,27 @@ struct MeshConfig {
       thickness += bodies[i].thickness;
       for (std::size_t k = 0; k < i; ++k)
         if (bodies[k].name == bodies[i].name)
-          found.push_back({"bodies[" + std::to_string(i) + "].name", "found \"" + bodies[i].name + "\" again", "another name", ""});
+          found.push_back({"bodies[" + std::to_string(i) + "].name",
+                           "found \"" + bodies[i].name + "\" again", "another name", ""});
     }
     if (std::holds_alternative<FromFile>(geometry)) {
       const std::string expected = "none, where geometry is a file";
       if (!bodies.empty())
-        found.push_back(
-            {"bodies", "found " + std::to_string(bodies.size()) + " layers", expected, "the bodies are those of the file"});
+        found.push_back({"bodies", "found " + std::to_string(bodies.size()) + " layers", expected,
+                         "the bodies are those of the file"});
       if (cell.hexahedron() && cell.second_order() && !std::get<FromFile>(geometry).is_inp())
-        found.push_back({"cells", std::string("found ") + name, "hex8 or tet15, where geometry is no .inp", ""});
+        found.push_back({"cells", std::string("found ") + name,
+                         "hex8 or tet15, where geometry is no .inp", ""});
       if (!cell.hexahedron() && frames != Frames::global)
         found.push_back({"frames", std::string("found element_edges beside cells: ") + name,
                          "global: no edge of a tetrahedron stands for a direction", ""});
     } else {
       if (!cell.hexahedron())
-        found.push_back({"cells", std::string("found ") + name,
-                         "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
-      if (const double height = box(geometry).size[1]; !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
+        found.push_back(
+            {"cells", std::string("found ") + name,
+             "hex8 or hex27: tetrahedra are for bodies from a file (geometry: {file: ...})", ""});
+      if (const double height = box(geometry).size[1];
+          !bodies.empty() && !(std::abs(thickness - height) <= 1e-9 * height))
         found.push_back({"bodies", fmt::format("found layers of {:g} mm in all", thickness),
                          fmt::format("{:g} mm, the height of the geometry", height),
                          "change a thickness, or the second number of its size"});
@@ -129,18 +143,25 @@ struct MeshConfig {
     if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
       found.push_back({"cuts", "found beside other cells than the hex8 of a body", "none", ""});
     if (!cuts.empty() && !exports.empty())
-      found.push_back({"export", "found beside cuts", "none: other programs know no nodes that hang", ""});
+      found.push_back(
+          {"export", "found beside cuts", "none: other programs know no nodes that hang", ""});
     if (!exports.empty() && is_section(geometry))
-      found.push_back({"export", "found with a section", "none: other programs have sections of their own", ""});
+      found.push_back({"export", "found with a section",
+                       "none: other programs have sections of their own", ""});
     else if (!exports.empty() && !cell.names.abaqus.written)
       found.push_back({"export", std::string("found beside cells: ") + name, "cells: hex8", ""});
     const auto sides = side_names();
-    const auto is_side = [&](const std::string& name) { return std::find(sides.begin(), sides.end(), name) != sides.end(); };
+    const auto is_side = [&](const std::string& name) {
+      return std::find(sides.begin(), sides.end(), name) != sides.end();
+    };
     for (const auto& [name, x] : points)
-      if (is_side(name)) found.push_back({"points." + name, "found the name of a side", "another name", ""});
+      if (is_side(name))
+        found.push_back({"points." + name, "found the name of a side", "another name", ""});
     for (const auto& [name, set] : sets) {
-      if (is_side(name)) found.push_back({"sets." + name, "found the name of a side", "another name", ""});
-      if (points.count(name)) found.push_back({"sets." + name, "found the name of a point", "another name", ""});
+      if (is_side(name))
+        found.push_back({"sets." + name, "found the name of a side", "another name", ""});
+      if (points.count(name))
+        found.push_back({"sets." + name, "found the name of a point", "another name", ""});
     }
     return found;
   }

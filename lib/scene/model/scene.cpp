@@ -9,14 +9,14 @@
 
 #include "mechanics/contact/surface_check.hpp"
 #include "mechanics/contact/touch.hpp"
-#include "meshing/read_surface.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/hanging.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/section.hpp"
-#include "scene/model/scene_adhesion.hpp"
+#include "meshing/read_surface.hpp"
 #include "scene/model/hanging_constraints.hpp"
+#include "scene/model/scene_adhesion.hpp"
 #include "scene/model/scene_loads.hpp"
 #include "scene/model/scene_section.hpp"
 
@@ -30,7 +30,10 @@ using Find = std::function<Place(const std::string&)>;
 class Nodes {
  public:
   Nodes(const Mesh& mesh, const Find& where)
-      : mesh_(mesh), where_(where), named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())), to_(named_by_.size()) {}
+      : mesh_(mesh),
+        where_(where),
+        named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())),
+        to_(named_by_.size()) {}
   Place place_of(const std::string& key) const { return where_(key); }
 
   const std::vector<int>& of_set(const std::string& set, const std::string& key) {
@@ -39,23 +42,28 @@ class Nodes {
     if (found != mesh_.node_sets.end() && !found->second.empty()) return found->second;
     std::vector<std::string> known;
     std::string list;
-    for (const auto& [name, members] : mesh_.node_sets) known.push_back(name), list += (list.empty() ? "" : ", ") + name;
+    for (const auto& [name, members] : mesh_.node_sets)
+      known.push_back(name), list += (list.empty() ? "" : ", ") + name;
     const std::string near = nearest(set, known);
-    errors.push_back({where_(key), key, fmt::format("found \"{}\"", set), "a node set of the mesh: " + list,
+    errors.push_back({where_(key), key, fmt::format("found \"{}\"", set),
+                      "a node set of the mesh: " + list,
                       near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
     return none;
   }
 
   // false, and an error, where the same direction of the node was told something else
-  bool prescribe(int node, int axis, const History& to, const std::string& key, const std::optional<Turn>& turn = {}) {
+  bool prescribe(int node, int axis, const History& to, const std::string& key,
+                 const std::optional<Turn>& turn = {}) {
     const std::size_t dof = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
     const Prescribed told{static_cast<int>(dof), to.value, to.factor, turn};
     if (!named_by_[dof].empty() && !to_[dof].moves_as(told)) {
       const bool other_way = to_[dof].value == to.value;
-      errors.push_back({where_(key), key,
-                        fmt::format("asks for {} at a node that {} sets to {}{}", words(told), named_by_[dof],
-                                    words(to_[dof], false), other_way && !turn && !to_[dof].turn ? " by another history" : ""),
-                        "one value for each direction of a node", ""});
+      errors.push_back(
+          {where_(key), key,
+           fmt::format("asks for {} at a node that {} sets to {}{}", words(told), named_by_[dof],
+                       words(to_[dof], false),
+                       other_way && !turn && !to_[dof].turn ? " by another history" : ""),
+           "one value for each direction of a node", ""});
       return false;
     }
     named_by_[dof] = key, to_[dof] = told;
@@ -69,7 +77,8 @@ class Nodes {
  private:
   static std::string words(const Prescribed& told, bool with_name = true) {
     const std::string name = with_name ? fmt::format("{} = ", "xyz"[told.dof % 3]) : "";
-    return told.turn ? fmt::format("{}{} mm and a rotation", name, told.value) : fmt::format("{}{} mm", name, told.value);
+    return told.turn ? fmt::format("{}{} mm and a rotation", name, told.value)
+                     : fmt::format("{}{} mm", name, told.value);
   }
   const Mesh& mesh_;
   const Find& where_;
@@ -83,32 +92,40 @@ History radians(const HistoryConfig& degrees, std::optional<double> seconds) {
   return history;
 }
 
-void set_angles(Material& material, const std::vector<double>& angles, const std::string& key, const Find& where,
-                std::vector<Error>& errors) {
+void set_angles(Material& material, const std::vector<double>& angles, const std::string& key,
+                const Find& where, std::vector<Error>& errors) {
   if (angles.size() != material.fibres.size())
-    return errors.push_back({where(key), key, fmt::format("found {} angles", angles.size()),
-                             fmt::format("{}, one for each fibre family of the material", material.fibres.size()), ""});
+    return errors.push_back(
+        {where(key), key, fmt::format("found {} angles", angles.size()),
+         fmt::format("{}, one for each fibre family of the material", material.fibres.size()), ""});
   for (std::size_t k = 0; k < angles.size(); ++k) material.fibres[k].alpha_deg = angles[k];
 }
 
-// A field gives the direction of the first family: angles beside it tell those of further ones, and of a single one nothing.
-void refuse_angles_without_effect(const std::vector<double>& angles, const std::optional<FibreField>& field,
-                                  const Material& material, const std::string& key, const Find& where, std::vector<Error>& errors) {
+// A field gives the direction of the first family: angles beside it tell those of further ones, and
+// of a single one nothing.
+void refuse_angles_without_effect(const std::vector<double>& angles,
+                                  const std::optional<FibreField>& field, const Material& material,
+                                  const std::string& key, const Find& where,
+                                  std::vector<Error>& errors) {
   if (!field || angles.empty() || material.fibres.size() != 1) return;
   for (const Error& e : errors)
     if (e.key == key) return;
-  errors.push_back({where(key), key, "found beside fibre_field, which gives the direction of the only family", "one of the two",
-                    "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
+  errors.push_back(
+      {where(key), key, "found beside fibre_field, which gives the direction of the only family",
+       "one of the two",
+       "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
 }
 
-void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& general,
-                   const Find& where, std::vector<Error>& errors) {
+void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
+                   const std::optional<Material>& general, const Find& where,
+                   std::vector<Error>& errors) {
   std::string list;
   for (const std::string& name : mesh.bodies) list += (list.empty() ? "" : ", ") + name;
   for (const auto& [name, body] : config.materials)
     if (std::find(mesh.bodies.begin(), mesh.bodies.end(), name) == mesh.bodies.end()) {
       const std::string near = nearest(name, mesh.bodies), key = "materials." + name;
-      errors.push_back({where(key), key, fmt::format("found \"{}\"", name), "a body of the mesh: " + list,
+      errors.push_back({where(key), key, fmt::format("found \"{}\"", name),
+                        "a body of the mesh: " + list,
                         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
     }
   if (!errors.empty()) return;
@@ -119,8 +136,10 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
     const BodyConfig own = named == config.materials.end() ? BodyConfig{} : named->second;
     const std::string key = "materials." + mesh.bodies[b] + ".";
     if (!own.material && !general) {
-      errors.push_back({where("materials"), "materials", fmt::format("nothing for the body \"{}\"", mesh.bodies[b]),
-                        "a material for every body: " + list, "the key `material` or --material stands for those not named"});
+      errors.push_back({where("materials"), "materials",
+                        fmt::format("nothing for the body \"{}\"", mesh.bodies[b]),
+                        "a material for every body: " + list,
+                        "the key `material` or --material stands for those not named"});
       continue;
     }
     Material material = own.material ? *own.material : *general;
@@ -132,18 +151,23 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
     const auto& field = own.fibre_field || !follows ? own.fibre_field : config.fibre_field;
     const std::string field_key = (own.fibre_field ? key : "") + "fibre_field";
     if (own.fibre_field && material.fibres.empty())
-      errors.push_back({where(field_key), field_key, "the material has no fibres", "a material with fibres", ""});
-    refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field, material,
-                                 (own.fibre_field ? key : "") + "fibre_angles", where, errors);
-    angles_follow = angles_follow || !own.material, field_follows = field_follows || (follows && !own.fibre_field);
+      errors.push_back({where(field_key), field_key, "the material has no fibres",
+                        "a material with fibres", ""});
+    refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field,
+                                 material, (own.fibre_field ? key : "") + "fibre_angles", where,
+                                 errors);
+    angles_follow = angles_follow || !own.material,
+    field_follows = field_follows || (follows && !own.fibre_field);
     if (is_viscous(material) && !config.path.seconds)
-      errors.push_back({where("path.seconds"), "path.seconds",
-                        fmt::format("nothing, and the material of the body \"{}\" is viscous", mesh.bodies[b]),
-                        "the duration of the path in s", "path: {seconds: 100}"});
+      errors.push_back(
+          {where("path.seconds"), "path.seconds",
+           fmt::format("nothing, and the material of the body \"{}\" is viscous", mesh.bodies[b]),
+           "the duration of the path in s", "path: {seconds: 100}"});
     if (is_viscous(material) && config.estimate == EstimateBy::recovery)
-      errors.push_back({where("estimate"), "estimate",
-                        fmt::format("recovery, and the material of the body \"{}\" is viscous", mesh.bodies[b]), "refinement",
-                        "recovery compares elastic stresses"});
+      errors.push_back(
+          {where("estimate"), "estimate",
+           fmt::format("recovery, and the material of the body \"{}\" is viscous", mesh.bodies[b]),
+           "refinement", "recovery compares elastic stresses"});
     scene.materials.push_back(material);
     if (!field || material.fibres.empty() || !errors.empty()) continue;
     std::vector<int> cells;
@@ -151,20 +175,28 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh, co
       if (mesh.body[e] == static_cast<int>(b)) cells.push_back(e);
     fields[b] = first_family(*field, mesh, cells, field_key, where);
   }
-  for (const auto& [given, taken, key] : {std::tuple{!config.fibre_angles.empty(), angles_follow, "fibre_angles"},
-                                          std::tuple{config.fibre_field.has_value(), field_follows, "fibre_field"}})
+  for (const auto& [given, taken, key] :
+       {std::tuple{!config.fibre_angles.empty(), angles_follow, "fibre_angles"},
+        std::tuple{config.fibre_field.has_value(), field_follows, "fibre_field"}})
     if (given && !taken)
-      errors.push_back({where(key), key, "no body takes it: all of them have a material, angles or a field of their own",
-                        fmt::format("{} of a body, as materials.{}.{}", key, mesh.bodies[0], key), ""});
-  if (scene.materials.size() == mesh.bodies.size()) scene.directions = make_directions(mesh, fibre_angles(scene.materials), fields);
+      errors.push_back(
+          {where(key), key,
+           "no body takes it: all of them have a material, angles or a field of their own",
+           fmt::format("{} of a body, as materials.{}.{}", key, mesh.bodies[0], key), ""});
+  if (scene.materials.size() == mesh.bodies.size())
+    scene.directions = make_directions(mesh, fibre_angles(scene.materials), fields);
 }
 
-// Candidates of an indenter without a set: what it can reach of the boundary, less what supports hold against it.
-std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, const std::vector<Prescribed>& prescribed) {
+// Candidates of an indenter without a set: what it can reach of the boundary, less what supports
+// hold against it.
+std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh,
+                                const std::vector<Prescribed>& prescribed) {
   double moves = 0;
   std::vector<Vec3> held(mesh.X.size(), Vec3::Zero());
   for (const Prescribed& p : prescribed)
-    held[p.dof / 3][p.dof % 3] = 1, moves = std::max(moves, std::abs(p.value) + (p.turn ? 2 * p.turn->radius() : 0));
+    held[p.dof / 3][p.dof % 3] = 1,
+                            moves = std::max(
+                                moves, std::abs(p.value) + (p.turn ? 2 * p.turn->radius() : 0));
   std::vector<int> nodes = SurfaceCheck(mesh).reached(contact, moves);
   std::erase_if(nodes, [&](int n) {
     const Vec3 normal = shape_at(contact.shape, mesh.X[n]).normal;
@@ -173,10 +205,11 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh, c
   return nodes;
 }
 
-// The path stops at every point of a history, but not twice within what it tells apart (nonlinear/load_path.cpp).
+// The path stops at every point of a history, but not twice within what it tells apart
+// (nonlinear/load_path.cpp).
 template <class Point>
-void take_stops(const std::vector<Point>& points, std::optional<double> seconds, const std::string& key, std::vector<double>& stops,
-                Nodes& nodes) {
+void take_stops(const std::vector<Point>& points, std::optional<double> seconds,
+                const std::string& key, std::vector<double>& stops, Nodes& nodes) {
   constexpr double shortest = 1e-9;
   double before = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -184,9 +217,11 @@ void take_stops(const std::vector<Point>& points, std::optional<double> seconds,
     stops.push_back(here);
     const std::string at = fmt::format("{}[{}]", key, i);
     if (here - before < shortest)
-      nodes.errors.push_back({nodes.place_of(at), at,
-                              fmt::format("{:.3g} of the path behind the point before, or its beginning", here - before),
-                              fmt::format("at least {:g}", shortest), "a longer ramp, or a shorter path"});
+      nodes.errors.push_back(
+          {nodes.place_of(at), at,
+           fmt::format("{:.3g} of the path behind the point before, or its beginning",
+                       here - before),
+           fmt::format("at least {:g}", shortest), "a longer ramp, or a shorter path"});
     before = here;
   }
 }
@@ -195,7 +230,8 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>&
   for (std::size_t i = 0; i < config.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
     for (int node : nodes.of_set(config.supports[i].on, key + ".on"))
-      for (Axis axis : config.supports[i].hold) nodes.prescribe(node, static_cast<int>(axis), {}, key);
+      for (Axis axis : config.supports[i].hold)
+        nodes.prescribe(node, static_cast<int>(axis), {}, key);
   }
   for (std::size_t i = 0; i < config.loads.size(); ++i) {
     const std::string key = fmt::format("loads[{}]", i);
@@ -231,9 +267,10 @@ void add_turned(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mes
     if (!load.rotation || load.on != set->name) continue;
     const std::string key = fmt::format("loads[{}].rotation", i);
     if (config.contacts.count(set->name))
-      nodes.errors.push_back({nodes.place_of(key), key,
-                              fmt::format("turns the set \"{}\", and an indenter has the same name", set->name),
-                              "names of their own", fmt::format("torque_{} would be that of both", set->name)});
+      nodes.errors.push_back(
+          {nodes.place_of(key), key,
+           fmt::format("turns the set \"{}\", and an indenter has the same name", set->name),
+           "names of their own", fmt::format("torque_{} would be that of both", set->name)});
     turn(nodes, *set++, mesh, key);
   }
 }
@@ -246,97 +283,128 @@ void read_triangles(RigidContact& rigid) {
   facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
 }
 
-void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
-                         std::vector<Error>& errors) {
+void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std::string& key,
+                         const Find& where, std::vector<Error>& errors) {
   for (int node : rigid.nodes)
     if (const double g = shape_at(rigid.shape, mesh.X[node]).gap; g < -1e-9) {
       const Vec3& X = mesh.X[node];
       errors.push_back({where(key), key,
-                        fmt::format("starts {:.3g} mm inside the body at ({:g}, {:g}, {:g})", -g, X[0], X[1], X[2]),
-                        "a start outside the body or touching it", "the indenter moves in from there by `motion`"});
+                        fmt::format("starts {:.3g} mm inside the body at ({:g}, {:g}, {:g})", -g,
+                                    X[0], X[1], X[2]),
+                        "a start outside the body or touching it",
+                        "the indenter moves in from there by `motion`"});
       return;
     }
 }
 
-// How far a force pushes is not known before: candidates are named, and what is across its direction moves as told.
-void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key, const Find& where,
-                   std::vector<Error>& errors) {
+// How far a force pushes is not known before: candidates are named, and what is across its
+// direction moves as told.
+void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key,
+                   const Find& where, std::vector<Error>& errors) {
   if (contact.on.empty())
-    errors.push_back({where(key), key + ".on", "missing, beside control", "a node set that may touch the indenter",
+    errors.push_back({where(key), key + ".on", "missing, beside control",
+                      "a node set that may touch the indenter",
                       "how far a force pushes the indenter is not known before"});
   for (const RigidContact& other : scene.contacts)
     if (other.control)
-      errors.push_back({where(key + ".control"), key + ".control", fmt::format("found beside that of \"{}\"", other.name),
+      errors.push_back({where(key + ".control"), key + ".control",
+                        fmt::format("found beside that of \"{}\"", other.name),
                         "one indenter under force control", "others may move as told by `motion`"});
 }
 
-// A force that pushes out of the body against its far side from within would have to bring the indenter through the body first.
-void refuse_far_side(const RigidContact& rigid, const std::string& on, const Mesh& mesh, const std::string& key, const Find& where,
-                     std::vector<Error>& errors) {
+// A force that pushes out of the body against its far side from within would have to bring the
+// indenter through the body first.
+void refuse_far_side(const RigidContact& rigid, const std::string& on, const Mesh& mesh,
+                     const std::string& key, const Find& where, std::vector<Error>& errors) {
   if (!rigid.control || rigid.nodes.empty()) return;
   bool covers = false;
   for (const Facet& facet : surface_of(mesh, on))
     for (const auto& quad : facet_quads(mesh, facet)) {
-      const auto X = [&](int k) { return mesh.X[static_cast<std::size_t>(quad[static_cast<std::size_t>(k)])]; };
+      const auto X = [&](int k) {
+        return mesh.X[static_cast<std::size_t>(quad[static_cast<std::size_t>(k)])];
+      };
       const Vec3 outward = cross(X(2) - X(0), X(3) - X(1));
       if (rigid.control->along.dot(outward) < 1e-9 * outward.norm()) return;
       covers = true;
     }
   if (covers)
-    errors.push_back({where(key + ".on"), key + ".on",
-                      fmt::format("the surface of \"{}\" faces away: the force pushes out of the body there", on),
-                      "a set whose surface faces the indenter", "look at `on` and at `control.along`"});
+    errors.push_back(
+        {where(key + ".on"), key + ".on",
+         fmt::format("the surface of \"{}\" faces away: the force pushes out of the body there",
+                     on),
+         "a set whose surface faces the indenter", "look at `on` and at `control.along`"});
 }
 
 // A hole that no candidate lies beyond has nothing to press on.
-void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key, const Find& where,
-                      std::vector<Error>& errors) {
+void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key,
+                      const Find& where, std::vector<Error>& errors) {
   const auto* aperture = std::get_if<Aperture>(&rigid.shape);
   if (!aperture || rigid.nodes.empty()) return;
   double widest = 0;
-  for (int node : rigid.nodes) widest = std::max(widest, about(*aperture->axis(), mesh.X[node]).rho);
+  for (int node : rigid.nodes)
+    widest = std::max(widest, about(*aperture->axis(), mesh.X[node]).rho);
   if (widest > aperture->radius) return;
   errors.push_back(
       {where(key), key + ".radius",
-       fmt::format("a hole of {:g} mm, and all that may touch the plate is within {:.4g} mm of its axis", aperture->radius, widest),
+       fmt::format(
+           "a hole of {:g} mm, and all that may touch the plate is within {:.4g} mm of its axis",
+           aperture->radius, widest),
        "a hole that the body reaches beyond", "look at the place of the hole and at `on`"});
 }
 
-void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh, const Find& where) {
+void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh,
+                  const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
     RigidContact rigid = indenter_of(name, contact, config.path.seconds);
     read_triangles(rigid);
     take_stops(contact.motion, config.path.seconds, key + ".motion", scene.stops, nodes);
-    if (contact.control) take_stops(contact.control->force.points, config.path.seconds, key + ".control.force", scene.stops, nodes);
-    if (contact.rotation) take_stops(contact.rotation->points, config.path.seconds, key + ".rotation", scene.stops, nodes);
+    if (contact.control)
+      take_stops(contact.control->force.points, config.path.seconds, key + ".control.force",
+                 scene.stops, nodes);
+    if (contact.rotation)
+      take_stops(contact.rotation->points, config.path.seconds, key + ".rotation", scene.stops,
+                 nodes);
     if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
-    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed) : nodes.of_set(contact.on, key + ".on");
-    std::erase_if(rigid.nodes, [&](int node) { return hanging_at(mesh.hanging, node) != nullptr; });  // what they hang on touches
+    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed)
+                                     : nodes.of_set(contact.on, key + ".on");
+    std::erase_if(rigid.nodes, [&](int node) {
+      return hanging_at(mesh.hanging, node) != nullptr;
+    });  // what they hang on touches
     if (rigid.nodes.empty() && contact.on.empty())
-      nodes.errors.push_back({where(key + ".motion"), key + ".motion", "the indenter reaches no node of the body",
-                              "a way that brings it to a node that may move", "look at its place and at how far it goes"});
+      nodes.errors.push_back({where(key + ".motion"), key + ".motion",
+                              "the indenter reaches no node of the body",
+                              "a way that brings it to a node that may move",
+                              "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
     refuse_wide_hole(rigid, mesh, key + ".rigid.aperture", where, nodes.errors);
     refuse_far_side(rigid, contact.on, mesh, key, where, nodes.errors);
     if (contact.adhesion) take_adhesion(rigid, contact, mesh, key, where, nodes.errors);
-    const auto at_rest = [&](int node) { return mesh.X[static_cast<std::size_t>(node)]; };
+    const auto at_rest = [&](int node) {
+      return mesh.X[static_cast<std::size_t>(node)];
+    };
     if (rigid.control && !rigid.nodes.empty() && !travel_to_touch(rigid, 0, 0, at_rest))
-      nodes.errors.push_back({where(key + ".control"), key + ".control.along", "the indenter passes all of its nodes by",
-                              "a direction in which it meets the body", "look at its place, at `on` and at `along`"});
+      nodes.errors.push_back({where(key + ".control"), key + ".control.along",
+                              "the indenter passes all of its nodes by",
+                              "a direction in which it meets the body",
+                              "look at its place, at `on` and at `along`"});
     scene.contacts.push_back(std::move(rigid));
   }
 }
 
 }  // namespace
 
-RigidContact indenter_of(const std::string& name, const ContactConfig& contact, std::optional<double> seconds) {
+RigidContact indenter_of(const std::string& name, const ContactConfig& contact,
+                         std::optional<double> seconds) {
   RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
-  for (const WaypointConfig& w : contact.motion) rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
+  for (const WaypointConfig& w : contact.motion)
+    rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
   if (contact.control)
-    rigid.control = ForceControl{vec(contact.control->along).normalized(), history_of(contact.control->force, seconds)};
-  if (contact.rotation) rigid.rotation = Rotation{axis_of(rigid.shape).value(), radians(*contact.rotation, seconds)};
+    rigid.control = ForceControl{vec(contact.control->along).normalized(),
+                                 history_of(contact.control->force, seconds)};
+  if (contact.rotation)
+    rigid.rotation = Rotation{axis_of(rigid.shape).value(), radians(*contact.rotation, seconds)};
   return rigid;
 }
 
@@ -349,26 +417,32 @@ std::vector<TurnedSet> turned_sets(const SolveConfig& config, const Mesh& mesh) 
     for (int node : set->second) places.push_back(mesh.X[node]);
     const RotationConfig& turn = *load.rotation;
     TurnedSet& out = turned.emplace_back();
-    out.name = load.on, out.nodes = set->second, out.angle = radians(turn.angle, config.path.seconds);
-    out.axis = {turn.through ? vec(*turn.through) : bounding_box(places).middle(), direction(turn.axis)};
+    out.name = load.on, out.nodes = set->second,
+    out.angle = radians(turn.angle, config.path.seconds);
+    out.axis = {turn.through ? vec(*turn.through) : bounding_box(places).middle(),
+                direction(turn.axis)};
     for (int k = 0; k < 3; ++k)
-      if (const auto to = load.imposed(k)) out.to[static_cast<std::size_t>(k)] = history_of(*to, config.path.seconds);
+      if (const auto to = load.imposed(k))
+        out.to[static_cast<std::size_t>(k)] = history_of(*to, config.path.seconds);
   }
   return turned;
 }
 
 int Scene::families() const {
   std::ptrdiff_t most = 0;
-  for (const Material& m : materials) most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), acts));
+  for (const Material& m : materials)
+    most = std::max(most, std::count_if(m.fibres.begin(), m.fibres.end(), acts));
   return static_cast<int>(most);
 }
 
-Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optional<Material>& material, const Find& where) {
+Scene make_scene(const SolveConfig& config, const Mesh& mesh,
+                 const std::optional<Material>& material, const Find& where) {
   Scene scene;
   Nodes nodes(mesh, where);
   scene.formulation = config.formulation.value_or(usual_formulation(mesh.type));
   if (scene.formulation == Formulation::linear_dilatation && !mesh.cell().second_order())
-    nodes.errors.push_back({where("formulation"), "formulation", "found linear_dilatation with cells hex8: they would lock",
+    nodes.errors.push_back({where("formulation"), "formulation",
+                            "found linear_dilatation with cells hex8: they would lock",
                             "mean_dilatation", "cells: hex27 in the mesh's config"});
   hold_and_move(nodes, config, scene.stops);
   add_turned(scene, nodes, config, mesh);
@@ -376,8 +450,10 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh, const std::optiona
   add_contacts(scene, nodes, config, mesh, where);
   add_materials(scene, config, mesh, material, where, nodes.errors);
   if (mesh.section)
-    for (Error& error : section_errors(config, mesh, scene, where)) nodes.errors.push_back(std::move(error));
-  for (Error& error : hanging_errors(config, mesh, nodes.prescribed, where)) nodes.errors.push_back(std::move(error));
+    for (Error& error : section_errors(config, mesh, scene, where))
+      nodes.errors.push_back(std::move(error));
+  for (Error& error : hanging_errors(config, mesh, nodes.prescribed, where))
+    nodes.errors.push_back(std::move(error));
   if (!nodes.errors.empty()) throw Failure(Exit::config, nodes.errors);
   scene.dofs = number_dofs(mesh.n_nodes(), std::move(nodes.prescribed), {}, mesh.hanging).dofs;
   return scene;

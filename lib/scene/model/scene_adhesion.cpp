@@ -23,15 +23,17 @@ std::vector<Facet> facets_under(const Mesh& mesh, const std::vector<int>& candid
     const std::vector<int> nodes = facet_nodes(mesh, facet);
     const std::vector<int> front = mesh.section ? in_front(mesh, nodes) : nodes;
     return front.empty() || (mesh.section && front.size() == nodes.size()) ||
-           !std::all_of(front.begin(), front.end(), [&](int node) { return may[static_cast<std::size_t>(node)] != 0; });
+           !std::all_of(front.begin(), front.end(),
+                        [&](int node) { return may[static_cast<std::size_t>(node)] != 0; });
   });
   return facets;
 }
 
 }  // namespace
 
-void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh& mesh, const std::string& key,
-                   const std::function<Place(const std::string&)>& where, std::vector<Error>& errors) {
+void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh& mesh,
+                   const std::string& key, const std::function<Place(const std::string&)>& where,
+                   std::vector<Error>& errors) {
   if (!contact.adhesion || contact.adhesion->work == 0 || rigid.nodes.empty()) return;
   VecX areas = nodal_areas(mesh, facets_under(mesh, rigid.nodes));
   if (mesh.section) {
@@ -43,7 +45,8 @@ void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh
   }
   if (areas.isZero(0)) {
     errors.push_back({where(key + ".adhesion"), key + ".adhesion",
-                      "no facet of the body has all of its nodes among those that may touch", "nodes that cover facets",
+                      "no facet of the body has all of its nodes among those that may touch",
+                      "nodes that cover facets",
                       "bonds are of areas, not of points: name a set of a face in `on`"});
     return;
   }
@@ -51,15 +54,18 @@ void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh
   for (int node : rigid.nodes) rigid.area.push_back(areas[node]);
 }
 
-BondZone bond_zone(const RigidContact& contact, const Mesh& mesh, const std::vector<Material>& materials) {
+BondZone bond_zone(const RigidContact& contact, const Mesh& mesh,
+                   const std::vector<Material>& materials) {
   BondZone zone{std::numeric_limits<double>::infinity(), 0};
   double softest = std::numeric_limits<double>::infinity();
-  for (const Material& material : materials) softest = std::min(softest, std::abs(shear_modulus(material)));
+  for (const Material& material : materials)
+    softest = std::min(softest, std::abs(shear_modulus(material)));
   zone.length = 4 * softest / contact.adhesion->stiffness;
   for (const Facet& facet : facets_under(mesh, contact.nodes))
     for (const auto& quad : facet_quads(mesh, facet)) {
       double side = 0;
-      for (std::size_t k = 0; k < 4; ++k) side = std::max(side, (mesh.X[quad[k]] - mesh.X[quad[(k + 1) % 4]]).norm());
+      for (std::size_t k = 0; k < 4; ++k)
+        side = std::max(side, (mesh.X[quad[k]] - mesh.X[quad[(k + 1) % 4]]).norm());
       zone.cell = std::min(zone.cell, side);
     }
   return zone;

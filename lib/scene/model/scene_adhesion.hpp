@@ -1,4 +1,5 @@
-// Adhesion of an indenter in a scene: which candidates have how much of the body's surface, and whether cells resolve the bonds.
+// Adhesion of an indenter in a scene: which candidates have how much of the body's surface, and
+// whether cells resolve the bonds.
 #pragma once
 
 #include <functional>
@@ -12,17 +13,23 @@
 
 namespace langer {
 
-// Gives `rigid`, whose nodes are known, the adhesion of its config; none with work: 0, which holds nothing.
-void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh& mesh, const std::string& key,
-                   const std::function<Place(const std::string&)>& where, std::vector<Error>& errors);
+// Gives `rigid`, whose nodes are known, the adhesion of its config; none with work: 0, which holds
+// nothing.
+void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh& mesh,
+                   const std::string& key, const std::function<Place(const std::string&)>& where,
+                   std::vector<Error>& errors);
 
-// Bonds come loose over a length of about E* w / sigma_max^2 = E*/C_N behind the edge of the contact, E* = 4 mu of an incompressible body.
-// [mm]: the shortest cell side under the candidates, and that length in the softest material
+// Bonds come loose over a length of about E* w / sigma_max^2 = E*/C_N behind the edge of the
+// contact, E* = 4 mu of an incompressible body. [mm]: the shortest cell side under the candidates,
+// and that length in the softest material
 struct BondZone {
   double cell = 0, length = 0;
-  double longest_cell() const { return length / 8; }  // beyond, the edge of the contact jumps from node to node
+  double longest_cell() const {
+    return length / 8;
+  }  // beyond, the edge of the contact jumps from node to node
   bool resolved() const { return cell <= longest_cell(); }
 };
-BondZone bond_zone(const RigidContact& contact, const Mesh& mesh, const std::vector<Material>& materials);
+BondZone bond_zone(const RigidContact& contact, const Mesh& mesh,
+                   const std::vector<Material>& materials);
 
 }  // namespace langer

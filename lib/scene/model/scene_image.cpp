@@ -38,14 +38,16 @@ bool same_law(const Fibre& a, const Fibre& b) {
 }
 
 // whether families with the directions a, turned, are those with the directions b
-bool same_families(const std::vector<Fibre>& families, const Isometry& op, std::span<const Vec3> a, std::span<const Vec3> b) {
+bool same_families(const std::vector<Fibre>& families, const Isometry& op, std::span<const Vec3> a,
+                   std::span<const Vec3> b) {
   std::vector<char> taken(families.size(), 0);
   for (std::size_t k = 0; k < a.size(); ++k) {
     if (!has_direction(families[k])) continue;
     const Vec3 turned = op.turn * a[k];
     std::size_t j = 0;
     const auto is_image = [&] {
-      return !taken[j] && std::min((turned - b[j]).norm(), (turned + b[j]).norm()) <= same && same_law(families[k], families[j]);
+      return !taken[j] && std::min((turned - b[j]).norm(), (turned + b[j]).norm()) <= same &&
+             same_law(families[k], families[j]);
     };
     while (j < b.size() && !is_image()) ++j;
     if (j == b.size()) return false;
@@ -54,19 +56,23 @@ bool same_families(const std::vector<Fibre>& families, const Isometry& op, std::
   return true;
 }
 
-std::string broken_fibres(const MeshImage& g, const Isometry& op, const Mesh& mesh, const Scene& scene, const Scene& image) {
+std::string broken_fibres(const MeshImage& g, const Isometry& op, const Mesh& mesh,
+                          const Scene& scene, const Scene& image) {
   if (scene.families() == 0) return "";
   for (int e = 0; e < mesh.n_cells(); ++e)
-    if (!same_families(scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres, op, scene.directions.of(e),
-                       image.directions.of(g.cell[e])))
+    if (!same_families(scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres, op,
+                       scene.directions.of(e), image.directions.of(g.cell[e])))
       return fmt::format("the fibres of cells {} and {}", e, g.cell[e]);
   return "";
 }
 
 // of one component of a displacement, whose sign the symmetry keeps or changes
 bool is_image(const Prescribed& image, const Prescribed& of, double sign) {
-  const auto near = [&](double a, double b, double size) { return std::abs(a - sign * b) <= same * size; };
-  if (!near(image.value, of.value, std::abs(of.value)) || !same_factor(image.factor, of.factor)) return false;
+  const auto near = [&](double a, double b, double size) {
+    return std::abs(a - sign * b) <= same * size;
+  };
+  if (!near(image.value, of.value, std::abs(of.value)) || !same_factor(image.factor, of.factor))
+    return false;
   if (!image.turn || !of.turn) return !image.turn && !of.turn;
   const Turn &a = *image.turn, &b = *of.turn;
   const double size = b.radius() + same;  // a component of a node on the axis is rounding
@@ -89,7 +95,8 @@ std::string broken_supports(const MeshImage& g, const Scene& scene, const Scene&
 }
 
 // whether a load goes over into one with the same factor: the facets by their corners
-std::string broken_loads(const MeshImage& g, const Mesh& mesh, const Scene& scene, const Scene& image) {
+std::string broken_loads(const MeshImage& g, const Mesh& mesh, const Scene& scene,
+                         const Scene& image) {
   const auto keys = [&](const SurfaceLoad& load, bool turned) {
     std::set<std::array<int, 4>> all;
     for (const Facet& facet : load.facets) {
@@ -104,18 +111,23 @@ std::string broken_loads(const MeshImage& g, const Mesh& mesh, const Scene& scen
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const SurfaceLoad& load = scene.loads[i];
     const auto facets = keys(load, true);
-    const bool found = std::any_of(image.loads.begin(), image.loads.end(), [&](const SurfaceLoad& other) {
-      return (other.traction - g.turn * load.traction).norm() <= same * load.traction.norm() && other.pressure == load.pressure &&
-             same_factor(other.factor, load.factor) && keys(other, false) == facets;
-    });
-    if (!found) return fmt::format("a force, a traction or a pressure on {} facets", load.facets.size());
+    const bool found =
+        std::any_of(image.loads.begin(), image.loads.end(), [&](const SurfaceLoad& other) {
+          return (other.traction - g.turn * load.traction).norm() <= same * load.traction.norm() &&
+                 other.pressure == load.pressure && same_factor(other.factor, load.factor) &&
+                 keys(other, false) == facets;
+        });
+    if (!found)
+      return fmt::format("a force, a traction or a pressure on {} facets", load.facets.size());
   }
   return "";
 }
 
-bool same_motion(const std::vector<Waypoint>& a, const std::vector<Waypoint>& b, const Isometry& op) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.to, q.to, op); });
+bool same_motion(const std::vector<Waypoint>& a, const std::vector<Waypoint>& b,
+                 const Isometry& op) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.to, q.to, op); });
 }
 
 // Turns are no arrows: a mirror that leaves the axis in place turns the other way.
@@ -124,30 +136,36 @@ bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry&
   const History &angle = a.rotation->angle, &image = b.rotation->angle;
   const double hand = cross(op.turn.col(0), op.turn.col(1)).dot(op.turn.col(2));
   return same_factor(angle.factor, image.factor) &&
-         (hand * angle.value * (op.turn * a.rotation->axis.along) - image.value * b.rotation->axis.along).norm() <=
-             same * std::abs(angle.value);
+         (hand * angle.value * (op.turn * a.rotation->axis.along) -
+          image.value * b.rotation->axis.along)
+                 .norm() <= same * std::abs(angle.value);
 }
 
 // what keeps b from being the image of a; empty where nothing
-std::string difference(const RigidContact& a, const RigidContact& b, const MeshImage& g, const Isometry& op) {
-  if (!becomes(a.shape, b.shape, op)) return fmt::format("the shape or place of the indenter \"{}\"", a.name);
+std::string difference(const RigidContact& a, const RigidContact& b, const MeshImage& g,
+                       const Isometry& op) {
+  if (!becomes(a.shape, b.shape, op))
+    return fmt::format("the shape or place of the indenter \"{}\"", a.name);
   if (a.mu != b.mu) return fmt::format("the friction of the indenter \"{}\"", a.name);
   if (a.adhesion != b.adhesion) return fmt::format("the adhesion of the indenter \"{}\"", a.name);
   const bool both_free = !a.control && !b.control;
-  const bool alike = both_free || (a.control && b.control && a.name == b.name && a.control->force == b.control->force &&
+  const bool alike = both_free || (a.control && b.control && a.name == b.name &&
+                                   a.control->force == b.control->force &&
                                    (op.turn * a.control->along - b.control->along).norm() <= same);
   if (!alike) return fmt::format("the force on the indenter \"{}\"", a.name);
-  if (!same_motion(a.motion, b.motion, op)) return fmt::format("the path of the indenter \"{}\"", a.name);
+  if (!same_motion(a.motion, b.motion, op))
+    return fmt::format("the path of the indenter \"{}\"", a.name);
   if (!same_rotation(a, b, op)) return fmt::format("the rotation of the indenter \"{}\"", a.name);
   std::vector<char> candidate(g.node.size(), 0);
   for (int node : b.nodes) candidate[node] = 1;
   const bool all = a.nodes.size() == b.nodes.size() &&
-                   std::all_of(a.nodes.begin(), a.nodes.end(), [&](int node) { return candidate[g.node[node]]; });
+                   std::all_of(a.nodes.begin(), a.nodes.end(),
+                               [&](int node) { return candidate[g.node[node]]; });
   return all ? "" : fmt::format("the nodes that may touch \"{}\"", a.name);
 }
 
-std::string match_contacts(const MeshImage& g, const Isometry& op, const Scene& scene, const Scene& other,
-                           std::vector<int>& image) {
+std::string match_contacts(const MeshImage& g, const Isometry& op, const Scene& scene,
+                           const Scene& other, std::vector<int>& image) {
   const std::vector<RigidContact>&all = scene.contacts, &others = other.contacts;
   const int n = static_cast<int>(all.size());
   if (others.size() != all.size()) return "the number of indenters";
@@ -156,7 +174,8 @@ std::string match_contacts(const MeshImage& g, const Isometry& op, const Scene& 
     const std::string own = difference(all[i], others[i], g, op);
     if (own.empty()) image[i] = i;
     for (int j = 0; j < n && image[i] < 0; ++j)
-      if (j != i && std::find(image.begin(), image.end(), j) == image.end() && difference(all[i], others[j], g, op).empty())
+      if (j != i && std::find(image.begin(), image.end(), j) == image.end() &&
+          difference(all[i], others[j], g, op).empty())
         image[i] = j;
     if (image[i] < 0) return own;
   }

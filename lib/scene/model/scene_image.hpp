@@ -1,4 +1,5 @@
-// Whether a scene is the image of another one on the same mesh, or of itself, under a symmetry of that mesh.
+// Whether a scene is the image of another one on the same mesh, or of itself, under a symmetry of
+// that mesh.
 //   fibres      the set of (law, a a^T) of each cell goes over into that of its image: families may change places, as those at +theta
 //               and -theta do in a mirror; a family without direction (kappa: 1/3) has nothing to turn
 //   supports, imposed displacements, forces on the surface    the image's, turned

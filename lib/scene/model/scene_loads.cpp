@@ -30,23 +30,29 @@ bool is_held(const SolveConfig& config, const Mesh& mesh, const std::string& set
       for (int n : found->second) left.erase(n);
   };
   for (const SupportConfig& support : config.supports)
-    if (std::find(support.hold.begin(), support.hold.end(), static_cast<Axis>(axis)) != support.hold.end()) take(support.on);
+    if (std::find(support.hold.begin(), support.hold.end(), static_cast<Axis>(axis)) !=
+        support.hold.end())
+      take(support.on);
   for (const LoadConfig& load : config.loads)
     if (load.tells(axis)) take(load.on);
   return left.empty();
 }
 
-bool has_direction(const Section& section, int axis) { return axis == 1 || (axis == 0 && section.of == SectionOf::plane_strain); }
+bool has_direction(const Section& section, int axis) {
+  return axis == 1 || (axis == 0 && section.of == SectionOf::plane_strain);
+}
 
 }  // namespace
 
-std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& mesh, const Find& where, std::vector<Error>& errors) {
+std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& mesh,
+                                       const Find& where, std::vector<Error>& errors) {
   std::vector<SurfaceLoad> loads;
   for (std::size_t i = 0; i < config.loads.size(); ++i) {
     const LoadConfig& load = config.loads[i];
     if (!load.on_surface()) continue;
     const std::string key = fmt::format("loads[{}]", i);
-    const auto refuse = [&](const std::string& at, std::string found, std::string expected, std::string hint = "") {
+    const auto refuse = [&](const std::string& at, std::string found, std::string expected,
+                            std::string hint = "") {
       errors.push_back({where(at), at, std::move(found), std::move(expected), std::move(hint)});
     };
     if (!mesh.node_sets.count(load.on)) continue;  // said where its nodes are asked for
@@ -55,7 +61,8 @@ std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& me
     if (mesh.section) area *= cell_share(*mesh.section);
     if (!(area > 0)) {
       refuse(key + ".on", fmt::format("found \"{}\", a set without facets", load.on),
-             "a set that covers facets: " + sets_with_facets(mesh), "a force on a point is a force on the facets around it");
+             "a set that covers facets: " + sets_with_facets(mesh),
+             "a force on a point is a force on the facets around it");
       continue;
     }
     if (load.pressure) {
@@ -68,11 +75,14 @@ std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& me
       if (!along || !along->moves()) continue;
       const std::string at = key + (load.force ? ".force." : ".traction.") + "xyz"[axis];
       if (mesh.section && !has_direction(*mesh.section, axis))
-        refuse(at, "found on a section, which has no force in this direction", "a pressure, or a force along y",
-               "a block is needed for others");
+        refuse(at, "found on a section, which has no force in this direction",
+               "a pressure, or a force along y", "a block is needed for others");
       else if (is_held(config, mesh, load.on, axis))
-        refuse(at, fmt::format("every node of \"{}\" is held or moved along {} already", load.on, "xyz"[axis]),
-               "a direction in which the set may move", "what supports take does not reach the body");
+        refuse(at,
+               fmt::format("every node of \"{}\" is held or moved along {} already", load.on,
+                           "xyz"[axis]),
+               "a direction in which the set may move",
+               "what supports take does not reach the body");
       const History f = history_of(*along, config.path.seconds);
       loads.push_back({facets, f.value / (load.force ? area : 1) * Vec3::Unit(axis), 0, f.factor});
     }

@@ -31,7 +31,8 @@ std::vector<int> followers(const SolveConfig& config, const Mesh& mesh, bool ang
   std::vector<int> bodies;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const auto own = config.materials.find(mesh.bodies[b]);
-    if (own == config.materials.end() || (!own->second.material && (!angles || own->second.fibre_angles.empty())))
+    if (own == config.materials.end() ||
+        (!own->second.material && (!angles || own->second.fibre_angles.empty())))
       bodies.push_back(static_cast<int>(b));
   }
   return bodies;
@@ -46,7 +47,9 @@ bool has_field(const SolveConfig& config, const std::string& body) {
 
 int family_of(const std::string& key) {
   const auto rest = behind(key, "fibres[");
-  return rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.') ? std::stoi(*rest) : -1;
+  return rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.')
+             ? std::stoi(*rest)
+             : -1;
 }
 
 double& number(Material& material, const std::string& key) {
@@ -55,15 +58,19 @@ double& number(Material& material, const std::string& key) {
   throw Failure(Exit::bug, Error{{}, key, "no number of the law", "one", ""});
 }
 
-Directions turned(const Directions& directions, const Mesh& mesh, const std::vector<int>& bodies, int family, double by_deg) {
+Directions turned(const Directions& directions, const Mesh& mesh, const std::vector<int>& bodies,
+                  int family, double by_deg) {
   Directions out(directions.from_field());
   for (int e = 0; e < mesh.n_cells(); ++e) {
     std::vector<Vec3> a{directions.of(e).begin(), directions.of(e).end()};
     const int body = mesh.body.empty() ? 0 : mesh.body[static_cast<std::size_t>(e)];
-    if (std::find(bodies.begin(), bodies.end(), body) != bodies.end() && static_cast<std::size_t>(family) < a.size()) {
-      const Vec3 axis = mesh.frames.empty() ? Vec3(Vec3::UnitY()) : Vec3(mesh.frames[static_cast<std::size_t>(e)].col(1));
+    if (std::find(bodies.begin(), bodies.end(), body) != bodies.end() &&
+        static_cast<std::size_t>(family) < a.size()) {
+      const Vec3 axis = mesh.frames.empty() ? Vec3(Vec3::UnitY())
+                                            : Vec3(mesh.frames[static_cast<std::size_t>(e)].col(1));
       Vec3& one = a[static_cast<std::size_t>(family)];
-      one = Eigen::AngleAxisd(-by_deg * std::numbers::pi / 180, axis) * one;  // from e_x towards e_z
+      one =
+          Eigen::AngleAxisd(-by_deg * std::numbers::pi / 180, axis) * one;  // from e_x towards e_z
     }
     out.append(std::move(a));
   }
@@ -83,15 +90,16 @@ std::string derivative_name(const std::string& quantity, const SceneParameter& p
   return "d_" + quantity + "_d_" + parameter.name;
 }
 
-SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Where& where) {
+SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+                                 const Where& where) {
   for (std::size_t i = 0; i < config.sensitivity.size(); ++i) {
     const std::string at = fmt::format("sensitivity[{}]", i), &key = config.sensitivity[i];
     take(key, config, mesh, scene, {where(at), at, fmt::format("found \"{}\"", key), "", ""});
   }
 }
 
-void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
-                           const Error& refused) {
+void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh,
+                           const Scene& scene, const Error& refused) {
   const auto refuse = [&](std::string found, std::string expected, std::string hint = "") {
     Error error = refused;
     if (!found.empty()) error.found += ", " + found;
@@ -101,7 +109,9 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   for (const SceneParameter& other : list_)
     if (other.key == key) refuse("a second time", "each number once");
   for (const Material& m : scene.materials)
-    if (is_viscous(m)) refuse("and a material is viscous", "an elastic law", "derivatives do not follow what branches remember");
+    if (is_viscous(m))
+      refuse("and a material is viscous", "an elastic law",
+             "derivatives do not follow what branches remember");
   std::vector<std::string> known;
   for (const RigidContact& contact : scene.contacts) {
     if (contact.adhesion)
@@ -111,12 +121,14 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (contact.mu > 0) known.push_back(friction);
     if (key != friction) continue;
     if (!(contact.mu > 0))
-      refuse("which is 0", "friction above 0", "without friction nothing says how a contact slips that sticks");
+      refuse("which is 0", "friction above 0",
+             "without friction nothing says how a contact slips that sticks");
     list_.push_back({key, name_of(key), unit::none, contact.mu});
     of_.push_back({contact.name, "", {}});
     return;
   }
-  const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies, const std::vector<int>& of_angles) {
+  const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies,
+                           const std::vector<int>& of_angles) {
     if (bodies.empty()) return false;
     Material material = scene.materials[static_cast<std::size_t>(bodies[0])];
     for (const MaterialParameter& p : parameters(material)) {
@@ -136,13 +148,17 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   if (look_in("", followers(config, mesh, false), followers(config, mesh, true))) return;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const auto own = config.materials.find(mesh.bodies[b]);
-    if (own == config.materials.end() || (!own->second.material && own->second.fibre_angles.empty())) continue;
+    if (own == config.materials.end() ||
+        (!own->second.material && own->second.fibre_angles.empty()))
+      continue;
     const std::vector<int> body{static_cast<int>(b)};
     const std::string beginning = "materials." + mesh.bodies[b] + ".";
     const std::string own_key = key.starts_with(beginning) ? key.substr(beginning.size()) : "";
-    const bool angle = family_of(own_key.starts_with("material.") ? own_key.substr(9) : own_key) >= 0;
+    const bool angle =
+        family_of(own_key.starts_with("material.") ? own_key.substr(9) : own_key) >= 0;
     if (!own->second.material && !angle && !own_key.empty())
-      refuse("and this body takes the material at the top", own_key, "that number is one of all bodies that take it");
+      refuse("and this body takes the material at the top", own_key,
+             "that number is one of all bodies that take it");
     if (look_in(beginning, body, body)) return;
   }
   const std::string near = nearest(key, known);
@@ -162,7 +178,8 @@ double SceneParameters::step(std::size_t i) const {
   return size > 0 ? 1e-5 * size : 1e-5;
 }
 
-SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& mesh, std::size_t i, double by) const {
+SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& mesh, std::size_t i,
+                                              double by) const {
   Laws laws{scene.materials, scene.directions};
   const Of& of = of_[i];
   if (of.family >= 0) laws.directions = turned(scene.directions, mesh, of.bodies, of.family, by);
@@ -180,7 +197,10 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
       continue;
     }
     const double value = list_[i].value;
-    Laws laws = varied(other, mesh, i, of_[i].family >= 0 ? 137 * share : value == 0 ? share : share * value);
+    Laws laws = varied(other, mesh, i,
+                       of_[i].family >= 0 ? 137 * share
+                       : value == 0       ? share
+                                          : share * value);
     other.materials = std::move(laws.materials), other.directions = std::move(laws.directions);
   }
   return other;

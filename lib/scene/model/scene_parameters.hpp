@@ -1,4 +1,5 @@
-// The numbers of a scene that a config's `sensitivity` names, and the same scene where they are others.
+// The numbers of a scene that a config's `sensitivity` names, and the same scene where they are
+// others.
 //   matrix.yeoh.a1                      of the material at the top, in all bodies that take it (material/parameters.hpp)
 //   materials.dermis.matrix.yeoh.a1     of the body's own
 //   fibres[0].alpha                     angle of a family [deg]: it turns in its cells
@@ -26,16 +27,19 @@ std::string derivative_name(const std::string& quantity, const SceneParameter& p
 class SceneParameters {
  public:
   using Where = std::function<Place(const std::string&)>;
-  // None without the key. Throws Failure(config) at sensitivity[i]: a number that the scene does not have, or that nothing can be
-  // differentiated by.
-  SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Where& where);
+  // None without the key. Throws Failure(config) at sensitivity[i]: a number that the scene does
+  // not have, or that nothing can be differentiated by.
+  SceneParameters(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+                  const Where& where);
 
   const std::vector<SceneParameter>& list() const { return list_; }
   bool turns_fibres() const;
   bool of_laws(std::size_t i) const { return of_[i].contact.empty(); }
-  const std::string& contact(std::size_t i) const { return of_[i].contact; }  // whose friction it is; empty: a number of laws
-  bool linear(std::size_t i) const { return of_[i].linear; }                  // forces and energy are linear in it
-  double step(std::size_t i) const;                                           // of a difference, central but where they are
+  const std::string& contact(std::size_t i) const {
+    return of_[i].contact;
+  }  // whose friction it is; empty: a number of laws
+  bool linear(std::size_t i) const { return of_[i].linear; }  // forces and energy are linear in it
+  double step(std::size_t i) const;  // of a difference, central but where they are
 
   // The laws and directions of the scene, or of a part of it, where number i is larger by `by`.
   struct Laws {
@@ -55,7 +59,8 @@ class SceneParameters {
     bool linear = false;
     double modulus = 0;  // where it is: the largest of its law [MPa]
   };
-  void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene, const Error& refused);
+  void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+            const Error& refused);
 
   std::vector<SceneParameter> list_;
   std::vector<Of> of_;

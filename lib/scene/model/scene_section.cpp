@@ -23,11 +23,12 @@ bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
   return std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same;
 }
 
-using Refuse =
-    std::function<void(const std::string& key, const std::string& found, const std::string& expected, const std::string& hint)>;
+using Refuse = std::function<void(const std::string& key, const std::string& found,
+                                  const std::string& expected, const std::string& hint)>;
 
 // fibres that lead out of the plane of a section, once for each body
-void refuse_fibres(const SolveConfig& config, const Mesh& mesh, const Scene& scene, bool is_round, const Refuse& refuse) {
+void refuse_fibres(const SolveConfig& config, const Mesh& mesh, const Scene& scene, bool is_round,
+                   const Refuse& refuse) {
   if (scene.materials.size() != mesh.bodies.size()) return;  // said elsewhere
   std::vector<char> said(mesh.bodies.size(), 0);
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -39,9 +40,11 @@ void refuse_fibres(const SolveConfig& config, const Mesh& mesh, const Scene& sce
       if (kept(families[k], a[k], mesh.section->of)) continue;
       said[body] = 1;
       const bool own = config.materials.count(mesh.bodies[body]) > 0;
-      refuse(own ? "materials." + mesh.bodies[body] : "material", fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
-             is_round ? "no fibres (c1: 0), or fibres along y or without direction (kappa: 1/3)"
-                      : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
+      refuse(own ? "materials." + mesh.bodies[body] : "material",
+             fmt::format("fibres in the body \"{}\"", mesh.bodies[body]),
+             is_round
+                 ? "no fibres (c1: 0), or fibres along y or without direction (kappa: 1/3)"
+                 : "no fibres, or fibres in the plane, along z or without direction (kappa: 1/3)",
              "fibres in one direction make a body that needs all three dimensions: a block");
     }
   }
@@ -54,17 +57,19 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
   std::vector<Error> errors;
   const bool is_round = mesh.section->of == SectionOf::axisymmetric;
   const std::string of = is_round ? "an axisymmetric section" : "a plane-strain section";
-  const auto refuse = [&](const std::string& key, const std::string& found, const std::string& expected, const std::string& hint) {
+  const auto refuse = [&](const std::string& key, const std::string& found,
+                          const std::string& expected, const std::string& hint) {
     errors.push_back({where(key), key, found + ", on " + of, expected, hint});
   };
   if (config.symmetry != SymmetryChoice::none && config.symmetry != SymmetryChoice::automatic)
-    refuse("symmetry", fmt::format("found {}", names(config.symmetry)[static_cast<int>(config.symmetry)]), "none or auto",
-           "the section stands for the whole body already");
+    refuse("symmetry",
+           fmt::format("found {}", names(config.symmetry)[static_cast<int>(config.symmetry)]),
+           "none or auto", "the section stands for the whole body already");
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (const auto z = config.loads[i].imposed(2); z && z->moves()) {
       const std::string key = fmt::format("loads[{}].displacement.z", i);
-      refuse(key, fmt::format("found {:g}", history_of(*z, config.path.seconds).value), "none, or 0",
-             "nothing moves out of the plane of a section");
+      refuse(key, fmt::format("found {:g}", history_of(*z, config.path.seconds).value),
+             "none, or 0", "nothing moves out of the plane of a section");
     }
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (config.loads[i].rotation)
@@ -77,18 +82,24 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
              "nothing moves out of the plane of a section: a block is needed");
     if (!has_symmetry_of(mesh.section->of, contact.rigid))
       refuse(key + ".rigid", "found a shape or place without its symmetry",
-             is_round ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
-                      : "a shape that stands in z = 0, or a plane normal to that",
+             is_round
+                 ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
+                 : "a shape that stands in z = 0, or a plane normal to that",
              "a block is needed for others");
-    if (const auto& control = contact.control; control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
+    if (const auto& control = contact.control;
+        control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
       refuse(key + ".control.along",
-             fmt::format("found [{:g}, {:g}, {:g}]", control->along[0], control->along[1], control->along[2]),
-             is_round ? "a direction along y" : "a direction in the plane of x and y", "a block is needed for others");
+             fmt::format("found [{:g}, {:g}, {:g}]", control->along[0], control->along[1],
+                         control->along[2]),
+             is_round ? "a direction along y" : "a direction in the plane of x and y",
+             "a block is needed for others");
     for (std::size_t i = 0; i < contact.motion.size(); ++i) {
       const auto& to = contact.motion[i].to;
       if (to[2] == 0 && (!is_round || to[0] == 0)) continue;
-      refuse(fmt::format("{}.motion[{}].to", key, i), fmt::format("found [{:g}, {:g}, {:g}]", to[0], to[1], to[2]),
-             is_round ? "a movement along y" : "a movement in the plane of x and y", "a block is needed for others");
+      refuse(fmt::format("{}.motion[{}].to", key, i),
+             fmt::format("found [{:g}, {:g}, {:g}]", to[0], to[1], to[2]),
+             is_round ? "a movement along y" : "a movement in the plane of x and y",
+             "a block is needed for others");
     }
   }
   refuse_fibres(config, mesh, scene, is_round, refuse);
@@ -96,9 +107,11 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
 }
 
 std::string section_words(const Mesh& mesh) {
-  if (mesh.section->of == SectionOf::axisymmetric) return "axisymmetric section: forces and energies are those of the whole body";
-  return fmt::format("plane-strain section: forces and energies are those of {:g} mm along z; an indenter is a bar along z",
-                     mesh.section->depth);
+  if (mesh.section->of == SectionOf::axisymmetric)
+    return "axisymmetric section: forces and energies are those of the whole body";
+  return fmt::format(
+      "plane-strain section: forces and energies are those of {:g} mm along z; an indenter is a bar along z",
+      mesh.section->depth);
 }
 
 }  // namespace langer

@@ -17,6 +17,7 @@ namespace langer {
 std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
                                   const std::function<Place(const std::string&)>& where);
 
-std::string section_words(const Mesh& mesh);  // "axisymmetric section: forces and energies are those of the whole body"
+std::string section_words(
+    const Mesh& mesh);  // "axisymmetric section: forces and energies are those of the whole body"
 
 }  // namespace langer

@@ -23,7 +23,8 @@ struct Operation {
   const char* name;
   Vec3 signs;
 };
-const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
+const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}},
+    half_turn{"half turn about y", {-1, 1, -1}};
 
 std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
   switch (wanted) {
@@ -72,7 +73,8 @@ class Found {
       if (const SceneImage other = image_in(*varied_); !other.broken.empty())
         image.broken = other.broken + ", where the numbers of `sensitivity` are others";
     if (!image.broken.empty())
-      breaks_ += (breaks_.empty() ? "" : "; ") + fmt::format("{} is not its own image: {}", op.name, image.broken);
+      breaks_ += (breaks_.empty() ? "" : "; ") +
+                 fmt::format("{} is not its own image: {}", op.name, image.broken);
     else
       found = Generator{op, std::move(*g), std::move(image.contact)};
     return found ? &*found : nullptr;
@@ -89,7 +91,8 @@ class Found {
 };
 
 // images of the contacts by all products of the generators, in the order of group_of
-std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>& generators, std::size_t n_contacts) {
+std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>& generators,
+                                            std::size_t n_contacts) {
   std::vector<std::vector<int>> group(1, std::vector<int>(n_contacts));
   std::iota(group[0].begin(), group[0].end(), 0);
   for (const Generator* g : generators)
@@ -103,8 +106,9 @@ std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>&
 
 }  // namespace
 
-std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-                                               const std::function<Place(const std::string&)>& where, const Scene* varied) {
+std::optional<ReducedScene> ReducedScene::find(
+    SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
+    const std::function<Place(const std::string&)>& where, const Scene* varied) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
   const Vec3 centre = bounding_box(mesh.X).middle();
@@ -123,41 +127,50 @@ std::optional<ReducedScene> ReducedScene::find(SymmetryChoice wanted, const Mesh
         if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
     r.take_part(mesh, scene, of_mesh, contact_group(generators, scene.contacts.size()));
-    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2], r.quotient_.cell.size(), mesh.n_cells());
+    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2],
+                            r.quotient_.cell.size(), mesh.n_cells());
     return r;
   }
   if (wanted == SymmetryChoice::automatic) return std::nullopt;
-  throw Failure(Exit::config, Error{where("symmetry"), "symmetry", found.breaks(), "a scene with this symmetry",
-                                    "symmetry: auto takes what there is"});
+  throw Failure(Exit::config,
+                Error{where("symmetry"), "symmetry", found.breaks(), "a scene with this symmetry",
+                      "symmetry: auto takes what there is"});
 }
 
-void ReducedScene::take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
+void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
+                             const std::vector<Symmetry>& generators,
                              const std::vector<std::vector<int>>& contacts) {
   quotient_ = quotient(mesh, generators);
-  scene_.formulation = scene.formulation, scene_.materials = scene.materials, scene_.stops = scene.stops;
+  scene_.formulation = scene.formulation, scene_.materials = scene.materials,
+  scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(quotient_.cell);
   take_supports(scene);
   take_loads(scene);
   const std::vector<Symmetry> group = group_of(mesh, generators);
   find_turned_families(mesh, scene, group);
   for (const auto& images : contacts)
-    for (std::size_t c = 0; c < images.size(); ++c) swaps_indenters_ = swaps_indenters_ || images[c] != static_cast<int>(c);
-  // Of the pairs of an indenter and a node that are images of each other one is kept: at the node that is kept, the first indenter.
+    for (std::size_t c = 0; c < images.size(); ++c)
+      swaps_indenters_ = swaps_indenters_ || images[c] != static_cast<int>(c);
+  // Of the pairs of an indenter and a node that are images of each other one is kept: at the node
+  // that is kept, the first indenter.
   take_contacts(scene, [&](int contact, int node) {
-    Touch kept{static_cast<int>(scene.contacts.size()), quotient_.node_image[node].of, Mat3::Identity(), 0};
+    Touch kept{static_cast<int>(scene.contacts.size()), quotient_.node_image[node].of,
+               Mat3::Identity(), 0};
     const int at = quotient_.node[kept.node];
     for (std::size_t h = 0; h < group.size(); ++h)
       if (group[h].node[node] == at && contacts[h][contact] < kept.contact)
         kept.contact = contacts[h][contact], kept.T = group[h].signs.asDiagonal();
     int in_place = 0;
-    Vec3 allowed = Vec3::Ones();  // what leaves the pair in place and changes a sign forbids that direction
+    Vec3 allowed =
+        Vec3::Ones();  // what leaves the pair in place and changes a sign forbids that direction
     for (std::size_t h = 0; h < group.size(); ++h)
       if (group[h].node[at] == at && contacts[h][kept.contact] == kept.contact) {
         ++in_place;
         for (int k = 0; k < 3; ++k)
           if (group[h].signs[k] < 0) allowed[k] = 0;
       }
-    kept.T = kept.T * allowed.asDiagonal(), kept.share = static_cast<double>(group.size()) / in_place;
+    kept.T = kept.T * allowed.asDiagonal(),
+    kept.share = static_cast<double>(group.size()) / in_place;
     return kept;
   });
 }
@@ -176,19 +189,23 @@ void ReducedScene::take_supports(const Scene& scene) {
 // facets of kept cells: a cell's share counts theirs
 void ReducedScene::take_loads(const Scene& scene) {
   std::map<int, int> kept;
-  for (std::size_t e = 0; e < quotient_.cell.size(); ++e) kept[quotient_.cell[e]] = static_cast<int>(e);
+  for (std::size_t e = 0; e < quotient_.cell.size(); ++e)
+    kept[quotient_.cell[e]] = static_cast<int>(e);
   for (const SurfaceLoad& whole : scene.loads) {
     SurfaceLoad part = whole;
     part.facets.clear();
     for (const Facet& facet : whole.facets)
-      if (const auto at = kept.find(facet.cell); at != kept.end()) part.facets.push_back({at->second, facet.local});
+      if (const auto at = kept.find(facet.cell); at != kept.end())
+        part.facets.push_back({at->second, facet.local});
     scene_.loads.push_back(std::move(part));
   }
 }
 
-void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(int, int)>& stands_for) {
+void ReducedScene::take_contacts(const Scene& scene,
+                                 const std::function<Touch(int, int)>& stands_for) {
   contacts_ = scene.contacts;
-  std::map<std::array<int, 2>, CandidateImage> index;  // by contact of the whole body and node of the part
+  std::map<std::array<int, 2>, CandidateImage>
+      index;  // by contact of the whole body and node of the part
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
     RigidContact part = whole;
@@ -198,7 +215,8 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
       const Touch kept = stands_for(c, whole.nodes[i]);
       if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
-      index[{c, kept.node}] = {static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
+      index[{c, kept.node}] = {
+          static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
       part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
       if (whole.adhesion) part.area.push_back(kept.share * whole.area[i]);
     }
@@ -215,8 +233,10 @@ void ReducedScene::take_contacts(const Scene& scene, const std::function<Touch(i
   }
 }
 
-// Where families change places in a mirror, the first one of a cell is another in the cell that stands for it.
-void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& group) {
+// Where families change places in a mirror, the first one of a cell is another in the cell that
+// stands for it.
+void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene,
+                                        const std::vector<Symmetry>& group) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const auto own = scene.directions.of(e), kept = scene_.directions.of(quotient_.cell_image[e]);
     if (own.empty()) continue;
@@ -262,9 +282,13 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   record.u.clear(), record.reaction.clear();
   const bool section = quotient_.mesh.section.has_value();
   for (const Image& image : quotient_.node_image) {
-    const bool behind = section && image.of != static_cast<int>(record.u.size());  // those in z = 0 have all of the force
+    const bool behind =
+        section &&
+        image.of != static_cast<int>(record.u.size());  // those in z = 0 have all of the force
     record.u.push_back(image.T * reduced.u[image.of]);
-    record.reaction.push_back(behind ? Vec3::Zero() : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
+    record.reaction.push_back(
+        behind ? Vec3::Zero()
+               : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
   }
   for (auto& [name, values] : record.cell_fields) {
     const std::vector<double>& kept = reduced.cell_fields.at(name);
@@ -273,7 +297,8 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   }
   tell_fibres(reduced, record);
   tell_contacts(reduced, record);
-  if (const auto found = record.scalars.find("weakest_cell"); found != record.scalars.end() && found->second >= 0)
+  if (const auto found = record.scalars.find("weakest_cell");
+      found != record.scalars.end() && found->second >= 0)
     found->second = quotient_.cell[static_cast<std::size_t>(found->second)];
   return record;
 }
@@ -282,7 +307,8 @@ void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) 
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
   if (!contacts_.empty()) {
     const auto travel = record.scalars.find("travel_" + contacts_[0].name);
-    record.u_ind = indenter_displacement(contacts_[0], record.t, travel == record.scalars.end() ? 0 : travel->second);
+    record.u_ind = indenter_displacement(contacts_[0], record.t,
+                                         travel == record.scalars.end() ? 0 : travel->second);
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     ContactRecord& contact = record.contacts[contacts_[c].name] = {};
@@ -296,14 +322,16 @@ void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) 
       if (kept.beta.empty()) continue;
       contact.beta.push_back(kept.beta[image.of]);
       contact.bonded_at.push_back(image.T * kept.bonded_at[image.of]);
-      contact.adhesive.push_back(image.T * kept.adhesive[image.of] / candidate_share_[image.contact][image.of]);
+      contact.adhesive.push_back(image.T * kept.adhesive[image.of] /
+                                 candidate_share_[image.contact][image.of]);
       force -= contact.adhesive.back();
     }
     if (contacts_.size() < 2) continue;
     for (int k = 0; k < 3; ++k) {
       const std::string name = "force_" + contacts_[c].name + "_" + "xyz"[k];
       // on a section radial forces of the whole circle add up to nothing
-      record.scalars[name] = quotient_.mesh.section ? kept_directions_[k] * reduced.scalars.at(name) : force[k];
+      record.scalars[name] =
+          quotient_.mesh.section ? kept_directions_[k] * reduced.scalars.at(name) : force[k];
     }
   }
 }
@@ -319,8 +347,9 @@ void ReducedScene::tell_fibres(const StepRecord& reduced, StepRecord& record) co
       const Image& tie = quotient_.tie[nodes[a]];
       u.row(static_cast<Eigen::Index>(a)) = (tie.T * reduced.u[tie.of]).transpose();
     }
-    const auto states = gauss_states(scene_.formulation, scene_.materials[mesh.body.empty() ? 0 : mesh.body[family.of]],
-                                     element_geometry(element_nodes(mesh, family.of)), scene_.directions.of(family.of), u);
+    const auto states = gauss_states(
+        scene_.formulation, scene_.materials[mesh.body.empty() ? 0 : mesh.body[family.of]],
+        element_geometry(element_nodes(mesh, family.of)), scene_.directions.of(family.of), u);
     I4_bar->second[family.cell] = mean_I4_bar(states, family.a);
   }
 }
@@ -331,7 +360,8 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
   state.u = VecX::Zero(3 * static_cast<Eigen::Index>(quotient_.node.size()));
   for (std::size_t i = 0; i < quotient_.node.size(); ++i)
     if (quotient_.tie[i].of == static_cast<int>(i))
-      state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[static_cast<std::size_t>(quotient_.node[i])];
+      state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+          whole.u[static_cast<std::size_t>(quotient_.node[i])];
   for (std::size_t c = 0; c < origin_.size(); ++c) {
     std::vector<Vec3>& r = state.r.emplace_back();
     for (std::size_t i = 0; i < origin_[c].size(); ++i) {

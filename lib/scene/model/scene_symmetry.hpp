@@ -1,14 +1,16 @@
-// A scene that is its own image under a mirror plane or a half turn is solved on the part of the body that decides the rest.
+// A scene that is its own image under a mirror plane or a half turn is solved on the part of the
+// body that decides the rest.
 //   recognised from  mesh and bodies, and what scene/image.hpp looks at: fibres, supports and imposed displacements, indenters and
 //                    their paths; all of them must agree
 //   two indenters    of which one is the other's image: the part has one of them, or half of both; each has its own force in results
 //   not recognised   indenters read from a file; planes and axes that are not parallel to the coordinate planes or do not pass
 //                    through the middle of the body
-// The reduced scene finds symmetric equilibria only: it cannot leave them where they become unstable, and the signs of its
-// tangent are those for symmetric movements. Results are written for the whole body.
-// A mesh that is a section (mesh/section.hpp) is another such part: the nodes behind z = 0 move as those in it. Its results are
-// written for its own nodes, those in z = 0 with the forces of the whole circle or slab; those of them along x are radial there,
-// and only the resultant along y is a force on the indenter.
+// The reduced scene finds symmetric equilibria only: it cannot leave them where they become
+// unstable, and the signs of its tangent are those for symmetric movements. Results are written for
+// the whole body. A mesh that is a section (mesh/section.hpp) is another such part: the nodes
+// behind z = 0 move as those in it. Its results are written for its own nodes, those in z = 0 with
+// the forces of the whole circle or slab; those of them along x are radial there, and only the
+// resultant along y is a force on the indenter.
 #pragma once
 
 #include <array>
@@ -17,32 +19,38 @@
 #include <string>
 
 #include "mechanics/mesh/symmetry.hpp"
-#include "scene/model/scene.hpp"
-#include "scene/model/solve_config.hpp"
 #include "mechanics/solve/statics.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/scene.hpp"
+#include "scene/model/solve_config.hpp"
 
 namespace langer {
 
 class ReducedScene {
  public:
   // Nothing where `wanted` is none, or auto and nothing is found; a section always.
-  // varied: the scene with other numbers, which has to have the symmetry too, where derivatives with respect to them are asked for.
-  // Throws Failure(config) where a named symmetry is not there, saying what breaks it.
-  static std::optional<ReducedScene> find(SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-                                          const std::function<Place(const std::string&)>& where, const Scene* varied = nullptr);
+  // varied: the scene with other numbers, which has to have the symmetry too, where derivatives
+  // with respect to them are asked for. Throws Failure(config) where a named symmetry is not there,
+  // saying what breaks it.
+  static std::optional<ReducedScene> find(SymmetryChoice wanted, const Mesh& mesh,
+                                          const Scene& scene,
+                                          const std::function<Place(const std::string&)>& where,
+                                          const Scene* varied = nullptr);
 
   const Mesh& mesh() const { return quotient_.mesh; }
   const Scene& scene() const { return scene_; }
   const std::vector<double>& cell_share() const { return quotient_.cell_share; }
-  const std::string& words() const { return words_; }  // "half turn about y through (18, 18): 6160 of 12320 cells"
+  const std::string& words() const {
+    return words_;
+  }  // "half turn about y through (18, 18): 6160 of 12320 cells"
 
   StepRecord whole(const StepRecord& reduced) const;  // of the whole body
   BodyState reduced(const StepRecord& whole) const;   // to continue from
   bool swaps_indenters() const { return swaps_indenters_; }
 
  private:
-  // a candidate of the part as a node of one of the whole body's contacts, and what stands for a candidate of the whole body
+  // a candidate of the part as a node of one of the whole body's contacts, and what stands for a
+  // candidate of the whole body
   struct Touch {
     int contact = 0, node = 0;  // of the whole body's scene, and a node of the part
     Mat3 T = Mat3::Identity();  // turns its force
@@ -57,8 +65,10 @@ class ReducedScene {
                  const std::vector<std::vector<int>>& contacts);
   void take_supports(const Scene& scene);
   void take_loads(const Scene& scene);
-  void take_contacts(const Scene& scene, const std::function<Touch(int contact, int node)>& stands_for);
-  void find_turned_families(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& group);
+  void take_contacts(const Scene& scene,
+                     const std::function<Touch(int contact, int node)>& stands_for);
+  void find_turned_families(const Mesh& mesh, const Scene& scene,
+                            const std::vector<Symmetry>& group);
   void tell_contacts(const StepRecord& reduced, StepRecord& record) const;
   void tell_fibres(const StepRecord& reduced, StepRecord& record) const;
 
@@ -66,12 +76,15 @@ class ReducedScene {
   Scene scene_;
   std::string words_;
   bool swaps_indenters_ = false;
-  std::vector<RigidContact> contacts_;                   // of the whole body
-  std::vector<std::vector<CandidateImage>> candidate_;   // by contact and candidate of the whole body
-  std::vector<std::vector<double>> candidate_share_;     // by those of the part, as the next
-  std::vector<std::vector<std::array<int, 2>>> origin_;  // itself: contact and candidate of the whole body
-  Vec3 kept_directions_ = Vec3::Ones();                  // 0 where the resultant of any symmetric field vanishes
-  // cells of the whole body whose first family is along a where they are, turned to the cell of the part
+  std::vector<RigidContact> contacts_;  // of the whole body
+  std::vector<std::vector<CandidateImage>>
+      candidate_;                                     // by contact and candidate of the whole body
+  std::vector<std::vector<double>> candidate_share_;  // by those of the part, as the next
+  std::vector<std::vector<std::array<int, 2>>>
+      origin_;                           // itself: contact and candidate of the whole body
+  Vec3 kept_directions_ = Vec3::Ones();  // 0 where the resultant of any symmetric field vanishes
+  // cells of the whole body whose first family is along a where they are, turned to the cell of the
+  // part
   struct TurnedFamily {
     int cell = 0, of = 0;
     Vec3 a;

@@ -57,16 +57,21 @@ struct ControlConfig {
   std::array<double, 3> along{0, -1, 0};
   static void fields(auto& v) {
     v(&ControlConfig::force, "force", unit::N,
-      "with which the indenter is pushed against the body, at the end of the path, in proportion to t; or a history", required);
+      "with which the indenter is pushed against the body, at the end of the path, in proportion to t; or a history",
+      required);
     v(&ControlConfig::along, "along", unit::none, "direction in which it is pushed; any length");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     bool pulls = force.points.empty() && force.value < 0;
     for (const HistoryPointConfig& point : force.points) pulls = pulls || point.to < 0;
-    if (pulls) found.push_back({"force", "found a pull", "a force of at least 0 N", "nothing holds an indenter that is pulled"});
-    if (!force.moves()) found.push_back({"force", "found no force", "a force above 0 N somewhere on the path", ""});
-    if (along == std::array<double, 3>{}) found.push_back({"along", "found [0, 0, 0]", "a direction", ""});
+    if (pulls)
+      found.push_back({"force", "found a pull", "a force of at least 0 N",
+                       "nothing holds an indenter that is pulled"});
+    if (!force.moves())
+      found.push_back({"force", "found no force", "a force above 0 N somewhere on the path", ""});
+    if (along == std::array<double, 3>{})
+      found.push_back({"along", "found [0, 0, 0]", "a direction", ""});
     return found;
   }
 };
@@ -80,18 +85,22 @@ struct ContactConfig {
   std::optional<HistoryConfig> rotation = {};
   std::optional<Adhesion> adhesion = {};
   static void fields(auto& v) {
-    v(&ContactConfig::on, "on", unit::none, "node set that may touch the indenter; none: nodes of the boundary that it can reach");
+    v(&ContactConfig::on, "on", unit::none,
+      "node set that may touch the indenter; none: nodes of the boundary that it can reach");
     v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
-      Hint{"Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
-           "tan 34 = 0.67; at 10 everything sticks; leave the key out for frictionless contact"});
+      Hint{
+          "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
+          "tan 34 = 0.67; at 10 everything sticks; leave the key out for frictionless contact"});
     v(&ContactConfig::motion, "motion", unit::none,
       "where the indenter goes, straight from point to point; beside control only across its direction");
-    v(&ContactConfig::control, "control", unit::none, "the indenter is pushed with a given force, and its travel is found");
+    v(&ContactConfig::control, "control", unit::none,
+      "the indenter is pushed with a given force, and its travel is found");
     v(&ContactConfig::rotation, "rotation", unit::deg,
       "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
       "history, as a displacement");
-    v(&ContactConfig::adhesion, "adhesion", unit::none, "bonds that hold what has touched the indenter, until they come loose");
+    v(&ContactConfig::adhesion, "adhesion", unit::none,
+      "bonds that hold what has touched the indenter, until they come loose");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found = of_rotation();
@@ -99,17 +108,20 @@ struct ContactConfig {
       found.push_back({"control", "found beside adhesion", "one of the two",
                        "a pull of given force jumps off without an end: move the indenter"});
     if (rotation && adhesion)
-      found.push_back(
-          {"rotation", "found beside adhesion", "one of the two", "bonds are told where an indenter is, not how it is turned"});
+      found.push_back({"rotation", "found beside adhesion", "one of the two",
+                       "bonds are told where an indenter is, not how it is turned"});
     if (control && motion.empty()) return found;
-    for (Complaint& complaint : place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
+    for (Complaint& complaint :
+         place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
       found.push_back(std::move(complaint));
     for (std::size_t i = 0; control && i < motion.size(); ++i) {
       double dot = 0, size = 0;
       for (std::size_t k = 0; k < 3; ++k)
-        dot += motion[i].to[k] * control->along[k], size += std::abs(motion[i].to[k] * control->along[k]);
+        dot += motion[i].to[k] * control->along[k],
+            size += std::abs(motion[i].to[k] * control->along[k]);
       if (std::abs(dot) > 1e-12 * size)
-        found.push_back({"motion", "moves the indenter along the direction of its force", "movements across it",
+        found.push_back({"motion", "moves the indenter along the direction of its force",
+                         "movements across it",
                          "how far it goes there follows from control.force"});
     }
     return found;
@@ -123,7 +135,8 @@ struct ContactConfig {
                "a sphere, a plane, a cylinder, an ellipsoid with two equal half axes",
                "another shape is another one once it has turned"}};
     if (friction == 0)
-      return {{"rotation", "found without friction", "friction above 0", "what turns without it does not reach the body"}};
+      return {{"rotation", "found without friction", "friction above 0",
+               "what turns without it does not reach the body"}};
     return {};
   }
 };
@@ -136,9 +149,12 @@ constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 
 // Symmetry by which the body is reduced before it is solved (scene/symmetry.hpp).
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
-constexpr auto names(SymmetryChoice) { return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"}; }
+constexpr auto names(SymmetryChoice) {
+  return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"};
+}
 
-// Whether a block that is the same around an axis, but for its far sides, is solved as a section (accuracy/section_in_place.hpp).
+// Whether a block that is the same around an axis, but for its far sides, is solved as a section
+// (accuracy/section_in_place.hpp).
 enum class Reduce { none, automatic };
 constexpr auto names(Reduce) { return std::array{"none", "auto"}; }
 
@@ -151,10 +167,12 @@ struct BodyConfig {
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
   static void fields(auto& v) {
-    v(&BodyConfig::material, "material", unit::none, "its material; none: that of the bodies not named");
-    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family; none: those of the bodies not named",
-      between(-360, 360));
-    v(&BodyConfig::fibre_field, "fibre_field", unit::none, "directions that vary from cell to cell");
+    v(&BodyConfig::material, "material", unit::none,
+      "its material; none: that of the bodies not named");
+    v(&BodyConfig::fibre_angles, "fibre_angles", unit::deg,
+      "angle of each fibre family; none: those of the bodies not named", between(-360, 360));
+    v(&BodyConfig::fibre_field, "fibre_field", unit::none,
+      "directions that vary from cell to cell");
   }
 };
 
@@ -164,18 +182,24 @@ constexpr auto names(Fidelity) { return std::array{"draft", "standard", "referen
 
 // How the errors of a result are estimated (accuracy/error_estimate.hpp).
 enum class EstimateBy { none, recovery, refinement, automatic, dual };
-constexpr auto names(EstimateBy) { return std::array{"none", "recovery", "refinement", "auto", "dual"}; }
-constexpr auto former_names(EstimateBy) { return std::array{FormerWord{"second_rung", "refinement"}}; }
+constexpr auto names(EstimateBy) {
+  return std::array{"none", "recovery", "refinement", "auto", "dual"};
+}
+constexpr auto former_names(EstimateBy) {
+  return std::array{FormerWord{"second_rung", "refinement"}};
+}
 
 // What a block or disc leaves out that stands for a larger body (accuracy/truncation.hpp).
 enum class Truncation { sides, bottom };
 constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
 
-// Whether what a fit does not know of its parameters is carried into the forces (inverse/uncertainty.hpp).
+// Whether what a fit does not know of its parameters is carried into the forces
+// (inverse/uncertainty.hpp).
 enum class UncertaintyBy { none, linear };
 constexpr auto names(UncertaintyBy) { return std::array{"none", "linear"}; }
 
-// What of the stress of cells stands in the solution beside pressure and von Mises stress (run/cell_stress.hpp).
+// What of the stress of cells stands in the solution beside pressure and von Mises stress
+// (run/cell_stress.hpp).
 enum class CellStress { tensor, principal };
 constexpr auto names(CellStress) { return std::array{"tensor", "principal"}; }
 
@@ -205,12 +229,14 @@ struct SolveConfig {
   std::optional<CellStress> cell_stress;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
-    v(&SolveConfig::mesh, "mesh", unit::none, "the mesh, as langer-mesh reads it; may come from --mesh instead");
+    v(&SolveConfig::mesh, "mesh", unit::none,
+      "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
       "wanted error of the force on an indenter, or of the reaction of what is moved, such as 1%: chooses the cells of mesh.geometry, the "
       "increments and the symmetry, from what was measured (pipelines/refinement_study.yaml) or from a coarse solution, and refines until the "
       "estimate is within it; exit code 5 where it is not");
-    v(&SolveConfig::fidelity, "fidelity", unit::none, "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
+    v(&SolveConfig::fidelity, "fidelity", unit::none,
+      "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
@@ -222,9 +248,10 @@ struct SolveConfig {
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
-    v(&SolveConfig::material, "material", unit::none, "the material; may come from --material instead");
-    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg, "angle of each fibre family, in place of the material's own",
-      between(-360, 360));
+    v(&SolveConfig::material, "material", unit::none,
+      "the material; may come from --material instead");
+    v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg,
+      "angle of each fibre family, in place of the material's own", between(-360, 360));
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,
@@ -232,7 +259,8 @@ struct SolveConfig {
     v(&SolveConfig::formulation, "formulation", unit::none,
       "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27 and tet15");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
-    v(&SolveConfig::loads, "loads", unit::none, "imposed displacements, forces, tractions and pressures");
+    v(&SolveConfig::loads, "loads", unit::none,
+      "imposed displacements, forces, tractions and pressures");
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
@@ -258,7 +286,8 @@ struct SolveConfig {
     v(&SolveConfig::cell_stress, "cell_stress", unit::none,
       "writes the Cauchy stress of each cell, its mean over the Gauss points, into the solution: tensor; principal: its principal stresses "
       "and directions as well. Pressure and von Mises stress of cells are always there");
-    v(&SolveConfig::threads, "threads", unit::none, "threads of the assembly; the results do not depend on it", between(1, 256));
+    v(&SolveConfig::threads, "threads", unit::none,
+      "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
       "threads of the factorization; more than one are faster in large scenes and change the last digits (1e-11 of a reaction)",
       between(1, 256));
@@ -267,56 +296,82 @@ struct SolveConfig {
     std::vector<Complaint> found;
     const auto needs_stiffness = [&](const std::optional<Material>& m, const std::string& key) {
       if (m && at_rest(*m) == AtRest::without_stiffness)
-        found.push_back({key, at_rest_in_words(*m), stiffness_at_rest_cure(*m), "a body without it has no first step"});
+        found.push_back({key, at_rest_in_words(*m), stiffness_at_rest_cure(*m),
+                         "a body without it has no first step"});
     };
     needs_stiffness(material, "material.matrix");
-    for (const auto& [name, body] : materials) needs_stiffness(body.material, "materials." + name + ".material.matrix");
-    if (loads.empty() && contacts.empty()) found.push_back({"", "nothing moves", "loads or contacts", ""});
-    if (mesh && !mesh->exports.empty()) found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
-    if (accuracy && fidelity) found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
+    for (const auto& [name, body] : materials)
+      needs_stiffness(body.material, "materials." + name + ".material.matrix");
+    if (loads.empty() && contacts.empty())
+      found.push_back({"", "nothing moves", "loads or contacts", ""});
+    if (mesh && !mesh->exports.empty())
+      found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
+    if (accuracy && fidelity)
+      found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     if (accuracy && !percent_of(*accuracy))
-      found.push_back({"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
+      found.push_back(
+          {"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
     const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
-    const std::string other_mesh = mesh ? "a mesh whose cells follow from no numbers of this config" : "no mesh here";
-    const char* laid_out = "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
+    const std::string other_mesh =
+        mesh ? "a mesh whose cells follow from no numbers of this config" : "no mesh here";
+    const char* laid_out =
+        "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
     if (estimate == EstimateBy::refinement && !numbers)
-      found.push_back({"estimate", "refinement, and " + other_mesh, laid_out,
-                       "coarser cells are made from those numbers; estimate: dual is for any mesh"});
+      found.push_back(
+          {"estimate", "refinement, and " + other_mesh, laid_out,
+           "coarser cells are made from those numbers; estimate: dual is for any mesh"});
     const bool indented = mesh && has_edge_in_contact_radii(mesh->geometry);
     if (!truncation.empty() && !indented)
-      found.push_back({"truncation", "a mesh that is no indented_block or indented_disc", "one of the two",
-                       "wider and thicker bodies are made from their numbers"});
+      found.push_back({"truncation", "a mesh that is no indented_block or indented_disc",
+                       "one of the two", "wider and thicker bodies are made from their numbers"});
     else if (!truncation.empty() && !accuracy && !fidelity && estimate != EstimateBy::refinement &&
              estimate != EstimateBy::automatic)
-      found.push_back({"truncation", "no estimate by refinement", "estimate: refinement or auto", "it tells what is left out"});
+      found.push_back({"truncation", "no estimate by refinement", "estimate: refinement or auto",
+                       "it tells what is left out"});
     for (std::size_t i = 0; i < truncation.size(); ++i) {
       const std::string key = "truncation[" + std::to_string(i) + "]";
       if (truncation[i] == Truncation::bottom && mesh && !mesh->bodies.empty())
-        found.push_back({key, "bottom, of a mesh with bodies", "sides", "which of its layers would go on is not known"});
+        found.push_back({key, "bottom, of a mesh with bodies", "sides",
+                         "which of its layers would go on is not known"});
       if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
-        found.push_back({key, "sides, beside reduce: auto", "one of the two", "reduce tells what the sides change"});
+        found.push_back({key, "sides, beside reduce: auto", "one of the two",
+                         "reduce tells what the sides change"});
     }
     const bool by_cells = estimate == EstimateBy::dual || estimate == EstimateBy::recovery;
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : nullptr; key && !numbers && !by_cells)
+    if (const char* key = accuracy   ? "accuracy"
+                          : fidelity ? "fidelity"
+                                     : nullptr;
+        key && !numbers && !by_cells)
       found.push_back(
-          {key, other_mesh, laid_out, "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
+          {key, other_mesh, laid_out,
+           "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
     complain_of_cuts(found);
     complain_of_seconds(found);
-    const bool estimates = estimate && *estimate != EstimateBy::none, refines = estimate == EstimateBy::refinement;
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : estimates ? "estimate" : nullptr) {
-      const bool pushed = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.second.control; });
-      const bool moved = std::any_of(loads.begin(), loads.end(), [](const LoadConfig& l) { return !l.on_surface(); });
+    const bool estimates = estimate && *estimate != EstimateBy::none,
+               refines = estimate == EstimateBy::refinement;
+    if (const char* key = accuracy    ? "accuracy"
+                          : fidelity  ? "fidelity"
+                          : estimates ? "estimate"
+                                      : nullptr) {
+      const bool pushed = std::any_of(contacts.begin(), contacts.end(),
+                                      [](const auto& c) { return c.second.control; });
+      const bool moved = std::any_of(loads.begin(), loads.end(),
+                                     [](const LoadConfig& l) { return !l.on_surface(); });
       if (pushed)
-        found.push_back({key, "found beside an indenter under force control", "one that moves as told",
+        found.push_back({key, "found beside an indenter under force control",
+                         "one that moves as told",
                          "errors are told of its force, which is given here"});
-      else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) && (accuracy || fidelity || refines))
+      else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) &&
+               (accuracy || fidelity || refines))
         found.push_back(
-            {key, "found where forces alone load the body", "an indenter, an imposed displacement, or points in the mesh",
+            {key, "found where forces alone load the body",
+             "an indenter, an imposed displacement, or points in the mesh",
              "errors are told of the force that it needs, or of the displacement of mesh.points; estimate: recovery tells "
              "that of the stress"});
     }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
-      found.push_back({"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
+      found.push_back(
+          {"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
     return found;
   }
 
@@ -324,13 +379,19 @@ struct SolveConfig {
   void complain_of_cuts(std::vector<Complaint>& found) const {
     if (!mesh || mesh->cuts.empty()) return;
     const bool by_numbers = estimate == EstimateBy::refinement || estimate == EstimateBy::automatic;
-    if (const char* key = accuracy ? "accuracy" : fidelity ? "fidelity" : by_numbers ? "estimate" : nullptr)
-      found.push_back({key, "found beside mesh.cuts", "a mesh without cuts",
-                       "cells of other lengths are made from the mesh's numbers; estimate: dual judges cut cells as they are"});
+    if (const char* key = accuracy     ? "accuracy"
+                          : fidelity   ? "fidelity"
+                          : by_numbers ? "estimate"
+                                       : nullptr)
+      found.push_back(
+          {key, "found beside mesh.cuts", "a mesh without cuts",
+           "cells of other lengths are made from the mesh's numbers; estimate: dual judges cut cells as they are"});
     if (reduce == Reduce::automatic)
-      found.push_back({"reduce", "auto, beside mesh.cuts", "one of the two", "sections have no cuts"});
+      found.push_back(
+          {"reduce", "auto, beside mesh.cuts", "one of the two", "sections have no cuts"});
     if (!truncation.empty())
-      found.push_back({"truncation", "found beside mesh.cuts", "none", "wider bodies are made without cuts"});
+      found.push_back(
+          {"truncation", "found beside mesh.cuts", "none", "wider bodies are made without cuts"});
   }
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
@@ -339,22 +400,27 @@ struct SolveConfig {
       const double end = *points.back().s;
       const std::string last = key + "[" + std::to_string(points.size() - 1) + "].s";
       if (!path.seconds)
-        found.push_back({last, "found seconds, and the path has none", "path: {seconds: ...}, or t in place of s", ""});
+        found.push_back({last, "found seconds, and the path has none",
+                         "path: {seconds: ...}, or t in place of s", ""});
       else if (end > *path.seconds * (1 + 1e-9))
-        found.push_back({last, "found a time behind the end of the path", "path.seconds at most", ""});
+        found.push_back(
+            {last, "found a time behind the end of the path", "path.seconds at most", ""});
       else if (end < *path.seconds * (1 - 1e-9))
-        found.push_back({last, "found a history shorter than the path", "one that ends at path.seconds",
+        found.push_back({last, "found a history shorter than the path",
+                         "one that ends at path.seconds",
                          "a point more where the value stays to the end"});
     };
     for (const auto& [name, contact] : contacts) {
       if (contact.adhesion && contact.adhesion->viscosity > 0 && !path.seconds)
-        found.push_back(
-            {"contacts." + name + ".adhesion.viscosity", "found on a path without seconds", "path: {seconds: ...}", ""});
+        found.push_back({"contacts." + name + ".adhesion.viscosity",
+                         "found on a path without seconds", "path: {seconds: ...}", ""});
       if (contact.adhesion && std::holds_alternative<KinsolOptions>(solver))
-        found.push_back({"contacts." + name + ".adhesion", "found beside solver.kinsol", "solver: {newton: {}}",
-                         "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
+        found.push_back(
+            {"contacts." + name + ".adhesion", "found beside solver.kinsol", "solver: {newton: {}}",
+             "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
       look_at(contact.motion, "contacts." + name + ".motion");
-      if (contact.control) look_at(contact.control->force.points, "contacts." + name + ".control.force");
+      if (contact.control)
+        look_at(contact.control->force.points, "contacts." + name + ".control.force");
       if (contact.rotation) look_at(contact.rotation->points, "contacts." + name + ".rotation");
     }
     for (std::size_t i = 0; i < loads.size(); ++i)

@@ -1,4 +1,5 @@
-// Reading and writing of configs that some thirty sources ask for, compiled once: it took the compiler ten seconds in each.
+// Reading and writing of configs that some thirty sources ask for, compiled once: it took the
+// compiler ten seconds in each.
 #pragma once
 
 #include "core/config/reader.hpp"

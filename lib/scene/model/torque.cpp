@@ -14,36 +14,49 @@ std::string torque_name(const std::string& name) { return "torque_" + name; }
 }  // namespace
 
 void tell_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
-  const auto position = [&](int node) { return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]); };
+  const auto position = [&](int node) {
+    return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]);
+  };
   for (const RigidContact& contact : scene.contacts) {
     if (!contact.rotation) continue;
     const auto travel = whole.scalars.find("travel_" + contact.name);
-    const Vec3 c = indenter_displacement(contact, whole.t, travel == whole.scalars.end() ? 0 : travel->second);
+    const Vec3 c =
+        indenter_displacement(contact, whole.t, travel == whole.scalars.end() ? 0 : travel->second);
     whole.scalars["angle_" + contact.name] = degrees * contact.rotation->angle.at(whole.t);
-    whole.scalars[torque_name(contact.name)] = torque(contact, position, c, whole.contacts.at(contact.name).r);
+    whole.scalars[torque_name(contact.name)] =
+        torque(contact, position, c, whole.contacts.at(contact.name).r);
   }
   for (const TurnedSet& set : scene.turned) {
     const Vec3 p = set.axis_at(whole.t);
     double sum = 0;
-    for (int node : set.nodes) sum += set.axis.along.dot(cross(position(node) - p, whole.reaction[static_cast<std::size_t>(node)]));
+    for (int node : set.nodes)
+      sum += set.axis.along.dot(
+          cross(position(node) - p, whole.reaction[static_cast<std::size_t>(node)]));
     whole.scalars["angle_" + set.name] = degrees * set.angle.at(whole.t);
     whole.scalars[torque_name(set.name)] = sum;
   }
 }
 
-std::map<std::string, double> torque_derivatives(const StepRecord& whole, const StepRecord& derivative, const Mesh& mesh,
+std::map<std::string, double> torque_derivatives(const StepRecord& whole,
+                                                 const StepRecord& derivative, const Mesh& mesh,
                                                  const Scene& scene) {
   std::map<std::string, double> out;
-  const auto x = [&](int node) { return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]); };
-  const auto d_x = [&](int node) { return derivative.u[static_cast<std::size_t>(node)]; };
+  const auto x = [&](int node) {
+    return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]);
+  };
+  const auto d_x = [&](int node) {
+    return derivative.u[static_cast<std::size_t>(node)];
+  };
   for (const RigidContact& contact : scene.contacts) {
     if (!contact.rotation) continue;
     const Line& axis = contact.rotation->axis;
     const std::string travel = "travel_" + contact.name;
     const bool pushed = contact.control.has_value();
     const Vec3 c = indenter_displacement(contact, whole.t, pushed ? whole.scalars.at(travel) : 0);
-    const Vec3 d_c = pushed ? Vec3(derivative.scalars.at(travel) * contact.control->along) : Vec3(Vec3::Zero());
-    const std::vector<Vec3>&r = whole.contacts.at(contact.name).r, &d_r = derivative.contacts.at(contact.name).r;
+    const Vec3 d_c =
+        pushed ? Vec3(derivative.scalars.at(travel) * contact.control->along) : Vec3(Vec3::Zero());
+    const std::vector<Vec3>&r = whole.contacts.at(contact.name).r,
+          &d_r = derivative.contacts.at(contact.name).r;
     double sum = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
       const int node = contact.nodes[i];
@@ -55,7 +68,8 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole, const 
     const Vec3 p = set.axis_at(whole.t);
     double sum = 0;
     for (int node : set.nodes)  // all of it is given: it does not move
-      sum += set.axis.along.dot(cross(x(node) - p, derivative.reaction[static_cast<std::size_t>(node)]));
+      sum += set.axis.along.dot(
+          cross(x(node) - p, derivative.reaction[static_cast<std::size_t>(node)]));
     out[torque_name(set.name)] = sum;
   }
   return out;
@@ -63,7 +77,9 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole, const 
 
 std::map<std::string, double> torques_of(const StepRecord& whole, const Scene& scene) {
   std::map<std::string, double> torques;
-  const auto take = [&](const std::string& name) { torques[torque_name(name)] = std::abs(whole.scalars.at(torque_name(name))); };
+  const auto take = [&](const std::string& name) {
+    torques[torque_name(name)] = std::abs(whole.scalars.at(torque_name(name)));
+  };
   for (const RigidContact& contact : scene.contacts)
     if (contact.rotation) take(contact.name);
   for (const TurnedSet& set : scene.turned) take(set.name);

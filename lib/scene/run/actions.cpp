@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "scene/run/post_files.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/scene_loads.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/post_files.hpp"
 
 namespace langer {
 
@@ -14,7 +14,8 @@ namespace {
 
 class Actions {
  public:
-  Actions(const Mesh& mesh, const std::vector<Vec3>& u, std::optional<double> seconds) : mesh_(mesh), u_(u), seconds_(seconds) {
+  Actions(const Mesh& mesh, const std::vector<Vec3>& u, std::optional<double> seconds)
+      : mesh_(mesh), u_(u), seconds_(seconds) {
     for (const Vec3& X : mesh.X) middle_ += X / static_cast<double>(mesh.X.size());
   }
 
@@ -37,15 +38,18 @@ class Actions {
       if (const auto force = load.dead(axis); force && force->moves()) {
         const History f = history_of(*force, seconds_);
         add(load.on, (f.value < 0 ? -1 : 1) * Vec3::Unit(axis), true,
-            fmt::format("{}_{} = {:g} {}{}", load.force ? "F" : "t", "xyz"[axis], f.at(1), load.force ? "N" : "MPa",
-                        f.factor ? " at the end" : ""));
+            fmt::format("{}_{} = {:g} {}{}", load.force ? "F" : "t", "xyz"[axis], f.at(1),
+                        load.force ? "N" : "MPa", f.factor ? " at the end" : ""));
       }
     if (!load.pressure) return;
     const History p = history_of(*load.pressure, seconds_);
     Vec3 inwards = Vec3::Zero();
     if (const auto facets = mesh_.facet_sets.find(load.on); facets != mesh_.facet_sets.end())
       for (const Facet& facet : facets->second)
-        inwards += follower_pressure(mesh_.cell(), facet.local, element_nodes(mesh_, facet.cell)).colwise().sum().transpose();
+        inwards += follower_pressure(mesh_.cell(), facet.local, element_nodes(mesh_, facet.cell))
+                       .colwise()
+                       .sum()
+                       .transpose();
     if (!inwards.isZero(0))
       add(load.on, (p.value < 0 ? -1 : 1) * inwards.normalized(), true,
           fmt::format("p = {:g} MPa{}", p.at(1), p.factor ? " at the end" : ""));
@@ -88,13 +92,16 @@ class Actions {
 
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u) {
   try {
-    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    const auto solve =
+        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
+            .config;
     Actions actions(header.mesh, u, solve.path.seconds);
     for (const SupportConfig& support : solve.supports)
       for (Axis axis : support.hold) actions.hold(support.on, static_cast<int>(axis));
     for (const LoadConfig& load : solve.loads) {
       for (int axis = 0; axis < 3; ++axis)
-        if (const auto to = load.imposed(axis)) actions.move(load.on, axis, history_of(*to, solve.path.seconds));
+        if (const auto to = load.imposed(axis))
+          actions.move(load.on, axis, history_of(*to, solve.path.seconds));
       if (load.rotation) actions.turn(load);
       actions.load(load);
     }

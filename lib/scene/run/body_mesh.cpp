@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "mechanics/mesh/quality.hpp"
-#include "scene/model/make_mesh.hpp"
 #include "results/store/mesh_file.hpp"
+#include "scene/model/make_mesh.hpp"
 
 namespace langer {
 
@@ -17,13 +17,15 @@ void refuse_bad(const Mesh& mesh, const std::string& file) {
   };
   const Quality q = quality(mesh);
   if (!(q.least_jacobian > 0))
-    refuse(fmt::format("cell {} is folded or flat: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})", q.at_cell, q.least_jacobian,
-                       q.at[0], q.at[1], q.at[2]),
-           "a positive Jacobian everywhere");
+    refuse(
+        fmt::format("cell {} is folded or flat: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, {:.4g})",
+                    q.at_cell, q.least_jacobian, q.at[0], q.at[1], q.at[2]),
+        "a positive Jacobian everywhere");
   if (const auto pair = coincident_nodes(mesh, 1e-9 * q.shortest_edge)) {
     const Vec3& X = mesh.X[static_cast<std::size_t>((*pair)[0])];
-    refuse(fmt::format("nodes {} and {} are both at ({:.6g}, {:.6g}, {:.6g}) mm: the body is torn there", (*pair)[0], (*pair)[1],
-                       X[0], X[1], X[2]),
+    refuse(fmt::format(
+               "nodes {} and {} are both at ({:.6g}, {:.6g}, {:.6g}) mm: the body is torn there",
+               (*pair)[0], (*pair)[1], X[0], X[1], X[2]),
            "each place once");
   }
 }
@@ -40,7 +42,8 @@ Mesh described(const SolveConfig& config, const std::function<Place(const std::s
 
 }  // namespace
 
-Mesh body_mesh(const SolveConfig& config, const std::string& file, const std::function<Place(const std::string&)>& where) {
+Mesh body_mesh(const SolveConfig& config, const std::string& file,
+               const std::function<Place(const std::string&)>& where) {
   Mesh mesh = file.empty() ? described(config, where) : read_mesh(file).mesh;
   refuse_bad(mesh, file);
   return mesh;

@@ -8,8 +8,9 @@
 
 namespace langer {
 
-// Of the file, or where that is empty the one that the config describes. Throws Failure(input) for a mesh that is folded or torn,
-// Failure(config) at the key of the mesh that cannot be made.
-Mesh body_mesh(const SolveConfig& config, const std::string& file, const std::function<Place(const std::string&)>& where);
+// Of the file, or where that is empty the one that the config describes. Throws Failure(input) for
+// a mesh that is folded or torn, Failure(config) at the key of the mesh that cannot be made.
+Mesh body_mesh(const SolveConfig& config, const std::string& file,
+               const std::function<Place(const std::string&)>& where);
 
 }  // namespace langer

@@ -8,7 +8,8 @@
 
 namespace langer {
 
-CellStressRecorder::CellStressRecorder(const Mesh& mesh, const Scene& scene, const std::optional<CellStress>& wanted)
+CellStressRecorder::CellStressRecorder(const Mesh& mesh, const Scene& scene,
+                                       const std::optional<CellStress>& wanted)
     : directions_(wanted == CellStress::principal) {
   if (!wanted) return;
   body_.emplace(mesh, scene.materials, scene.directions, scene.formulation);

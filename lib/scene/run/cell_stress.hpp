@@ -3,14 +3,15 @@
 //                            xx xy xz yx yy yz zx zy zz
 //   principal_stress_k       its eigenvalues [MPa], greatest first
 //   principal_direction_k    unit eigenvectors (x, y, z); the sign means nothing, nor does the direction where two of them are equal
-// It follows from the displacements of the whole body, whatever part of it was solved, so that images are turned rightly.
+// It follows from the displacements of the whole body, whatever part of it was solved, so that
+// images are turned rightly.
 #pragma once
 
 #include <optional>
 
 #include "results/post/viscous_path.hpp"
-#include "scene/model/scene.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/scene.hpp"
 
 namespace langer {
 

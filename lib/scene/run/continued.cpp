@@ -17,8 +17,10 @@ double relative(const SolveConfig& config) {
 Identity with_steps_hash(Identity identity, const SolveConfig& config) {
   SolveConfig steps = config;
   const SolveConfig usual;
-  steps.threads = usual.threads, steps.blas_threads = usual.blas_threads, steps.solver = usual.solver;
-  steps.path.smallest = usual.path.smallest, steps.on_unstable = usual.on_unstable, steps.estimate = usual.estimate;
+  steps.threads = usual.threads, steps.blas_threads = usual.blas_threads,
+  steps.solver = usual.solver;
+  steps.path.smallest = usual.path.smallest, steps.on_unstable = usual.on_unstable,
+  steps.estimate = usual.estimate;
   steps.truncation = usual.truncation;
   identity.steps_hash = fnv1a(to_yaml(steps, file_name));
   return identity;
@@ -29,10 +31,12 @@ SolutionWriter::StillGood within_tolerance(const SolveConfig& config) {
   const auto then = std::make_shared<std::map<std::string, double>>();  // by config
   return [now, then](const StepRecord& step, const EarlierRun& run) {
     if (!then->count(run.config))
-      (*then)[run.config] = relative(read_config<SolveConfig>(parse_yaml(run.config, "provenance")).config);
+      (*then)[run.config] =
+          relative(read_config<SolveConfig>(parse_yaml(run.config, "provenance")).config);
     if (now >= then->at(run.config) || step.residual <= now) return true;
-    say_line("solve: the step at t = {:.6g} was kept with a residual of {:.2g}, and solver asks for {:.2g} now; it is made anew",
-             step.t, step.residual, now);
+    say_line(
+        "solve: the step at t = {:.6g} was kept with a residual of {:.2g}, and solver asks for {:.2g} now; it is made anew",
+        step.t, step.residual, now);
     return false;
   };
 }

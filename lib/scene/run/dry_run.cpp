@@ -14,85 +14,113 @@
 namespace langer {
 
 std::string memory_in_words(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes) : fmt::format("{:.1f} GB", 1e-9 * bytes);
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes)
+                     : fmt::format("{:.1f} GB", 1e-9 * bytes);
 }
 
 std::string duration_in_words(double seconds) {
   if (seconds < 1) return fmt::format("{:.2g} s", seconds);
   if (seconds < 10) return fmt::format("{:.1f} s", seconds);
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
-  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60)
+                        : fmt::format("{:.1f} h", seconds / 3600);
 }
 
 void need_memory(const Statics& statics, const Statics* beside, int threads) {
   if (beside) need_memory(*beside, nullptr, threads);
-  // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it cannot have it
+  // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it
+  // cannot have it
   constexpr double blas = 135e6;
   const double factor = statics.size().factor_bytes, mapped = factor + blas * threads;
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
-  const double wanted = factor <= free_memory() ? mapped : factor, free = std::min(free_memory(), free_address());
-  throw Failure(Exit::config, Error{{},
-                                    "",
-                                    fmt::format("this run needs {} more than the {} it holds already, for its tangent; {} are free",
-                                                memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
-                                    "",
-                                    "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
+  const double wanted = factor <= free_memory() ? mapped : factor,
+               free = std::min(free_memory(), free_address());
+  throw Failure(
+      Exit::config,
+      Error{
+          {},
+          "",
+          fmt::format(
+              "this run needs {} more than the {} it holds already, for its tangent; {} are free",
+              memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
+          "",
+          "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
-Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops) {
+Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics,
+                     const std::vector<double>& stops) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   return forecast(body, statics.size(), statics.contacts(), config.path, stops,
                   {newton && newton->reuse_tangent, statics.contact_in_tangent(), statics.mixed()});
 }
 
-Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where) {
+Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
+                     const Run::Where& where) {
   Run run(body_mesh(config, "", where), config, material, where);
   return forecast_of(config, run.body, run.statics, run.scene.stops);
 }
 
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,
-                             double estimate, bool quiet) {
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body,
+                             const Statics& statics, double estimate, bool quiet) {
   const double free = std::min(free_memory(), free_address());
   const Forecast f = forecast_of(config, body, statics, scene.stops);
   if (!quiet) {
-    const auto line = [](const char* part, const std::string& says) { say_line("  {:<12}{}", part, says); };
+    const auto line = [](const char* part, const std::string& says) {
+      say_line("  {:<12}{}", part, says);
+    };
     say_line("solve: dry run, nothing is solved or written");
     line("body",
-         fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(), body.mesh().cell().names.shape,
-                     body.mesh().n_nodes(), body.dofs().n_free(), names(body.formulation())[static_cast<int>(body.formulation())]));
+         fmt::format("{} {}, {} nodes, {} free dofs, {}", body.mesh().n_cells(),
+                     body.mesh().cell().names.shape, body.mesh().n_nodes(), body.dofs().n_free(),
+                     names(body.formulation())[static_cast<int>(body.formulation())]));
     if (const Division* division = body.division())
-      line("ranks", fmt::format("{} ranks, {} cells on this one; memory of all, time of each", division->ranks->n(),
-                                body.own_cells().size()));
+      line("ranks", fmt::format("{} ranks, {} cells on this one; memory of all, time of each",
+                                division->ranks->n(), body.own_cells().size()));
     const int families = scene.families();
-    line("fibres", families == 0 ? "off, not in the material"
-                                 : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
-                                               scene.directions.from_field() ? ", directions from a field" : ""));
+    line("fibres",
+         families == 0
+             ? "off, not in the material"
+             : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
+                           scene.directions.from_field() ? ", directions from a field" : ""));
     if (body.viscous())
-      line("viscous",
-           fmt::format("branch stresses at the Gauss points take {} of the memory", memory_in_words(body.memory()->bytes())));
+      line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory",
+                                  memory_in_words(body.memory()->bytes())));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
                                   c.mu > 0 ? fmt::format("friction {:g}", c.mu) : "no friction"));
-    if (!scene.contacts.empty()) line("", statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
-    line("solver", std::holds_alternative<KinsolOptions>(config.solver) ? "kinsol; counted as newton" : "newton");
+    if (!scene.contacts.empty())
+      line("",
+           statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
+    line("solver", std::holds_alternative<KinsolOptions>(config.solver)
+                       ? "kinsol; counted as newton"
+                       : "newton");
     if (statics.iterative())
-      line("tangent",
-           fmt::format("{:.3g} million entries; solved iteratively, without a factor: the stability of equilibria is not looked at",
-                       1e-6 * f.size.nonzeros));
+      line(
+          "tangent",
+          fmt::format(
+              "{:.3g} million entries; solved iteratively, without a factor: the stability of equilibria is not looked at",
+              1e-6 * f.size.nonzeros));
     else
-      line("tangent", fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP", 1e-6 * f.size.nonzeros,
-                                  1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
-    line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps, f.iterations,
+      line("tangent",
+           fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP",
+                       1e-6 * f.size.nonzeros, 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
+    line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps,
+                             f.iterations,
                              f.again > 0 ? fmt::format("Newton + {:.0f} modified ", f.again) : ""));
     line("memory", fmt::format("{}; {} are free{}", memory_in_words(f.bytes), memory_in_words(free),
                                f.size.factor_bytes > free ? ": this will not fit" : ""));
-    line("time", fmt::format("about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, {} {:.2g}, solution {:.2g}{}",
-                             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
-                             statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
-                             f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
-    if (estimate > 0) line("estimate", fmt::format("about {} of CPU more, on other meshes", duration_in_words(estimate)));
+    line(
+        "time",
+        fmt::format(
+            "about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, {} {:.2g}, solution {:.2g}{}",
+            duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
+            statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
+            f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
+    if (estimate > 0)
+      line("estimate",
+           fmt::format("about {} of CPU more, on other meshes", duration_in_words(estimate)));
   }
   return {{"free_dofs", static_cast<double>(body.dofs().n_free()), "-"},
           {"cells", static_cast<double>(body.mesh().n_cells()), "-"},

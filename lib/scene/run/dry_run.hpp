@@ -1,33 +1,37 @@
-// What a solve would take, before it: for --dry-run, and to refuse a run that will not fit in memory.
+// What a solve would take, before it: for --dry-run, and to refuse a run that will not fit in
+// memory.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/run/run.hpp"
-#include "scene/model/scene.hpp"
 #include "mechanics/solve/forecast.hpp"
 #include "mechanics/solve/statics.hpp"
 #include "results/store/provenance.hpp"
+#include "scene/model/scene.hpp"
+#include "scene/run/run.hpp"
 
 namespace langer {
 
 std::string memory_in_words(double bytes);      // "430 MB"
 std::string duration_in_words(double seconds);  // "40 s"
 
-// Throws Failure(config) where the factor of the tangent, or that of a mesh beside it, exceeds the memory that is free or allowed.
+// Throws Failure(config) where the factor of the tangent, or that of a mesh beside it, exceeds the
+// memory that is free or allowed.
 void need_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
-Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics, const std::vector<double>& stops);
+Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics,
+                     const std::vector<double>& stops);
 
 // of a scene that is made for it
-Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material, const Run::Where& where);
+Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
+                     const Run::Where& where);
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
 // estimate: seconds that the estimate of its errors takes, 0 where none is wanted
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body, const Statics& statics,
-                             double estimate, bool quiet);
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body,
+                             const Statics& statics, double estimate, bool quiet);
 
 }  // namespace langer

@@ -15,7 +15,8 @@ struct Top {
   double y;
 };
 
-void add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, double x, double y, double z) {
+void add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, double x, double y,
+         double z) {
   const double gap = shape_at(shape, Vec3(x, y, z) - u).gap;
   if (!(gap < 0)) return;
   if (!all) all = Footprint{{x, z}, {x, z}, 0};
@@ -25,12 +26,14 @@ void add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, do
 }
 
 // whether the line at this x (k = 0) or z comes inside, near what is known of the print
-bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, double value, const Top& top) {
+bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, double value,
+            const Top& top) {
   const int other = 1 - k;
   const double slack = (top.high[other] - top.low[other]) / samples;
   const double low = near.low[other] - slack, high = near.high[other] + slack;
   for (int i = 0; i <= 4 * samples; ++i) {
-    const double across = std::clamp(low + (high - low) * i / (4 * samples), top.low[other], top.high[other]);
+    const double across =
+        std::clamp(low + (high - low) * i / (4 * samples), top.low[other], top.high[other]);
     const Vec3 x = k == 0 ? Vec3(value, top.y, across) : Vec3(across, top.y, value);
     if (shape_at(shape, x - u).gap < 0) return true;
   }
@@ -40,17 +43,22 @@ bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, 
 // of one indenter at one place
 std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const Top& top) {
   std::optional<Footprint> found;
-  if (const auto inside = point_inside(shape)) {  // one that is smaller than the distance of the samples
+  if (const auto inside =
+          point_inside(shape)) {  // one that is smaller than the distance of the samples
     const double x = (*inside + u)[0], z = (*inside + u)[2];
-    if (x >= top.low[0] && x <= top.high[0] && z >= top.low[1] && z <= top.high[1]) add(found, shape, u, x, top.y, z);
+    if (x >= top.low[0] && x <= top.high[0] && z >= top.low[1] && z <= top.high[1])
+      add(found, shape, u, x, top.y, z);
   }
-  const auto at = [&](int k, int i) { return top.low[k] + (top.high[k] - top.low[k]) * i / samples; };
+  const auto at = [&](int k, int i) {
+    return top.low[k] + (top.high[k] - top.low[k]) * i / samples;
+  };
   for (int i = 0; i <= samples; ++i)
     for (int j = 0; j <= samples; ++j) add(found, shape, u, at(0, i), top.y, at(1, j));
   if (!found) return found;
   for (int k : {0, 1, 0, 1})
     for (double* end : {&found->low[k], &found->high[k]}) {
-      const double step = (top.high[k] - top.low[k]) / samples, side = end == &found->low[k] ? -1 : 1;
+      const double step = (top.high[k] - top.low[k]) / samples,
+                   side = end == &found->low[k] ? -1 : 1;
       double in = *end, out = std::clamp(*end + side * step, top.low[k], top.high[k]);
       if (enters(shape, u, *found, k, out, top)) in = out;
       while (std::abs(out - in) > 1e-6 * step) {
@@ -65,7 +73,8 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
 void add(std::optional<Footprint>& all, const Footprint& print) {
   if (!all) all = print;
   for (std::size_t k : {0u, 1u})
-    all->low[k] = std::min(all->low[k], print.low[k]), all->high[k] = std::max(all->high[k], print.high[k]);
+    all->low[k] = std::min(all->low[k], print.low[k]),
+    all->high[k] = std::max(all->high[k], print.high[k]);
   all->deepest = std::max(all->deepest, print.deepest);
 }
 
@@ -83,7 +92,9 @@ std::vector<Footprint> footprints(const SolveConfig& config, const Box& body) {
     for (const WaypointConfig& waypoint : contact.motion) {
       const Vec3 to = vec(waypoint.to);
       for (int i = 1; i <= places; ++i)
-        if (const auto print = print_of(contact.rigid, before + (to - before) * (1.0 * i / places), top)) add(found, *print);
+        if (const auto print =
+                print_of(contact.rigid, before + (to - before) * (1.0 * i / places), top))
+          add(found, *print);
       before = to;
     }
     if (found) out.push_back(*found);

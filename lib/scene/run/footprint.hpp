@@ -1,5 +1,5 @@
-// Where indenters press the top of a block: the part of it, at rest, that lies inside one of them somewhere on its way. Cells are
-// wanted there, wherever it is.
+// Where indenters press the top of a block: the part of it, at rest, that lies inside one of them
+// somewhere on its way. Cells are wanted there, wherever it is.
 #pragma once
 
 #include <array>

@@ -10,25 +10,32 @@ namespace langer {
 namespace {
 
 // along x, the mean of those of a line
-double cell_length(const Geometry& geometry) { return box(geometry).size[0] / numbers_of_cells(geometry)[0]; }
+double cell_length(const Geometry& geometry) {
+  return box(geometry).size[0] / numbers_of_cells(geometry)[0];
+}
 
 }  // namespace
 
-// A plate with a hole ends to half a cell there: what the ring of that width is of its area, a share of its force. It slips and lifts at the
-// edge, which cells as long as that do not see; what is fitted to them was half of their error (docs/loads.md).
+// A plate with a hole ends to half a cell there: what the ring of that width is of its area, a
+// share of its force. It slips and lifts at the edge, which cells as long as that do not see; what
+// is fitted to them was half of their error (docs/loads.md).
 double beside_holes(const SolveConfig& config) {
-  const auto has_edge = [](const auto& contact) { return std::holds_alternative<Aperture>(contact.second.rigid); };
+  const auto has_edge = [](const auto& contact) {
+    return std::holds_alternative<Aperture>(contact.second.rigid);
+  };
   const auto plate = std::find_if(config.contacts.begin(), config.contacts.end(), has_edge);
   if (plate == config.contacts.end()) return 0;
   const double radius = std::get<Aperture>(plate->second.rigid).radius;
   const auto size = box(config.mesh->geometry).size;
-  const double top = is_section(config.mesh->geometry) ? std::numbers::pi * size[0] * size[0] : size[0] * size[2];
+  const double top =
+      is_section(config.mesh->geometry) ? std::numbers::pi * size[0] * size[0] : size[0] * size[2];
   return std::min(0.5, std::numbers::pi * radius * cell_length(config.mesh->geometry) /
                            std::max(top - std::numbers::pi * radius * radius, 1e-300));
 }
 
-// What is sucked through the hole of a plate: of drawn scenes its height was off by up to 0.083 of the cells' length in radii of the hole, and
-// three meshes of eight cells over the radius did not tell it (docs/loads.md).
+// What is sucked through the hole of a plate: of drawn scenes its height was off by up to 0.083 of
+// the cells' length in radii of the hole, and three meshes of eight cells over the radius did not
+// tell it (docs/loads.md).
 double under_holes(const SolveConfig& config) {
   double least = 0;
   for (const auto& [name, contact] : config.contacts)
@@ -37,8 +44,9 @@ double under_holes(const SolveConfig& config) {
   return std::min(0.5, least);
 }
 
-// A region that a pressure sucks into a ring that is held: at its rim stresses are singular, and what cells beside it miss of the dome is a
-// share of their length in radii, of drawn scenes up to 0.07; on eight cells over the radius three meshes did not tell it (docs/loads.md).
+// A region that a pressure sucks into a ring that is held: at its rim stresses are singular, and
+// what cells beside it miss of the dome is a share of their length in radii, of drawn scenes up to
+// 0.07; on eight cells over the radius three meshes did not tell it (docs/loads.md).
 double beside_rims(const SolveConfig& config, bool clamped) {
   double least = 0;
   for (const LoadConfig& load : config.loads) {
@@ -51,7 +59,8 @@ double beside_rims(const SolveConfig& config, bool clamped) {
   return std::min(0.5, 0.08 * cell_length(config.mesh->geometry) / least);
 }
 
-// Drawn scenes had 16 % beside 44 +- 15 %: where a point lies on the edge is decided by the few cells that bend around it.
+// Drawn scenes had 16 % beside 44 +- 15 %: where a point lies on the edge is decided by the few
+// cells that bend around it.
 std::string over_an_edge(const SolveConfig& config, const std::string& quantity) {
   constexpr std::string_view begins = "displacement_";
   if (!config.mesh || !quantity.starts_with(begins)) return "";
@@ -62,7 +71,8 @@ std::string over_an_edge(const SolveConfig& config, const std::string& quantity)
     if (!plate) continue;
     const Vec3 at = vec(point->second);
     const double rho = about(*plate->axis(), at).rho;
-    if (rho >= plate->radius * (1 - 1e-9) && rho <= plate->radius + 2 * plate->edge && plate->at(at).gap <= plate->edge)
+    if (rho >= plate->radius * (1 - 1e-9) && rho <= plate->radius + 2 * plate->edge &&
+        plate->at(at).gap <= plate->edge)
       return fmt::format(
           "the error of {} is not known: the point lies at the edge of the hole of \"{}\", and what slips over it follows no law of the "
           "cells' length",

@@ -20,7 +20,9 @@ constexpr double same = 1e-9;
 
 struct Hull : BoundingBox {
   double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
-  bool on(const Vec3& X, int axis, int side) const { return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm(); }
+  bool on(const Vec3& X, int axis, int side) const {
+    return std::abs(X[axis] - bound(axis, side)) <= same * (high - low).norm();
+  }
 };
 
 bool same_fibres(const Mesh& mesh, const Scene& scene) {
@@ -30,14 +32,17 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
   for (int e = 1; e < mesh.n_cells(); ++e) {
     const auto here = scene.directions.of(e);
     for (std::size_t k = 0; k < first.size(); ++k)
-      if ((k == 0 || has_direction(families[k])) && std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12)
+      if ((k == 0 || has_direction(families[k])) &&
+          std::min((here[k] - first[k]).norm(), (here[k] + first[k]).norm()) > 1e-12)
         return false;
   }
   return true;
 }
 
-// What whole faces are told, as values of the box's corners; nothing where a node is told something that is not its face's.
-std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs, const Hull& hull) {
+// What whole faces are told, as values of the box's corners; nothing where a node is told something
+// that is not its face's.
+std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs,
+                                                     const Hull& hull) {
   std::map<int, History> imposed, explained;
   for (const Prescribed& p : dofs.prescribed) {
     if (p.turn) return std::nullopt;
@@ -58,7 +63,8 @@ std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dof
         if (value == imposed.end() || !std::all_of(nodes.begin(), nodes.end(), alike)) continue;
         for (int n : nodes) explained[3 * n + k] = value->second;
         for (int a = 0; a < 8; ++a)
-          if (Hex8::corner[a][axis] == side) corners.push_back({3 * a + k, value->second.value, value->second.factor});
+          if (Hex8::corner[a][axis] == side)
+            corners.push_back({3 * a + k, value->second.value, value->second.factor});
       }
     }
   if (imposed != explained) return std::nullopt;
@@ -66,14 +72,17 @@ std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dof
 }
 
 // Forces on whole faces, on those of the hexahedron; nothing where one acts on a part of a face.
-std::optional<std::vector<SurfaceLoad>> loads_of_faces(const Mesh& mesh, const std::vector<SurfaceLoad>& loads, const Hull& hull) {
+std::optional<std::vector<SurfaceLoad>> loads_of_faces(const Mesh& mesh,
+                                                       const std::vector<SurfaceLoad>& loads,
+                                                       const Hull& hull) {
   std::vector<SurfaceLoad> found;
   for (const SurfaceLoad& load : loads) {
     std::array<double, 6> area{};
     for (const Facet& facet : load.facets) {
       const std::vector<int> nodes = facet_nodes(mesh, facet);
       for (int face = 0; face < 6; ++face)
-        if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return hull.on(mesh.X[n], face / 2, face % 2 ? 1 : -1); }))
+        if (std::all_of(nodes.begin(), nodes.end(),
+                        [&](int n) { return hull.on(mesh.X[n], face / 2, face % 2 ? 1 : -1); }))
           area[face] += nodal_areas(mesh, {facet}).sum();
     }
     const Vec3 size = hull.size();
@@ -95,15 +104,18 @@ std::optional<std::vector<SurfaceLoad>> loads_of_faces(const Mesh& mesh, const s
 
 HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config)
     : asked_(config.solver), solver_(config.solver) {
-  if (auto* newton = std::get_if<NewtonOptions>(&solver_)) newton->relative = std::min(newton->relative, 1e-11);
+  if (auto* newton = std::get_if<NewtonOptions>(&solver_))
+    newton->relative = std::min(newton->relative, 1e-11);
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
   seconds_ = config.path.seconds.value_or(0);
-  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation, scene.dofs, config.threads);
+  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation,
+                                         scene.dofs, config.threads);
   if (!scene.loads.empty()) whole_->set_loads({mesh, scene.loads});
 }
 
-std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config) {
+std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const Scene& scene,
+                                                         const SolveConfig& config) {
   std::unique_ptr<HomogeneousScene> found(new HomogeneousScene(mesh, scene, config));
   if (!found->whole_ || !found->first_increment_balances(config.path)) return nullptr;
   if (!found->whole_->viscous()) return found;
@@ -113,7 +125,9 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
 }
 
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
-  if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 || !same_fibres(mesh, scene)) return false;
+  if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 ||
+      !same_fibres(mesh, scene))
+    return false;
   const Hull hull{bounding_box(mesh.X)};
   const double volume = hull.size().prod();
   if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
@@ -142,9 +156,11 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
     }
   }
   const Vec3 size = hull.size();
-  const Material& law = scene.materials.front();  // an error of strain of 1e-9 at most: else the mesh may be nearer
-  rounding_of_J_ = std::min(std::numeric_limits<double>::epsilon() * bulk_modulus(law), 1e-9 * shear_modulus(law)) * size.prod() /
-                   size.minCoeff();
+  const Material& law =
+      scene.materials.front();  // an error of strain of 1e-9 at most: else the mesh may be nearer
+  rounding_of_J_ = std::min(std::numeric_limits<double>::epsilon() * bulk_modulus(law),
+                            1e-9 * shear_modulus(law)) *
+                   size.prod() / size.minCoeff();
   scene_.formulation = usual_formulation(CellType::hex8);
   scene_.materials = scene.materials, scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(std::array{0});
@@ -183,7 +199,8 @@ bool HomogeneousScene::balance(const VecX& u, double t) const {
 
 void HomogeneousScene::replay(const StepRecord& whole) const {
   VecX u(3 * static_cast<Eigen::Index>(whole.u.size()));
-  for (std::size_t i = 0; i < whole.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[i];
+  for (std::size_t i = 0; i < whole.u.size(); ++i)
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) = whole.u[i];
   balance(u, whole.t);
 }
 
@@ -208,8 +225,10 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
   }
   left = std::sqrt(left), reactions = std::sqrt(reactions);
   const double small = 1e-9 * reactions + rounding_of_J_;
-  if (!(left <= small + 10 * whole_->rounding_floor())) return std::nullopt;                    // it deforms otherwise
-  if (!(left <= std::max(small, on_mesh(left, reactions, {}).tolerance))) return std::nullopt;  // a solution of the mesh is nearer
+  if (!(left <= small + 10 * whole_->rounding_floor()))
+    return std::nullopt;  // it deforms otherwise
+  if (!(left <= std::max(small, on_mesh(left, reactions, {}).tolerance)))
+    return std::nullopt;  // a solution of the mesh is nearer
   record.residual = reactions > 0 ? left / reactions : left;
   for (auto& [name, values] : record.cell_fields)
     values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
@@ -220,8 +239,10 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
 
 SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveReport report) const {
   Assessment found;
-  found.residual = residual, found.reference = reactions, found.floor = 3 * whole_->rounding_floor();  // as of Statics
-  std::visit([&](const auto& asked) { compare(found, asked.absolute, asked.relative, report); }, asked_);
+  found.residual = residual, found.reference = reactions,
+  found.floor = 3 * whole_->rounding_floor();  // as of Statics
+  std::visit([&](const auto& asked) { compare(found, asked.absolute, asked.relative, report); },
+             asked_);
   return report;
 }
 
@@ -237,7 +258,8 @@ BodyState HomogeneousScene::reduced(const StepRecord& whole) const {
   BodyState state;
   state.t = whole.t;
   state.u.resize(24);
-  for (int a = 0; a < 8; ++a) state.u.segment<3>(3 * a) = whole.u[static_cast<std::size_t>(corner_node_[a])];
+  for (int a = 0; a < 8; ++a)
+    state.u.segment<3>(3 * a) = whole.u[static_cast<std::size_t>(corner_node_[a])];
   return state;
 }
 

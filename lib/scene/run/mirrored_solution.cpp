@@ -6,12 +6,12 @@
 #include <array>
 
 #include "mechanics/mesh/bounding_box.hpp"
+#include "results/store/solution_layout.hpp"
+#include "scene/model/scene_image.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
-#include "scene/model/solve_config_io.hpp"
-#include "scene/model/scene_image.hpp"
-#include "results/store/solution_layout.hpp"
 
 namespace langer {
 
@@ -39,20 +39,25 @@ std::array<NamedTurn, 8> operations() {
            {"quarter turn about -y of", turn_of(0, -1, 1, 0)}}};
 }
 
-// Torques change their sign in a mirror, derivatives belong to named components, deviations to parameters.
+// Torques change their sign in a mirror, derivatives belong to named components, deviations to
+// parameters.
 bool knows_how_to_turn(const StepRecord& step) {
-  return step.point_fields.empty() && std::none_of(step.scalars.begin(), step.scalars.end(), [](const auto& scalar) {
+  return step.point_fields.empty() &&
+         std::none_of(step.scalars.begin(), step.scalars.end(), [](const auto& scalar) {
            const std::string& name = scalar.first;
-           return name.starts_with("torque_") || name.starts_with("angle_") || name.starts_with("d_") ||
-                  name.ends_with("_deviation");
+           return name.starts_with("torque_") || name.starts_with("angle_") ||
+                  name.starts_with("d_") || name.ends_with("_deviation");
          });
 }
 
 // Columns of results are those of the first family.
-bool first_family_stays(const MeshImage& g, const Mesh& mesh, const Scene& scene, const Scene& image) {
+bool first_family_stays(const MeshImage& g, const Mesh& mesh, const Scene& scene,
+                        const Scene& image) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const auto a = scene.directions.of(e), b = image.directions.of(g.cell[e]);
-    if (a.empty() || !has_direction(scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres[0])) continue;
+    if (a.empty() ||
+        !has_direction(scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres[0]))
+      continue;
     const Vec3 turned = g.turn * a[0];
     if (std::min((turned - b[0]).norm(), (turned + b[0]).norm()) > same_place) return false;
   }
@@ -64,8 +69,10 @@ std::map<std::string, std::string> without_mirror(std::map<std::string, std::str
   return inputs;
 }
 
-// what keeps the files from being of scenes that differ in their fibre angles only; empty where nothing
-std::string other_task(const MirrorTask& task, const Identity& theirs, const SolveConfig& their_config) {
+// what keeps the files from being of scenes that differ in their fibre angles only; empty where
+// nothing
+std::string other_task(const MirrorTask& task, const Identity& theirs,
+                       const SolveConfig& their_config) {
   const SolveConfig& own = task.config;
   if (own.symmetry == SymmetryChoice::none) return "symmetry: none";
   const EstimateBy by = own.estimate.value_or(EstimateBy::recovery);
@@ -74,21 +81,26 @@ std::string other_task(const MirrorTask& task, const Identity& theirs, const Sol
     return "cells that are chosen, or errors that are estimated, are its own";
   SolveConfig same = their_config;
   same.fibre_angles = own.fibre_angles;
-  if (to_yaml(same, file_name) != to_yaml(own, file_name)) return "the configs differ in more than fibre_angles";
-  if (without_mirror(theirs.inputs) != without_mirror(task.identity.inputs)) return "they were made from other files";
+  if (to_yaml(same, file_name) != to_yaml(own, file_name))
+    return "the configs differ in more than fibre_angles";
+  if (without_mirror(theirs.inputs) != without_mirror(task.identity.inputs))
+    return "they were made from other files";
   return "";
 }
 
 }  // namespace
 
-std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& scene, const Scene& image, std::string& why_not) {
+std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& scene,
+                                                 const Scene& image, std::string& why_not) {
   for (const NamedTurn& op : operations()) {
     auto g = find_image(mesh, op.turn, bounding_box(mesh.X).middle());
     if (!g) continue;
     const SceneImage found = image_of(*g, mesh, scene, image);
     bool own = found.broken.empty();
-    for (std::size_t c = 0; own && c < found.contact.size(); ++c) own = found.contact[c] == static_cast<int>(c);
-    if (own && first_family_stays(*g, mesh, scene, image)) return MirrorOperation{op.name, std::move(*g)};
+    for (std::size_t c = 0; own && c < found.contact.size(); ++c)
+      own = found.contact[c] == static_cast<int>(c);
+    if (own && first_family_stays(*g, mesh, scene, image))
+      return MirrorOperation{op.name, std::move(*g)};
     // that the fibres differ is what the other operations are for
     if (why_not.empty() || !found.broken.starts_with("the fibres"))
       why_not = found.broken.empty() ? "indenters or families change places" : found.broken;
@@ -97,7 +109,8 @@ std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& 
   return std::nullopt;
 }
 
-StepRecord image_of_step(const StepRecord& step, const MeshImage& g, const std::vector<RigidContact>& contacts) {
+StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
+                         const std::vector<RigidContact>& contacts) {
   StepRecord out = step;
   for (std::size_t i = 0; i < step.u.size(); ++i) {
     const auto to = static_cast<std::size_t>(g.node[i]);
@@ -120,12 +133,16 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g, const std::
   out.u_ind = g.turn * step.u_ind, out.force_ind = g.turn * step.force_ind;
   const auto turn = [&](const std::string& name, const auto& turned) {
     const std::array<std::string, 3> parts{name + "_x", name + "_y", name + "_z"};
-    if (!std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return step.scalars.count(part) > 0; })) return;
-    const Vec3 v = turned(Vec3(step.scalars.at(parts[0]), step.scalars.at(parts[1]), step.scalars.at(parts[2])));
+    if (!std::all_of(parts.begin(), parts.end(),
+                     [&](const auto& part) { return step.scalars.count(part) > 0; }))
+      return;
+    const Vec3 v = turned(
+        Vec3(step.scalars.at(parts[0]), step.scalars.at(parts[1]), step.scalars.at(parts[2])));
     for (int k = 0; k < 3; ++k) out.scalars[parts[static_cast<std::size_t>(k)]] = v[k];
   };
   turn("weakest", Isometry{g.turn, g.centre});
-  if (const auto cell = out.scalars.find("weakest_cell"); cell != out.scalars.end() && cell->second >= 0)
+  if (const auto cell = out.scalars.find("weakest_cell");
+      cell != out.scalars.end() && cell->second >= 0)
     cell->second = g.cell[static_cast<std::size_t>(cell->second)];
   for (const RigidContact& contact : contacts) {
     turn("force_" + contact.name, [&](const Vec3& v) { return Vec3(g.turn * v); });
@@ -137,14 +154,17 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g, const std::
       const std::size_t j = candidate.at(g.node[static_cast<std::size_t>(contact.nodes[i])]);
       to.r[j] = g.turn * from.r[i], to.status[j] = from.status[i], to.gap[j] = from.gap[i];
       if (from.beta.empty()) continue;
-      to.beta[j] = from.beta[i], to.bonded_at[j] = g.turn * from.bonded_at[i], to.adhesive[j] = g.turn * from.adhesive[i];
+      to.beta[j] = from.beta[i], to.bonded_at[j] = g.turn * from.bonded_at[i],
+      to.adhesive[j] = g.turn * from.adhesive[i];
     }
   }
   return out;
 }
 
 Mirrored mirrored(const MirrorTask& task) {
-  const auto no = [&](std::string why) { return Mirrored{"", std::move(why)}; };
+  const auto no = [&](std::string why) {
+    return Mirrored{"", std::move(why)};
+  };
   const SolutionReader other(task.of);
   const Identity& theirs = other.header().identity;
   std::optional<SolveConfig> their_config;
@@ -153,7 +173,8 @@ Mirrored mirrored(const MirrorTask& task) {
   } catch (const Failure&) {
     return no("its config is not one of this version");
   }
-  if (std::string why = other_task(task, theirs, *their_config); !why.empty()) return no(std::move(why));
+  if (std::string why = other_task(task, theirs, *their_config); !why.empty())
+    return no(std::move(why));
   const Mesh mesh = body_mesh(task.config, task.mesh_file, task.where);
   if (mesh.section) return no("a section is cheaper than its image");
   if (other.n_steps() == 0 || !knows_how_to_turn(other.step(other.n_steps() - 1)))
@@ -162,15 +183,19 @@ Mirrored mirrored(const MirrorTask& task) {
   SolveConfig turned = task.config;
   turned.fibre_angles = their_config->fibre_angles;
   std::string why;
-  const auto op = operation_between(mesh, make_scene(turned, mesh, task.material, task.where), scene, why);
+  const auto op =
+      operation_between(mesh, make_scene(turned, mesh, task.material, task.where), scene, why);
   if (!op) return no(std::move(why));
   Mirrored out{fmt::format("{} {}", op->name, task.of), ""};
   // steps that a stopped run of this task kept would be as good; the copy is made at once
-  SolutionWriter file(task.output, header_of(mesh, scene.formulation, scene, with_steps_hash(task.identity, task.config)),
-                      [](const StepRecord&, const EarlierRun&) { return false; });
+  SolutionWriter file(
+      task.output,
+      header_of(mesh, scene.formulation, scene, with_steps_hash(task.identity, task.config)),
+      [](const StepRecord&, const EarlierRun&) { return false; });
   file.say_image_of(fmt::format("{} {} ({})", op->name, other.content_id(), task.of));
   StepRecord last;
-  for (int i = 0; i < other.n_steps(); ++i) file.append(last = image_of_step(other.step(i), op->symmetry, scene.contacts));
+  for (int i = 0; i < other.n_steps(); ++i)
+    file.append(last = image_of_step(other.step(i), op->symmetry, scene.contacts));
   file.finish({}, other.summary());
   out.summary = {{"steps", static_cast<double>(other.n_steps()), "-"}};
   if (!scene.contacts.empty()) out.summary.push_back({"force", last.force_ind.norm(), "N"});

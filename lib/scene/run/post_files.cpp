@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "core/tensor/stress.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/mesh/section.hpp"
-#include "scene/run/recorded_contact.hpp"
-#include "scene/run/step_record.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/model/scene_loads.hpp"
 #include "scene/model/solve_config.hpp"
-#include "core/tensor/stress.hpp"
+#include "scene/model/solve_config_io.hpp"
+#include "scene/run/recorded_contact.hpp"
+#include "scene/run/step_record.hpp"
 
 namespace langer {
 
@@ -28,7 +28,8 @@ struct StressFields {
         pressure(field("pressure", "MPa", 1, rows)),
         principal(field("principal_stresses", "MPa", 3, rows)),
         J(field("J", "-", 1, rows)) {
-    for (int k = 0; k < families; ++k) stretch.push_back(field(fmt::format("fibre_stretch_{}", k + 1), "-", 1, rows));
+    for (int k = 0; k < families; ++k)
+      stretch.push_back(field(fmt::format("fibre_stretch_{}", k + 1), "-", 1, rows));
   }
   void put_row(std::size_t row, const VecX& values) {
     const Mat3 stress = sigma_of(values);
@@ -37,10 +38,12 @@ struct StressFields {
     pressure.values[row] = mean_stress(stress);
     put(principal, row, principal_stresses(stress));
     J.values[row] = J_of(values);
-    for (std::size_t k = 0; k < stretch.size(); ++k) stretch[k].values[row] = fibre_stretch_of(values, static_cast<int>(k));
+    for (std::size_t k = 0; k < stretch.size(); ++k)
+      stretch[k].values[row] = fibre_stretch_of(values, static_cast<int>(k));
   }
   void move_to(std::vector<Field>& fields) {
-    for (Field* f : {&sigma, &von_mises, &pressure, &principal, &J}) fields.push_back(std::move(*f));
+    for (Field* f : {&sigma, &von_mises, &pressure, &principal, &J})
+      fields.push_back(std::move(*f));
     for (Field& f : stretch) fields.push_back(std::move(f));
   }
 };
@@ -61,9 +64,11 @@ Formulation formulation_of(const SolutionHeader& header, const std::string& path
   const auto words = names(Formulation{});
   for (std::size_t i = 0; i < words.size(); ++i)
     if (header.formulation == words[i]) return static_cast<Formulation>(i);
-  throw Failure(
-      Exit::input,
-      Error{{path}, "formulation", "\"" + header.formulation + "\"", "mean_dilatation, displacement or linear_dilatation", ""});
+  throw Failure(Exit::input, Error{{path},
+                                   "formulation",
+                                   "\"" + header.formulation + "\"",
+                                   "mean_dilatation, displacement or linear_dilatation",
+                                   ""});
 }
 
 StepState state_of(const StepRecord& record) {
@@ -78,8 +83,9 @@ StepState state_of(const StepRecord& record) {
   return state;
 }
 
-SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, int row,
-                               const ContactStates& contacts, StressAt at) {
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
+                               const StepRecord& record, int row, const ContactStates& contacts,
+                               StressAt at) {
   const Mesh& mesh = body.mesh();
   const std::size_t n = mesh.X.size(), n_cells = static_cast<std::size_t>(mesh.n_cells());
   const GaussValues gauss = gauss_values(body, record.u);
@@ -113,13 +119,15 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, c
   }
   out.cells.push_back(means.J);  // first, and so the one that viewers show: at nodes it is smoothed
   means.move_to(out.cells);
-  out.cells.erase(std::find_if(out.cells.begin() + 1, out.cells.end(), [](const Field& f) { return f.name == "J"; }));
+  out.cells.erase(std::find_if(out.cells.begin() + 1, out.cells.end(),
+                               [](const Field& f) { return f.name == "J"; }));
   for (auto* fibres : {&before, &after})
     for (Field& f : *fibres) out.cells.push_back(std::move(f));
   return out;
 }
 
-std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at) {
+std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field,
+                                   int family, StressAt at) {
   std::vector<double> values;
   if (const OfNodes* of = std::get_if<OfNodes>(&line_of(field).value)) {
     for (const Vec3& u : state.u) values.push_back((*of)(u));
@@ -140,7 +148,9 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   std::vector<RigidContact> indenters;
   if (header.contact_nodes.empty()) return indenters;
   try {
-    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    const auto solve =
+        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
+            .config;
     for (const auto& [name, contact] : solve.contacts) {
       if (!header.contact_nodes.count(name)) return {};
       RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
@@ -170,24 +180,30 @@ void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& 
   }
 }
 
-EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header) {
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
+                       const SolutionHeader& header) {
   std::vector<double> kinks;
   try {
-    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    const auto solve =
+        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
+            .config;
     for (const LoadConfig& load : solve.loads)
       for (const HistoryConfig& history : load.histories())
-        for (const HistoryPointConfig& point : history.points) kinks.push_back(place(point, solve.path.seconds));
+        for (const HistoryPointConfig& point : history.points)
+          kinks.push_back(place(point, solve.path.seconds));
     return {mesh, std::move(indenters), std::move(kinks), turned_sets(solve, header.mesh)};
   } catch (const Failure&) {
     return {mesh, std::move(indenters)};  // written by another version of solve
   }
 }
 
-std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters) {
+std::vector<std::string> indenters_missing(const SolutionHeader& header,
+                                           const std::vector<RigidContact>& indenters) {
   std::vector<std::string> names;
   for (const auto& contact : header.contact_nodes) {
     const std::string& name = contact.first;
-    if (std::none_of(indenters.begin(), indenters.end(), [&](const RigidContact& c) { return c.name == name; }))
+    if (std::none_of(indenters.begin(), indenters.end(),
+                     [&](const RigidContact& c) { return c.name == name; }))
       names.push_back(name);
   }
   return names;
@@ -207,34 +223,45 @@ Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
 
 Loads loads_of(const SolutionHeader& header) {
   try {
-    const auto solve = read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config")).config;
+    const auto solve =
+        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
+            .config;
     std::vector<Error> errors;
     const Section* section = header.mesh.section ? &*header.mesh.section : nullptr;
     std::vector<SurfaceLoad> loads = surface_loads(
         solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
     if (loads.empty() || !errors.empty()) return {};
     const std::size_t n = section ? static_cast<std::size_t>(header.mesh.n_cells()) : 0;
-    return {header.mesh, std::move(loads), std::vector<double>(n, section ? cell_share(*section) : 1)};
+    return {header.mesh, std::move(loads),
+            std::vector<double>(n, section ? cell_share(*section) : 1)};
   } catch (const Failure&) {
     return {};  // written by another version of solve
   }
 }
 
-EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters, const Loads& loads) {
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
+                               const Loads& loads) {
   EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
-    state.r.push_back(found == record.contacts.end() ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero()) : found->second.r);
-    state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{} : found->second.adhesive);
+    state.r.push_back(found == record.contacts.end()
+                          ? std::vector<Vec3>(indenter.nodes.size(), Vec3::Zero())
+                          : found->second.r);
+    state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{}
+                                                         : found->second.adhesive);
   }
-  if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end()) state.jumps = jumps->second;
+  if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end())
+    state.jumps = jumps->second;
   if (!loads.empty()) {
     VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
-    for (std::size_t i = 0; i < record.u.size(); ++i) u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+    for (std::size_t i = 0; i < record.u.size(); ++i)
+      u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
     state.loads = loads.forces(record.t, u);
   }
-  for (const char* part : {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})
-    if (const auto stored = record.scalars.find(part); stored != record.scalars.end()) state.stored += stored->second;
+  for (const char* part :
+       {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})
+    if (const auto stored = record.scalars.find(part); stored != record.scalars.end())
+      state.stored += stored->second;
   return state;
 }
 

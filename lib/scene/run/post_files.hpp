@@ -1,4 +1,5 @@
-// From a solution file to what post works on, and back to files: states, snapshot fields, the indenters.
+// From a solution file to what post works on, and back to files: states, snapshot fields, the
+// indenters.
 #pragma once
 
 #include <optional>
@@ -14,8 +15,8 @@
 
 namespace langer {
 
-// The branch stresses of a viscous body at the rows of a solution, row 0 at rest: a row has them from all rows before it. Refers to
-// both, and tells the body. Nothing for an elastic one.
+// The branch stresses of a viscous body at the rows of a solution, row 0 at rest: a row has them
+// from all rows before it. Refers to both, and tells the body. Nothing for an elastic one.
 class BranchRows {
  public:
   BranchRows(Body& body, const SolutionReader& solution) : body_(body), solution_(solution) {}
@@ -28,30 +29,38 @@ class BranchRows {
   int row_ = 0;
 };
 
-Formulation formulation_of(const SolutionHeader& header, const std::string& path);  // throws Failure(input)
+Formulation formulation_of(const SolutionHeader& header,
+                           const std::string& path);  // throws Failure(input)
 StepState state_of(const StepRecord& record);
 
-// Point data: u, nodal stress and what follows from it, reaction, contact state. Cell data: means, fibres before and after.
+// Point data: u, nodal stress and what follows from it, reaction, contact state. Cell data: means,
+// fibres before and after.
 struct SnapshotFields {
   std::vector<Field> points, cells;
 };
 class ContactStates;
 // row: of the table of states, which the record is of
-SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header, const StepRecord& record, int row,
-                               const ContactStates& contacts, StressAt at);
+SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
+                               const StepRecord& record, int row, const ContactStates& contacts,
+                               StressAt at);
 
 // Field of a picture at each node.
-std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field, int family, StressAt at);
+std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field,
+                                   int family, StressAt at);
 
-// The rigid indenters as the solution's own config tells; none where it was written by a version that cannot be read. Those of
-// triangles are missing where a version wrote it that did not keep them.
+// The rigid indenters as the solution's own config tells; none where it was written by a version
+// that cannot be read. Those of triangles are missing where a version wrote it that did not keep
+// them.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
 // Indenters under force control then move as they were found to.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution);
-std::vector<std::string> indenters_missing(const SolutionHeader& header, const std::vector<RigidContact>& indenters);  // names
+std::vector<std::string> indenters_missing(const SolutionHeader& header,
+                                           const std::vector<RigidContact>& indenters);  // names
 // where its loads have kinks, and what they turn
-EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters, const SolutionHeader& header);
-// Supports, imposed displacements and forces on the surface as that config tells, on some nodes of each set; u (n) [mm] moves them.
+EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
+                       const SolutionHeader& header);
+// Supports, imposed displacements and forces on the surface as that config tells, on some nodes of
+// each set; u (n) [mm] moves them.
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
 // What is shown of a body at rest; of the indenter there at t.
 Shown shown_of(const Mesh& mesh);
@@ -59,6 +68,7 @@ Outline outline_at(const RigidContact& indenter, double t, const Shown& shown);
 // Forces on its surface as that config tells; empty where there are none.
 Loads loads_of(const SolutionHeader& header);
 // The record as a state of an energy path; reactions in the order of the indenters.
-EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters, const Loads& loads);
+EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
+                               const Loads& loads);
 
 }  // namespace langer

@@ -4,7 +4,8 @@
 
 namespace langer {
 
-ContactStates::ContactStates(const SolutionReader& solution, const std::vector<RigidContact>& indenters)
+ContactStates::ContactStates(const SolutionReader& solution,
+                             const std::vector<RigidContact>& indenters)
     : solution_(solution), indenters_(indenters) {
   for (const auto& [name, nodes] : solution.header().contact_nodes)
     surfaces_.emplace(name, ContactSurface(solution.header().mesh, nodes));
@@ -32,7 +33,8 @@ std::vector<double> ContactStates::slip(const std::string& contact, int row) con
   return {};
 }
 
-std::vector<ContactNode> ContactStates::nodes(int row, const StepRecord& record, bool with_slip) const {
+std::vector<ContactNode> ContactStates::nodes(int row, const StepRecord& record,
+                                              bool with_slip) const {
   std::vector<ContactNode> nodes(solution_.header().mesh.X.size());
   for (const auto& [name, candidates] : solution_.header().contact_nodes) {
     const auto contact = record.contacts.find(name);
@@ -40,16 +42,16 @@ std::vector<ContactNode> ContactStates::nodes(int row, const StepRecord& record,
       for (int node : candidates) nodes[static_cast<std::size_t>(node)].status = 0;
       continue;
     }
-    add_contact_nodes(nodes, candidates, surfaces_.at(name).at(record.u, contact->second), contact->second,
-                      with_slip ? slip(name, row) : std::vector<double>());
+    add_contact_nodes(nodes, candidates, surfaces_.at(name).at(record.u, contact->second),
+                      contact->second, with_slip ? slip(name, row) : std::vector<double>());
   }
   return nodes;
 }
 
 namespace {
 
-void add_record(std::vector<Field>& points, std::size_t n, const std::string& name, const std::vector<int>& nodes,
-                const ContactRecord& contact) {
+void add_record(std::vector<Field>& points, std::size_t n, const std::string& name,
+                const std::vector<int>& nodes, const ContactRecord& contact) {
   Field status = field("contact_status_" + name, "-", 1, n, -1);  // -1: not a candidate
   Field force = field("contact_force_" + name, "N", 3, n);
   Field gap = field("contact_gap_" + name, "mm", 1, n, std::numeric_limits<double>::quiet_NaN());
@@ -61,7 +63,8 @@ void add_record(std::vector<Field>& points, std::size_t n, const std::string& na
   }
   for (Field* f : {&status, &force, &gap}) points.push_back(std::move(*f));
   if (contact.beta.empty()) return;
-  Field beta = field("adhesion_" + name, "-", 1, n, -1), bonds = field("adhesive_force_" + name, "N", 3, n);
+  Field beta = field("adhesion_" + name, "-", 1, n, -1),
+        bonds = field("adhesive_force_" + name, "N", 3, n);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
     put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);
@@ -70,8 +73,8 @@ void add_record(std::vector<Field>& points, std::size_t n, const std::string& na
 
 }  // namespace
 
-void add_contact_fields(std::vector<Field>& points, const ContactStates& contacts, const SolutionHeader& header,
-                        const StepRecord& record, int row) {
+void add_contact_fields(std::vector<Field>& points, const ContactStates& contacts,
+                        const SolutionHeader& header, const StepRecord& record, int row) {
   const std::size_t n = header.mesh.X.size();
   for (const auto& [name, contact] : record.contacts) {
     const std::vector<int>& candidates = header.contact_nodes.at(name);
@@ -84,7 +87,8 @@ void add_contact_fields(std::vector<Field>& points, const ContactStates& contact
     const std::vector<double> slip = contacts.slip(name, row);
     if (slip.empty()) continue;
     Field way = field("contact_slip_" + name, "mm", 1, n);
-    for (std::size_t i = 0; i < slip.size(); ++i) way.values[static_cast<std::size_t>(candidates[i])] = slip[i];
+    for (std::size_t i = 0; i < slip.size(); ++i)
+      way.values[static_cast<std::size_t>(candidates[i])] = slip[i];
     points.push_back(std::move(way));
   }
 }

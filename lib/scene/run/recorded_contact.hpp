@@ -8,13 +8,15 @@
 
 namespace langer {
 
-// Refers to all it is given. Slip is found by walking along the path, the first time that it is asked for.
+// Refers to all it is given. Slip is found by walking along the path, the first time that it is
+// asked for.
 class ContactStates {
  public:
   ContactStates(const SolutionReader& solution, const std::vector<RigidContact>& indenters);
   const std::map<std::string, ContactSurface>& surfaces() const { return surfaces_; }
   bool knows_slip() const { return !indenters_.empty(); }
-  // of the candidates of a contact at a row of the table of states [mm]; empty where the indenter's shape is not known
+  // of the candidates of a contact at a row of the table of states [mm]; empty where the indenter's
+  // shape is not known
   std::vector<double> slip(const std::string& contact, int row) const;
   // at each node of the body; record: of that row
   std::vector<ContactNode> nodes(int row, const StepRecord& record, bool with_slip) const;
@@ -29,7 +31,7 @@ class ContactStates {
 };
 
 // Point data of a snapshot: pressure, traction, status, force, gap, slip of each contact.
-void add_contact_fields(std::vector<Field>& points, const ContactStates& contacts, const SolutionHeader& header,
-                        const StepRecord& record, int row);
+void add_contact_fields(std::vector<Field>& points, const ContactStates& contacts,
+                        const SolutionHeader& header, const StepRecord& record, int row);
 
 }  // namespace langer

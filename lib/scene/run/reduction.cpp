@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "scene/run/step_record.hpp"
 #include "scene/model/scene_parameters.hpp"
 #include "scene/model/scene_section.hpp"
+#include "scene/run/step_record.hpp"
 
 namespace langer {
 
-Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part, int threads)
+Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part,
+                     int threads)
     : mesh_(mesh), scene_(scene), threads_(threads), part_(std::move(part)) {}
 
 Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<HomogeneousScene> point)
@@ -18,14 +19,18 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
                           const std::function<Place(const std::string&)>& where, bool at_a_point) {
   const SceneParameters parameters(config, mesh, scene, where);
   if (at_a_point && !parameters.turns_fibres())  // turned ones shear a body that was stretched
-    if (auto point = HomogeneousScene::find(mesh, scene, config)) return {mesh, scene, std::move(point)};
-  if (config.sensitivity.empty()) return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+    if (auto point = HomogeneousScene::find(mesh, scene, config))
+      return {mesh, scene, std::move(point)};
+  if (config.sensitivity.empty())
+    return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
   const Scene varied = parameters.varied_unlike(scene, mesh);
   if (mesh.section)
     if (const auto errors = section_errors(config, mesh, varied, where); !errors.empty())
-      throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity", "found a number that a section has to leave as it is",
+      throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity",
+                                        "found a number that a section has to leave as it is",
                                         "others", errors.front().found});
-  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where, &varied), config.threads};
+  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where, &varied),
+          config.threads};
 }
 
 Reduction::Kind Reduction::kind() const {
@@ -34,14 +39,18 @@ Reduction::Kind Reduction::kind() const {
   return mesh_.section ? Kind::section : Kind::symmetry;
 }
 
-const Mesh& Reduction::mesh() const { return point_ ? point_->mesh() : part_ ? part_->mesh() : mesh_; }
+const Mesh& Reduction::mesh() const {
+  return point_ ? point_->mesh() : part_ ? part_->mesh() : mesh_;
+}
 
-const Scene& Reduction::scene() const { return point_ ? point_->scene() : part_ ? part_->scene() : scene_; }
+const Scene& Reduction::scene() const {
+  return point_ ? point_->scene() : part_ ? part_->scene() : scene_;
+}
 
 Equilibrium Reduction::equilibrium(std::optional<Division> division) const {
   const std::vector<double> share = part_ ? part_->cell_share() : std::vector<double>{};
-  Equilibrium body(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs, point_ ? 1 : threads_,
-                   Kernel::packets, share, std::move(division));
+  Equilibrium body(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs,
+                   point_ ? 1 : threads_, Kernel::packets, share, std::move(division));
   if (!scene().loads.empty()) body.set_loads({mesh(), scene().loads, share});
   return body;
 }

@@ -11,8 +11,8 @@
 #include <string>
 #include <variant>
 
-#include "scene/run/homogeneous.hpp"
 #include "scene/model/scene_symmetry.hpp"
+#include "scene/run/homogeneous.hpp"
 
 namespace langer {
 
@@ -25,26 +25,32 @@ class Reduction {
   // What `config` lets be found; at_a_point: one hexahedron may do. All refer to mesh and scene.
   // Throws Failure(config) where the config names a symmetry that is not there.
   static Reduction find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
-                        const std::function<Place(const std::string&)>& where, bool at_a_point = false);
+                        const std::function<Place(const std::string&)>& where,
+                        bool at_a_point = false);
   // by symmetry or to a section, or none
-  Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part, int threads = 1);
+  Reduction(const Mesh& mesh, const Scene& scene, std::optional<ReducedScene> part,
+            int threads = 1);
   Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<HomogeneousScene> point);
 
   Kind kind() const;
   const Mesh& mesh() const;  // of the part, as what follows
   const Scene& scene() const;
   Equilibrium equilibrium(std::optional<Division> division = {}) const;
-  Solver solver(const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
-  std::string words() const;                 // "symmetry: half turn about y through (18, 18): 6160 of 12320 cells"; empty for none
+  Solver solver(
+      const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
+  std::string words()
+      const;  // "symmetry: half turn about y through (18, 18): 6160 of 12320 cells"; empty for none
 
-  // Of the whole body; nothing where that does not balance though its part does: it is not homogeneous.
+  // Of the whole body; nothing where that does not balance though its part does: it is not
+  // homogeneous.
   std::optional<StepRecord> whole(const StepRecord& of_part) const;
-  SolveReport report(const SolveReport& of_part, const StepRecord& of_whole) const;  // as if the body had been solved
-  BodyState reduced(const StepRecord& of_whole) const;                               // to continue from
+  SolveReport report(const SolveReport& of_part,
+                     const StepRecord& of_whole) const;  // as if the body had been solved
+  BodyState reduced(const StepRecord& of_whole) const;   // to continue from
   void replay(const StepRecord& of_whole) const;  // of a viscous body: a step that was found before
   const HomogeneousScene* point() const;          // or nullptr
-  Equilibrium* mesh_of_point()
-      const;  // the mesh that a hexahedron stands for, at the state whole() was asked for last; else nullptr
+  Equilibrium* mesh_of_point() const;  // the mesh that a hexahedron stands for, at the state
+                                       // whole() was asked for last; else nullptr
 
  private:
   const Mesh& mesh_;

@@ -1,10 +1,10 @@
 #include "scene/run/run.hpp"
 
 #include "core/base/interrupt.hpp"
+#include "mechanics/solve/release.hpp"
+#include "scene/model/torque.hpp"
 #include "scene/run/equilibrium_by.hpp"
 #include "scene/run/step_record.hpp"
-#include "scene/model/torque.hpp"
-#include "mechanics/solve/release.hpp"
 
 namespace langer {
 
@@ -14,7 +14,8 @@ StaticsOptions threads_of(const SolveConfig& config) {
   StaticsOptions options;
   options.threads = config.blas_threads;
   options.seconds = config.path.seconds.value_or(0);
-  if (const auto* newton = std::get_if<NewtonOptions>(&config.solver)) options.linear_by = newton->linear;
+  if (const auto* newton = std::get_if<NewtonOptions>(&config.solver))
+    options.linear_by = newton->linear;
   return options;
 }
 
@@ -25,8 +26,8 @@ StaticsOptions with_seconds(StaticsOptions options, const LoadPathOptions& path)
 
 }  // namespace
 
-Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point,
-         bool by_ranks)
+Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& material,
+         const Where& where, bool at_a_point, bool by_ranks)
     : mesh(std::move(mesh_)),
       scene(make_scene(config, mesh, material, where)),
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
@@ -35,8 +36,8 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
       path(config.path),
       solver(reduction.solver(config.solver)) {}
 
-Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part, const LoadPathOptions& path_, Solver solver_,
-         const StaticsOptions& options)
+Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
+         const LoadPathOptions& path_, Solver solver_, const StaticsOptions& options)
     : mesh(std::move(mesh_)),
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
@@ -51,7 +52,8 @@ void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before
     earlier = reduction.reduced(*before);
   else {
     earlier.t = 0, earlier.u.setZero();
-    for (auto& reactions : earlier.r) std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
+    for (auto& reactions : earlier.r)
+      std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
   }
   increment_ = last.scalars.at("next_increment");
   resumed_ = Resumed{reduction.reduced(last), std::move(earlier), *increment_};
@@ -73,9 +75,11 @@ void Run::replay(const StepRecord& step) {
 }
 
 // Of an accepted state; At::the_end: it goes on.
-RunEnd::At Run::told(const RunListener& listener, double t, double taken, double next, const SolveReport& report, RunEnd& end) {
+RunEnd::At Run::told(const RunListener& listener, double t, double taken, double next,
+                     const SolveReport& report, RunEnd& end) {
   const bool at_end = at_end_of_path(t);
-  if (!at_end && !listener.of_part && !listener.of_whole && !body.viscous()) return RunEnd::At::the_end;
+  if (!at_end && !listener.of_part && !listener.of_whole && !body.viscous())
+    return RunEnd::At::the_end;
   StepRecord record = step_record(statics, body, taken, next, report);
   if (path.seconds) record.scalars["time"] = t * *path.seconds;
   if (listener.of_part && !listener.of_part(record)) return RunEnd::At::listener;
@@ -94,13 +98,17 @@ RunEnd Run::follow(const RunListener& listener) {
     if ((signal = signal_of(shared_by())) != 0) return SolveReport{};  // not converged
     statics.begin(t);
     const auto solve = [&] {
-      return equilibrium_by(solver, statics, listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+      return equilibrium_by(
+          solver, statics,
+          listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
     };
     const auto jumping = [&](int equilibria) {
       if (listener.jumping) listener.jumping(t, equilibria);
     };
     SolveReport report =
-        statics.bonds().none() ? solve() : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
+        statics.bonds().none()
+            ? solve()
+            : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
@@ -113,9 +121,11 @@ RunEnd Run::follow(const RunListener& listener) {
     };
     return by_first(shared_by(), record) && (signal = signal_of(shared_by())) == 0;
   };
-  end.path = load_path(path, statics.accepted().t, increment_, reduction.scene().stops, attempt, accepted);
+  end.path =
+      load_path(path, statics.accepted().t, increment_, reduction.scene().stops, attempt, accepted);
   if (!shared_by()) signal = interrupted();
-  if (!end.path.complete && end.at == RunEnd::At::the_end) end.at = signal != 0 ? RunEnd::At::signal : RunEnd::At::no_equilibrium;
+  if (!end.path.complete && end.at == RunEnd::At::the_end)
+    end.at = signal != 0 ? RunEnd::At::signal : RunEnd::At::no_equilibrium;
   return end;
 }
 

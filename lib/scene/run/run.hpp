@@ -1,5 +1,6 @@
-// A scene on its way along the load path: solved on the part of the body that decides the rest, told of the whole body.
-// The one place where a scene becomes equations: langer-solve, the estimate of its errors and the tests follow a Run.
+// A scene on its way along the load path: solved on the part of the body that decides the rest,
+// told of the whole body. The one place where a scene becomes equations: langer-solve, the estimate
+// of its errors and the tests follow a Run.
 #pragma once
 
 #include <functional>
@@ -16,10 +17,12 @@ constexpr bool at_end_of_path(double t) { return t >= 1 - 1e-10; }  // t is a su
 
 // Somebody who goes along; each may be empty.
 struct RunListener {
-  std::function<Problem(Problem problem, double t)> watched;        // what the solver is given instead
-  std::function<void(double t, const SolveReport& report)> failed;  // no equilibrium at t: a shorter increment follows
-  std::function<void(double t, int equilibria)> jumping;            // bonds let go at t: equilibria of it that were looked for
-  std::function<bool(StepRecord& of_part)> of_part;                 // an accepted state; false ends the path there
+  std::function<Problem(Problem problem, double t)> watched;  // what the solver is given instead
+  std::function<void(double t, const SolveReport& report)>
+      failed;  // no equilibrium at t: a shorter increment follows
+  std::function<void(double t, int equilibria)>
+      jumping;  // bonds let go at t: equilibria of it that were looked for
+  std::function<bool(StepRecord& of_part)> of_part;  // an accepted state; false ends the path there
   std::function<void(StepRecord& whole, const SolveReport& report)> of_whole;  // the same, balanced
 };
 
@@ -34,12 +37,13 @@ class Run {
  public:
   using Where = std::function<Place(const std::string&)>;
 
-  // at_a_point: one hexahedron may stand for a body that deforms alike everywhere; by_ranks: cells may be divided among those there are
-  Run(Mesh mesh, const SolveConfig& config, const std::optional<Material>& material, const Where& where, bool at_a_point = false,
-      bool by_ranks = false);
+  // at_a_point: one hexahedron may stand for a body that deforms alike everywhere; by_ranks: cells
+  // may be divided among those there are
+  Run(Mesh mesh, const SolveConfig& config, const std::optional<Material>& material,
+      const Where& where, bool at_a_point = false, bool by_ranks = false);
   // of a scene that is there, or what is left of it
-  Run(Mesh mesh, Scene scene, const std::optional<ReducedScene>& part, const LoadPathOptions& path, Solver solver,
-      const StaticsOptions& options = {});
+  Run(Mesh mesh, Scene scene, const std::optional<ReducedScene>& part, const LoadPathOptions& path,
+      Solver solver, const StaticsOptions& options = {});
   Run(const Run&) = delete;  // its parts refer to each other
   Run& operator=(const Run&) = delete;
 
@@ -56,14 +60,17 @@ class Run {
   void resume(const StepRecord& last, const std::optional<StepRecord>& before);
   // Divided among ranks: puts the others where rank 0 goes on from.
   void resume_all();
-  // Before that, of a viscous body: every step so far, in order. Its branches follow from them to the last digit.
+  // Before that, of a viscous body: every step so far, in order. Its branches follow from them to
+  // the last digit.
   void replay(const StepRecord& step);
   const Ranks* shared_by() const { return body.division() ? body.division()->ranks : nullptr; }
-  // From where it stands to t = 1; of several ranks rank 0 alone has a listener and the last record. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
+  // From where it stands to t = 1; of several ranks rank 0 alone has a listener and the last
+  // record. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
   RunEnd follow(const RunListener& listener = {});
 
  private:
-  RunEnd::At told(const RunListener& listener, double t, double taken, double next, const SolveReport& report, RunEnd& end);
+  RunEnd::At told(const RunListener& listener, double t, double taken, double next,
+                  const SolveReport& report, RunEnd& end);
   std::optional<double> increment_;  // to begin with
   std::optional<Resumed> resumed_;
 };

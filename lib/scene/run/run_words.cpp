@@ -9,18 +9,22 @@ namespace langer {
 double say_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
-  const FibreJump jump = run.scene.families() > 0 ? largest_jump(run.mesh, run.scene.directions) : FibreJump{};
+  const FibreJump jump =
+      run.scene.families() > 0 ? largest_jump(run.mesh, run.scene.directions) : FibreJump{};
   if (jump.degrees > 1e-3)
-    voice.say("fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
-              jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
+    voice.say(
+        "fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
+        jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
   if (const std::string words = run.reduction.words(); !words.empty()) voice.say("{}", words);
   return jump.degrees;
 }
 
 std::string held_by_contact(const Run& run, const Run::Where& where) {
-  const std::string loose = zero_energy_modes(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
+  const std::string loose =
+      zero_energy_modes(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
   if (!loose.empty() && run.scene.contacts.empty())
-    throw Failure(Exit::config, Error{where("supports"), "supports", loose, "a body that is held, or contacts", ""});
+    throw Failure(Exit::config, Error{where("supports"), "supports", loose,
+                                      "a body that is held, or contacts", ""});
   return loose;
 }
 
@@ -36,11 +40,14 @@ std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) 
                                {"cpu_contact", cost.contact, "s"}};
   if (!run.scene.contacts.empty()) summary.push_back({"force", end.last.force_ind.norm(), "N"});
   for (const RigidContact& contact : run.scene.contacts)
-    if (const auto found = end.last.scalars.find("force_" + contact.name); found != end.last.scalars.end())
+    if (const auto found = end.last.scalars.find("force_" + contact.name);
+        found != end.last.scalars.end())
       summary.push_back({"force_" + contact.name, found->second, "N"});
   const double cells = run.mesh.n_cells();
-  if (run.reduction.kind() == Reduction::Kind::symmetry) summary.push_back({"symmetry", cells / run.body.mesh().n_cells(), "-"});
-  if (run.reduction.kind() == Reduction::Kind::homogeneous) summary.push_back({"homogeneous", cells, "-"});
+  if (run.reduction.kind() == Reduction::Kind::symmetry)
+    summary.push_back({"symmetry", cells / run.body.mesh().n_cells(), "-"});
+  if (run.reduction.kind() == Reduction::Kind::homogeneous)
+    summary.push_back({"homogeneous", cells, "-"});
   return summary;
 }
 

@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "core/base/voice.hpp"
-#include "scene/run/run.hpp"
 #include "results/store/provenance.hpp"
+#include "scene/run/run.hpp"
 
 namespace langer {
 
-// laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction; returns the largest turn [degrees]
+// laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction;
+// returns the largest turn [degrees]
 double say_scene(const Voice& voice, const Run& run);
 
-// Motions that only contact resists, in words; empty where there are none. Throws Failure(config) for a body that nothing holds.
+// Motions that only contact resists, in words; empty where there are none. Throws Failure(config)
+// for a body that nothing holds.
 std::string held_by_contact(const Run& run, const Run::Where& where);
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps);

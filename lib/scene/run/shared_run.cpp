@@ -11,9 +11,12 @@ namespace langer {
 std::string why_one_rank(const SolveConfig& config, bool may_be_an_image) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   if (!newton) return "solver: kinsol has a factor";
-  if (newton->linear == LinearBy::direct) return "solver.newton.linear: direct is a factor, which one process makes";
-  if (config.accuracy || config.fidelity || config.reduce == Reduce::automatic) return "other models may be solved beside this one";
-  if (config.estimate && *config.estimate != EstimateBy::none && *config.estimate != EstimateBy::recovery)
+  if (newton->linear == LinearBy::direct)
+    return "solver.newton.linear: direct is a factor, which one process makes";
+  if (config.accuracy || config.fidelity || config.reduce == Reduce::automatic)
+    return "other models may be solved beside this one";
+  if (config.estimate && *config.estimate != EstimateBy::none &&
+      *config.estimate != EstimateBy::recovery)
     return "the estimate of its errors solves other scenes, or by a factor";
   if (!config.sensitivity.empty() || config.uncertainty) return "derivatives are those of a factor";
   if (may_be_an_image) return "it may be the image of another solution";
@@ -28,15 +31,16 @@ std::string why_alone(const Reduction& reduction, const SolveConfig& config) {
   const Scene& scene = reduction.scene();
   if (ViscousPoints::needed(scene.materials)) return "its material is viscous";
   const bool follows = Loads(reduction.mesh(), scene.loads).follow();
-  std::string why = why_by_factor(reduction.mesh(), scene.dofs, scene.formulation, scene.contacts, follows,
-                                  std::get<NewtonOptions>(config.solver).linear);
+  std::string why = why_by_factor(reduction.mesh(), scene.dofs, scene.formulation, scene.contacts,
+                                  follows, std::get<NewtonOptions>(config.solver).linear);
   if (why.empty()) petsc(why);
   return why;
 }
 
 }  // namespace
 
-std::optional<Division> divided(const Reduction& reduction, const SolveConfig& config, std::string& why) {
+std::optional<Division> divided(const Reduction& reduction, const SolveConfig& config,
+                                std::string& why) {
   if (!ranks()) return std::nullopt;
   why = why_alone(reduction, config);
   const Mesh& mesh = reduction.mesh();
@@ -44,7 +48,8 @@ std::optional<Division> divided(const Reduction& reduction, const SolveConfig& c
   if (!why.empty()) return std::nullopt;
   std::vector<int> nodes;
   const MovingNodes moving(mesh);
-  for (int e = 0; e < mesh.n_cells(); ++e) nodes.insert(nodes.end(), moving.of(e).begin(), moving.of(e).end());
+  for (int e = 0; e < mesh.n_cells(); ++e)
+    nodes.insert(nodes.end(), moving.of(e).begin(), moving.of(e).end());
   return Division{ranks(), ranks()->divide(nodes, mesh.cell().n_nodes, mesh.n_nodes())};
 }
 
@@ -60,11 +65,14 @@ bool share(const Ranks& ranks, std::optional<Resumed>& resumed, const BodyState&
   ranks.from_first(&some, sizeof some);
   if (!some) return false;
   if (!ranks.first()) resumed = Resumed{shape, shape, 0};
-  const auto tell = [&](double& x) { ranks.from_first(&x, sizeof x); };
+  const auto tell = [&](double& x) {
+    ranks.from_first(&x, sizeof x);
+  };
   for (BodyState* state : {&resumed->now, &resumed->before}) {
     tell(state->t), tell(state->travel);
     ranks.from_first(state->u.data(), static_cast<std::size_t>(state->u.size()) * sizeof(double));
-    for (std::vector<Vec3>& reactions : state->r) ranks.from_first(reactions.data(), reactions.size() * sizeof(Vec3));
+    for (std::vector<Vec3>& reactions : state->r)
+      ranks.from_first(reactions.data(), reactions.size() * sizeof(Vec3));
   }
   tell(resumed->increment);
   return true;

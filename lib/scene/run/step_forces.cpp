@@ -23,12 +23,14 @@ double force_of(const StepRecord& state, const std::string& contact) {
   return force.norm();
 }
 
-void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whole, StepForces& forces) {
+void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whole,
+                    StepForces& forces) {
   const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
   for (const RigidContact& contact : scene.contacts) {
     const std::vector<Vec3>& r = whole.contacts.at(contact.name).r;
     double n = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) n += contact.nodes[i] < front && !r[i].isZero(0) ? 1 : 0;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      n += contact.nodes[i] < front && !r[i].isZero(0) ? 1 : 0;
     if (n == 0) continue;
     if (scene.contacts.size() > 1) forces.touching["force_" + contact.name] = n;
     const auto [fewest, first] = forces.touching.try_emplace("force", n);
@@ -38,7 +40,8 @@ void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whol
 
 // Between two steps linear, 0 at t = 0 and for a name that is not there.
 template <class Values>
-double between(const std::vector<StepForces>& path, const std::string& name, double t, const Values& values) {
+double between(const std::vector<StepForces>& path, const std::string& name, double t,
+               const Values& values) {
   const auto value = [&](const StepForces& step) {
     const auto& of = values(step);
     const auto found = of.find(name);
@@ -55,11 +58,13 @@ double between(const std::vector<StepForces>& path, const std::string& name, dou
 
 }  // namespace
 
-StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh, const StepRecord& whole) {
+StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
+                       const StepRecord& whole) {
   StepForces forces{whole.t, {}};
   if (!scene.contacts.empty()) forces.of["force"] = whole.force_ind.norm();
   if (scene.contacts.size() > 1)
-    for (const RigidContact& contact : scene.contacts) forces.of["force_" + contact.name] = force_of(whole, contact.name);
+    for (const RigidContact& contact : scene.contacts)
+      forces.of["force_" + contact.name] = force_of(whole, contact.name);
   count_touching(scene, mesh, whole, forces);
   forces.of.merge(torques_of(whole, scene));
   for (const std::string& set : moved_sets(config)) {
@@ -80,8 +85,10 @@ double touching_at(const std::vector<StepForces>& path, const std::string& name,
       path, name, t, [](const StepForces& step) -> const auto& { return step.touching; });
 }
 
-RunListener collecting(RunListener listener, const SolveConfig& config, const Run& run, std::vector<StepForces>& path) {
-  listener.of_whole = [&, also = std::move(listener.of_whole)](StepRecord& whole, const SolveReport& report) {
+RunListener collecting(RunListener listener, const SolveConfig& config, const Run& run,
+                       std::vector<StepForces>& path) {
+  listener.of_whole = [&, also = std::move(listener.of_whole)](StepRecord& whole,
+                                                               const SolveReport& report) {
     if (also) also(whole, report);
     path.push_back(step_forces(config, run.scene, run.mesh, whole));
   };

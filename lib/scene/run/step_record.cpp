@@ -3,17 +3,18 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/tensor/stress.hpp"
 #include "mechanics/material/at_rest.hpp"
+#include "results/store/material_file.hpp"
 #include "scene/model/bond_records.hpp"
 #include "scene/model/solve_config_io.hpp"
-#include "results/store/material_file.hpp"
-#include "core/tensor/stress.hpp"
 
 namespace langer {
 
 Material material_from(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension();
-  if (extension == ".yaml" || extension == ".yml") return read_config<Material>(load_yaml(path)).config;
+  if (extension == ".yaml" || extension == ".yml")
+    return read_config<Material>(load_yaml(path)).config;
   return read_material(path).material;
 }
 
@@ -28,7 +29,8 @@ Material material_of_body(const std::string& path) {
   return material;
 }
 
-SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene, const Identity& identity) {
+SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene,
+                         const Identity& identity) {
   SolutionHeader header;
   header.mesh = mesh;
   header.material = scene.materials.front();
@@ -46,20 +48,23 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
 
 namespace {
 
-// means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress, I4_bar of the first family
+// means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress,
+// I4_bar of the first family
 void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u) {
   const int n = body.mesh().n_cells();
   bool fibres = false;
   for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
   for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
   if (fibres) record.cell_fields["I4_bar"].resize(n);
-  auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"], &mises = record.cell_fields["von_mises"];
+  auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"],
+       &mises = record.cell_fields["von_mises"];
   for (int e = 0; e < n; ++e) {
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
-    const std::vector<Vec6> branches = body.viscous() ? body.memory()->stresses(e) : std::vector<Vec6>{};
-    const auto states =
-        gauss_states(body.formulation(), body.material(e), body.geometry(e), a, body.element_displacements(u, e), branches);
+    const std::vector<Vec6> branches =
+        body.viscous() ? body.memory()->stresses(e) : std::vector<Vec6>{};
+    const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
+                                     body.element_displacements(u, e), branches);
     const double w = 1.0 / static_cast<double>(states.size());
     for (const GaussState& g : states) {
       sigma += w * g.sigma;
@@ -80,10 +85,12 @@ void hang(const Equilibrium& body, const VecX& u, std::vector<Vec3>& nodal) {
 }
 
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
-  return indenter_displacement(indenter, step.t, indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
+  return indenter_displacement(indenter, step.t,
+                               indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
 }
 
-StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next, const SolveReport& report) {
+StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next,
+                       const SolveReport& report) {
   const BodyState& state = statics.accepted();
   StepRecord record;
   record.t = state.t, record.increment = taken, record.iterations = report.iterations;
@@ -95,7 +102,8 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
   }
   hang(body, state.u, record.u);
   add_cell_fields(record, body, state.u);
-  record.scalars["next_increment"] = next;  // where a killed run goes on as if it had not been killed
+  record.scalars["next_increment"] =
+      next;  // where a killed run goes on as if it had not been killed
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
   if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
@@ -107,13 +115,16 @@ StepRecord step_record(const Statics& statics, const Equilibrium& body, double t
     ContactRecord& contact = record.contacts[contacts[k].name];
     contact.r = state.r[k], contact.gap = d.gap;
     for (ContactStatus status : d.status) contact.status.push_back(static_cast<int>(status));
-    for (const auto& [name, value] :
-         {std::pair{"penetration", d.penetration}, {"cone", d.cone}, {"complementarity", d.complementarity}})
+    for (const auto& [name, value] : {std::pair{"penetration", d.penetration},
+                                      {"cone", d.cone},
+                                      {"complementarity", d.complementarity}})
       record.scalars[name] = std::max(record.scalars[name], value);
     if (contacts.size() > 1)
-      for (int j = 0; j < 3; ++j) record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
+      for (int j = 0; j < 3; ++j)
+        record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
-  if (const RigidContact* controlled = statics.controlled()) record.scalars["travel_" + controlled->name] = state.travel;
+  if (const RigidContact* controlled = statics.controlled())
+    record.scalars["travel_" + controlled->name] = state.travel;
   record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
   if (!statics.bonds().none()) tell_bonds(statics, record);
@@ -124,7 +135,8 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
   BodyState state;
   state.t = record.t;
   state.u.resize(3 * static_cast<Eigen::Index>(record.u.size()));
-  for (std::size_t i = 0; i < record.u.size(); ++i) state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
+  for (std::size_t i = 0; i < record.u.size(); ++i)
+    state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
   for (const RigidContact& contact : scene.contacts) {
     state.r.push_back(record.contacts.at(contact.name).r);
     if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);

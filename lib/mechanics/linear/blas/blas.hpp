@@ -1,4 +1,5 @@
-// Threads of the BLAS, which every make of it sets by calls of its own. CMake compiles one of the two sources.
+// Threads of the BLAS, which every make of it sets by calls of its own. CMake compiles one of the
+// two sources.
 #pragma once
 
 namespace langer::blas {

@@ -14,12 +14,14 @@ int openblas_get_parallel();
 
 namespace langer::blas {
 
-// OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and again, for ever:
-// whether there is memory for them is asked beforehand.
+// OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and
+// again, for ever: whether there is memory for them is asked beforehand.
 void need_buffers() {
   static const bool once = [] {
-    const std::size_t bytes = (std::size_t{136} << 20) * static_cast<std::size_t>(std::max(1, openblas_get_num_threads()));
-    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    const std::size_t bytes = (std::size_t{136} << 20) *
+                              static_cast<std::size_t>(std::max(1, openblas_get_num_threads()));
+    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
     munmap(memory, bytes);
     return true;

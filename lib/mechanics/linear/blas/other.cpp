@@ -1,5 +1,5 @@
-// A BLAS of any make, as it is found when the program runs: MKL, BLIS and OpenBLAS are told how many threads, the reference BLAS has one;
-// others go by their own variables.
+// A BLAS of any make, as it is found when the program runs: MKL, BLIS and OpenBLAS are told how
+// many threads, the reference BLAS has one; others go by their own variables.
 #include <dlfcn.h>
 
 #include <atomic>

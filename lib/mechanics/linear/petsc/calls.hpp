@@ -14,7 +14,7 @@ namespace langer::petsc_module {
 extern std::recursive_mutex mutex;
 
 void passed_over(PetscErrorCode code);  // where nobody can be told
-void need(PetscErrorCode code);         // throws std::runtime_error with PETSc's words, or std::bad_alloc
+void need(PetscErrorCode code);  // throws std::runtime_error with PETSc's words, or std::bad_alloc
 void begin(bool of_all_ranks = false);  // once
 
 // Movements that A hardly resists, orthonormal; values(k): (rows of this rank) of the k-th.

@@ -1,4 +1,5 @@
-// Multigrid over the rows of several ranks. PETSc wants those of a rank to follow each other: it numbers nodes by rank, and then as they are.
+// Multigrid over the rows of several ranks. PETSc wants those of a rank to follow each other: it
+// numbers nodes by rank, and then as they are.
 #include <algorithm>
 #include <optional>
 
@@ -8,8 +9,9 @@ namespace langer::petsc_module {
 
 namespace {
 
-// What comes from other ranks is added in their order, not in that of arrival. Of three ranks and more that takes another P^T A P than
-// PETSc's own choice, which is faster; matrices of one process do not know the word.
+// What comes from other ranks is added in their order, not in that of arrival. Of three ranks and
+// more that takes another P^T A P than PETSc's own choice, which is faster; matrices of one process
+// do not know the word.
 class InOrder {
  public:
   explicit InOrder(int ranks) {
@@ -30,7 +32,8 @@ class DividedAggregation : public Multigrid {
     const std::lock_guard alone(mutex);
     begin();
     const InOrder sums(ranks_.n());
-    const bool anew = !again || !A_;  // A as well: one that has been used before has other last digits
+    const bool anew =
+        !again || !A_;  // A as well: one that has been used before has other last digits
     if (anew) clear(), number(A), make(A);
     add(A);
     if (anew) make_cycle(rigid, A.n);
@@ -55,7 +58,8 @@ class DividedAggregation : public Multigrid {
         if (A.rank_of_node[i] == k) {
           counts[static_cast<std::size_t>(k)] += 3;
           for (int axis = 0; axis < 3; ++axis)
-            place_[static_cast<std::size_t>(3 * i + axis)] = static_cast<int>(order_.size()), order_.push_back(3 * i + axis);
+            place_[static_cast<std::size_t>(3 * i + axis)] = static_cast<int>(order_.size()),
+                                                    order_.push_back(3 * i + axis);
         }
     shares_.emplace(std::move(counts));
     whole_.resize(order_.size());
@@ -66,7 +70,8 @@ class DividedAggregation : public Multigrid {
     std::vector<int> within(static_cast<std::size_t>(A.n), 0), beside = within;
     for (int row = 0; row < A.n; ++row)
       for (int at = A.start[row]; at < A.start[row + 1]; ++at)
-        ++(A.rank_of_node[row / 3] == A.rank_of_node[A.column[at] / 3] ? within : beside)[place_of(row)];
+        ++(A.rank_of_node[row / 3] == A.rank_of_node[A.column[at] / 3] ? within
+                                                                       : beside)[place_of(row)];
     for (std::vector<int>* counts : {&within, &beside})
       MPI_Allreduce(MPI_IN_PLACE, counts->data(), A.n, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
     const int own = shares_->own(), before = shares_->before();
@@ -82,28 +87,32 @@ class DividedAggregation : public Multigrid {
     meet(A);
   }
 
-  // What is added to rows of others goes to them, who add it in the order of ranks: PETSc's own way is that of arrival.
+  // What is added to rows of others goes to them, who add it in the order of ranks: PETSc's own way
+  // is that of arrival.
   void meet(const Rows& A) {
     const auto n = static_cast<std::size_t>(ranks_.n());
     std::vector<std::vector<int>> places(n);
     std::vector<std::vector<int>> from(n);
     for (int row = 0; row < A.n; ++row)
-      if (const auto of = static_cast<std::size_t>(A.rank_of_node[row / 3]); static_cast<int>(of) != ranks_.rank())
+      if (const auto of = static_cast<std::size_t>(A.rank_of_node[row / 3]);
+          static_cast<int>(of) != ranks_.rank())
         for (int at = A.start[row]; at < A.start[row + 1]; ++at)
-          from[of].push_back(at), places[of].push_back(place_of(row)), places[of].push_back(place_of(A.column[at]));
+          from[of].push_back(at), places[of].push_back(place_of(row)),
+              places[of].push_back(place_of(A.column[at]));
     out_.clear(), in_.assign(n, 0), n_out_.clear();
     std::vector<int> sent;
     for (std::size_t k = 0; k < n; ++k) {
       n_out_.push_back(static_cast<int>(from[k].size()));
-      out_.insert(out_.end(), from[k].begin(), from[k].end()), sent.insert(sent.end(), places[k].begin(), places[k].end());
+      out_.insert(out_.end(), from[k].begin(), from[k].end()),
+          sent.insert(sent.end(), places[k].begin(), places[k].end());
     }
     MPI_Alltoall(n_out_.data(), 1, MPI_INT, in_.data(), 1, MPI_INT, PETSC_COMM_WORLD);
     const std::vector<int> first_out = begins(n_out_), first_in = begins(in_);
     places_in_.resize(2 * static_cast<std::size_t>(first_in.back()));
     MPI_Datatype pair;
     MPI_Type_contiguous(2, MPI_INT, &pair), MPI_Type_commit(&pair);
-    MPI_Alltoallv(sent.data(), n_out_.data(), first_out.data(), pair, places_in_.data(), in_.data(), first_in.data(), pair,
-                  PETSC_COMM_WORLD);
+    MPI_Alltoallv(sent.data(), n_out_.data(), first_out.data(), pair, places_in_.data(), in_.data(),
+                  first_in.data(), pair, PETSC_COMM_WORLD);
     MPI_Type_free(&pair);
   }
 
@@ -117,8 +126,8 @@ class DividedAggregation : public Multigrid {
     const std::vector<int> first_out = begins(n_out_), first_in = begins(in_);
     std::vector<double> out, in(static_cast<std::size_t>(first_in.back()));
     for (int at : out_) out.push_back(A.value[at]);
-    MPI_Alltoallv(out.data(), n_out_.data(), first_out.data(), MPI_DOUBLE, in.data(), in_.data(), first_in.data(), MPI_DOUBLE,
-                  PETSC_COMM_WORLD);
+    MPI_Alltoallv(out.data(), n_out_.data(), first_out.data(), MPI_DOUBLE, in.data(), in_.data(),
+                  first_in.data(), MPI_DOUBLE, PETSC_COMM_WORLD);
     for (std::size_t i = 0; i < in.size(); ++i)
       need(MatSetValues(A_, 1, &places_in_[2 * i], 1, &places_in_[2 * i + 1], &in[i], ADD_VALUES));
   }
@@ -129,9 +138,11 @@ class DividedAggregation : public Multigrid {
     for (int row = 0; row < A.n; ++row) {
       if (A.rank_of_node[row / 3] != ranks_.rank()) continue;
       columns.clear();
-      for (int at = A.start[row]; at < A.start[row + 1]; ++at) columns.push_back(place_of(A.column[at]));
+      for (int at = A.start[row]; at < A.start[row + 1]; ++at)
+        columns.push_back(place_of(A.column[at]));
       const int place = place_of(row);
-      need(MatSetValues(A_, 1, &place, static_cast<int>(columns.size()), columns.data(), A.value + A.start[row], ADD_VALUES));
+      need(MatSetValues(A_, 1, &place, static_cast<int>(columns.size()), columns.data(),
+                        A.value + A.start[row], ADD_VALUES));
     }
     add_of_others(A);
     need(MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY));
@@ -150,7 +161,9 @@ class DividedAggregation : public Multigrid {
   }
 
   int place_of(int row) const { return place_[static_cast<std::size_t>(row)]; }
-  int first_of(int i) const { return order_[static_cast<std::size_t>(shares_->before() + i)]; }  // row, of the i-th of this rank
+  int first_of(int i) const {
+    return order_[static_cast<std::size_t>(shares_->before() + i)];
+  }  // row, of the i-th of this rank
 
   template <class Apply>
   void of_whole(const double* x, double* y, Apply apply) {
@@ -174,8 +187,9 @@ class DividedAggregation : public Multigrid {
   }
 
   const Ranks& ranks_;
-  std::vector<int> order_, place_;                 // row of each place, place of each row
-  std::vector<int> out_, n_out_, in_, places_in_;  // entries for rows of others: where they stand, how many, and those that come
+  std::vector<int> order_, place_;  // row of each place, place of each row
+  std::vector<int> out_, n_out_, in_,
+      places_in_;  // entries for rows of others: where they stand, how many, and those that come
   std::optional<Shares> shares_;
   std::vector<double> whole_;
   Mat A_ = nullptr;

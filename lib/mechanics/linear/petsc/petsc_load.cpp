@@ -26,10 +26,12 @@ const petsc_module::Functions* load(std::string& why) {
   }
   void* module = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (!module) {
-    why = std::string("PETSc cannot be loaded: ") + dlerror() + "; install libpetsc-real (Debian 12: libpetsc-real3.18)";
+    why = std::string("PETSc cannot be loaded: ") + dlerror() +
+          "; install libpetsc-real (Debian 12: libpetsc-real3.18)";
     return nullptr;
   }
-  const auto* found = static_cast<const petsc_module::Functions*>(dlsym(module, petsc_module::symbol));
+  const auto* found =
+      static_cast<const petsc_module::Functions*>(dlsym(module, petsc_module::symbol));
   if (found && std::string(found->made_with) == version) return found;
   why = path + " is of another version of Langer; build or install Langer as a whole";
   return nullptr;

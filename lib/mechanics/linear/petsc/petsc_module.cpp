@@ -54,7 +54,8 @@ class Environment {
   std::optional<std::string> before_;
 };
 
-// Signals are the program's: PETSc and MPI take some of them, and give them back as they are to programs that do nothing about them.
+// Signals are the program's: PETSc and MPI take some of them, and give them back as they are to
+// programs that do nothing about them.
 class Signals {
  public:
   Signals() {
@@ -78,7 +79,8 @@ std::list<std::string> names_of_launchers() {
   std::list<std::string> names;
   for (char** entry = environ; *entry; ++entry)
     for (const char* begins : {"OMPI_", "PMIX_", "PMI_", "SLURM_"})
-      if (std::strncmp(*entry, begins, std::strlen(begins)) == 0) names.emplace_back(*entry, std::strcspn(*entry, "="));
+      if (std::strncmp(*entry, begins, std::strlen(begins)) == 0)
+        names.emplace_back(*entry, std::strcspn(*entry, "="));
   return names;
 }
 
@@ -89,13 +91,16 @@ void initialize(bool of_all_ranks) {
   char* words[] = {name.data(), skip.data(), nullptr};
   char** arguments = words;
   int n = 2;
-  if (of_all_ranks || (launched().n == 1 && (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK")))) {
+  if (of_all_ranks ||
+      (launched().n == 1 && (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK")))) {
     need(PetscInitialize(&n, &arguments, nullptr, nullptr));
     return;
   }
-  std::list<Environment> hidden;  // of others that were started with this one and have no part in its work
+  std::list<Environment>
+      hidden;  // of others that were started with this one and have no part in its work
   for (const std::string& launcher : names_of_launchers()) hidden.emplace_back(launcher, nullptr);
-  // one process by itself: MPI need not look for others, nor for networks, and nothing is left in /tmp, however the program ends
+  // one process by itself: MPI need not look for others, nor for networks, and nothing is left in
+  // /tmp, however the program ends
   const Environment alone("OMPI_MCA_ess_singleton_isolated", "1"), self("OMPI_MCA_btl", "self"),
       folders("OMPI_MCA_orte_create_session_dirs", "0");
   need(PetscInitialize(&n, &arguments, nullptr, nullptr));
@@ -112,13 +117,14 @@ void begin(bool of_all_ranks) {
     need(PetscPopSignalHandler());
   }
   need(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr));
-  for (const auto& [key, value] : {std::pair{"-langer_mg_levels_ksp_type", "chebyshev"},
-                                   {"-langer_mg_levels_ksp_max_it", "1"},
-                                   {"-langer_mg_levels_pc_type", "icc"},
-                                   {"-langer_ranks_mg_levels_ksp_type", "chebyshev"},
-                                   {"-langer_ranks_mg_levels_ksp_max_it", "1"},
-                                   {"-langer_ranks_mg_levels_pc_type", "bjacobi"},  // of the rows of a rank
-                                   {"-langer_ranks_mg_levels_sub_pc_type", "icc"}})
+  for (const auto& [key, value] :
+       {std::pair{"-langer_mg_levels_ksp_type", "chebyshev"},
+        {"-langer_mg_levels_ksp_max_it", "1"},
+        {"-langer_mg_levels_pc_type", "icc"},
+        {"-langer_ranks_mg_levels_ksp_type", "chebyshev"},
+        {"-langer_ranks_mg_levels_ksp_max_it", "1"},
+        {"-langer_ranks_mg_levels_pc_type", "bjacobi"},  // of the rows of a rank
+        {"-langer_ranks_mg_levels_sub_pc_type", "icc"}})
     need(PetscOptionsSetValue(nullptr, key, value));
 }
 
@@ -147,8 +153,8 @@ void set_near_null_space(Mat A, const std::function<const double*(int)>& values,
       need(VecDestroy(&mode));
   }
   MatNullSpace space = nullptr;
-  need(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), PETSC_FALSE, static_cast<int>(modes.size()),
-                          modes.data(), &space));
+  need(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), PETSC_FALSE,
+                          static_cast<int>(modes.size()), modes.data(), &space));
   need(MatSetNearNullSpace(A, space));
   need(MatNullSpaceDestroy(&space));
   for (Vec& mode : modes) need(VecDestroy(&mode));
@@ -193,12 +199,14 @@ class Aggregation : public Multigrid {
     need(applied);
   }
 
-  void times(const double*, double*) override { throw std::logic_error("of one process, which has the matrix itself"); }
+  void times(const double*, double*) override {
+    throw std::logic_error("of one process, which has the matrix itself");
+  }
 
  private:
   void make(const Rows& A, const double* rigid) {
-    need(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.n, A.n, const_cast<int*>(A.start), const_cast<int*>(A.column),
-                                   const_cast<double*>(A.value), &A_));
+    need(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.n, A.n, const_cast<int*>(A.start),
+                                   const_cast<int*>(A.column), const_cast<double*>(A.value), &A_));
     need(MatSetBlockSize(A_, 3));
     need(MatSetOption(A_, MAT_SPD, PETSC_TRUE));
     need(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, A.n, nullptr, &r_));
@@ -239,7 +247,8 @@ struct Calls {
 };
 
 // x -> y by a function of ours
-PetscErrorCode call(Calls& calls, const std::function<void(const double*, double*)>& function, Vec x, Vec y) {
+PetscErrorCode call(Calls& calls, const std::function<void(const double*, double*)>& function,
+                    Vec x, Vec y) {
   const double* from = nullptr;
   double* to = nullptr;
   PetscCall(VecGetArrayRead(x, &from));
@@ -277,7 +286,8 @@ std::optional<Shares> shares_of(const Krylov& system) {
   if (!system.ranks) return {};
   std::vector<int> counts;
   const int parts = system.ranks->n();
-  for (int k = 0; k < parts; ++k) counts.push_back(system.n / parts + (k < system.n % parts ? 1 : 0));
+  for (int k = 0; k < parts; ++k)
+    counts.push_back(system.n / parts + (k < system.n % parts ? 1 : 0));
   return Shares(std::move(counts));
 }
 
@@ -293,7 +303,8 @@ KrylovEnd fgmres(const Krylov& system) {
     begin();
     calls.shares = shares_of(system);
     const MPI_Comm all = calls.shares ? PETSC_COMM_WORLD : PETSC_COMM_SELF;
-    const int own = calls.shares ? calls.shares->own() : system.n, before = calls.shares ? calls.shares->before() : 0;
+    const int own = calls.shares ? calls.shares->own() : system.n,
+              before = calls.shares ? calls.shares->before() : 0;
     if (calls.shares) calls.whole_x.resize(system.n), calls.whole_y.resize(system.n);
     const auto share = [&](const double* values, Vec* of) {
       need(calls.shares ? VecCreateMPIWithArray(all, 1, own, system.n, values + before, of)
@@ -337,6 +348,7 @@ KrylovEnd fgmres(const Krylov& system) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const Functions langer_petsc_module{version, world, multigrid, fgmres, end};
+extern "C" __attribute__((visibility("default")))
+const Functions langer_petsc_module{version, world, multigrid, fgmres, end};
 
 }  // namespace langer::petsc_module

@@ -25,7 +25,8 @@ class World : public Ranks {
     constexpr std::size_t most = 1u << 28;  // counts are int
     for (std::size_t at = 0; at < n; at += most) {
       const int part = static_cast<int>(std::min(most, n - at));
-      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : x + at, x + at, part, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : x + at, x + at, part, MPI_DOUBLE, MPI_SUM, 0,
+                 MPI_COMM_WORLD);
       MPI_Bcast(x + at, part, MPI_DOUBLE, 0, MPI_COMM_WORLD);
     }
   }
@@ -34,19 +35,22 @@ class World : public Ranks {
   void from_first(void* x, std::size_t bytes) const override {
     constexpr std::size_t most = 1u << 30;
     for (std::size_t at = 0; at < bytes; at += most)
-      MPI_Bcast(static_cast<char*>(x) + at, static_cast<int>(std::min(most, bytes - at)), MPI_BYTE, 0, MPI_COMM_WORLD);
+      MPI_Bcast(static_cast<char*>(x) + at, static_cast<int>(std::min(most, bytes - at)), MPI_BYTE,
+                0, MPI_COMM_WORLD);
   }
 
   std::vector<int> divide(const std::vector<int>& nodes, int per_cell, int n_nodes) const override {
-    idx_t n_cells = static_cast<idx_t>(nodes.size()) / per_cell, points = n_nodes, parts = n_, edges = 0;
+    idx_t n_cells = static_cast<idx_t>(nodes.size()) / per_cell, points = n_nodes, parts = n_,
+          edges = 0;
     idx_t shared = per_cell == 8 ? 4 : 3;  // nodes of a facet
-    std::vector<idx_t> begins, of(nodes.begin(), nodes.end()), part(static_cast<std::size_t>(n_cells)),
-        of_node(static_cast<std::size_t>(n_nodes));
+    std::vector<idx_t> begins, of(nodes.begin(), nodes.end()),
+        part(static_cast<std::size_t>(n_cells)), of_node(static_cast<std::size_t>(n_nodes));
     for (idx_t e = 0; e <= n_cells; ++e) begins.push_back(e * per_cell);
     int code = METIS_OK;
     if (rank_ == 0)
-      code = METIS_PartMeshDual(&n_cells, &points, begins.data(), of.data(), nullptr, nullptr, &shared, &parts, nullptr, nullptr,
-                                &edges, part.data(), of_node.data());
+      code =
+          METIS_PartMeshDual(&n_cells, &points, begins.data(), of.data(), nullptr, nullptr, &shared,
+                             &parts, nullptr, nullptr, &edges, part.data(), of_node.data());
     from_first(&code, sizeof code);
     if (code != METIS_OK) throw std::runtime_error("METIS cannot divide the mesh");
     from_first(part.data(), part.size() * sizeof(idx_t));
@@ -54,13 +58,14 @@ class World : public Ranks {
   }
 
   int end(int code, bool failed, void (*say)(const char*), const std::string& why) override {
-    constexpr double patience = 5;        // s, in which a failure that all have meets on all of them
+    constexpr double patience = 5;  // s, in which a failure that all have meets on all of them
     constexpr useconds_t between = 5000;  // others sleep while rank 0 goes on by itself
     MPI_Request met;
     MPI_Ibarrier(end_, &met);
     int all_here = 0;
     const double begin = MPI_Wtime();
-    for (MPI_Test(&met, &all_here, MPI_STATUS_IGNORE); !all_here; MPI_Test(&met, &all_here, MPI_STATUS_IGNORE)) {
+    for (MPI_Test(&met, &all_here, MPI_STATUS_IGNORE); !all_here;
+         MPI_Test(&met, &all_here, MPI_STATUS_IGNORE)) {
       if (failed && MPI_Wtime() - begin > patience) {
         if (rank_ > 0) say(why.c_str());
         MPI_Abort(MPI_COMM_WORLD, code);
@@ -101,7 +106,8 @@ Ranks* world(std::string& why) {
   MPI_Comm_size(MPI_COMM_WORLD, &n);
   static World all;
   if (n == launched().n) return &all;
-  why = "they do not know of each other, MPI finds " + std::to_string(n) + "; srun --mpi=pmix or Open MPI's mpirun tells them";
+  why = "they do not know of each other, MPI finds " + std::to_string(n) +
+        "; srun --mpi=pmix or Open MPI's mpirun tells them";
   return nullptr;
 }
 
@@ -111,7 +117,8 @@ Shares::Shares(std::vector<int> counts) : counts_(std::move(counts)) {
 }
 
 void Shares::gather(const double* own, double* all) const {
-  MPI_Allgatherv(own, this->own(), MPI_DOUBLE, all, counts_.data(), first_.data(), MPI_DOUBLE, MPI_COMM_WORLD);
+  MPI_Allgatherv(own, this->own(), MPI_DOUBLE, all, counts_.data(), first_.data(), MPI_DOUBLE,
+                 MPI_COMM_WORLD);
 }
 
 }  // namespace langer::petsc_module
