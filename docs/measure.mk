@@ -5,7 +5,7 @@ reliability: soak fuzz
 	@tests/soak/page docs/tested.md kills $(build)/soak.md
 	@tests/soak/page docs/tested.md inputs build-fuzz/fuzz.md
 
-# what each feature costs in instructions, under valgrind, which is installed for it, and two tables of docs/work_precision.md from it. A build of
+# what each feature costs in instructions, under valgrind, which is installed for it, and the tables of docs/feature_cost.md. A build of
 # its own: valgrind knows no AVX-512, and lines (-g1) tell whose code it is. Two minutes beside that
 counted := build-features
 bench-features:
@@ -13,20 +13,20 @@ bench-features:
 	@[ -f $(counted)/CMakeCache.txt ] || cmake -S . -B $(counted) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF -DCMAKE_CXX_FLAGS=-g1
 	@cmake --build $(counted) --parallel $(JOBS) --target langer-solve
 	@tests/bench/features/count $(counted)/bin/langer-solve runs/features
-	@tests/soak/page docs/work_precision.md features runs/features/scenes.md
-	@tests/soak/page docs/work_precision.md unused runs/features/unused.md
+	@tests/soak/page docs/feature_cost.md features runs/features/scenes.md
+	@tests/soak/page docs/feature_cost.md unused runs/features/unused.md
 
-# CPU seconds that --dry-run forecasts beside those that it takes, and the table of docs/scenes.md from it; alone on the machine, two minutes
+# CPU seconds that --dry-run forecasts beside those that it takes, and the table of docs/solver_cost.md; alone on the machine, two minutes
 bench-forecasts: build
 	@mkdir -p runs/forecasts
 	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
-	@tests/soak/page docs/scenes.md forecasts runs/forecasts/table.md
+	@tests/soak/page docs/solver_cost.md forecasts runs/forecasts/table.md
 
-# what contact costs over its candidates, condensed, in the tangent and iteratively, and its table and picture in docs/scenes.md; two minutes of CPU
+# what contact costs over its candidates, condensed, in the tangent and iteratively, and its table and picture in docs/solver_cost.md; two minutes of CPU
 bench-wide: build
 	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
 	@mkdir -p runs/wide && tests/bench/wide run $(build)/bin runs/wide
-	@tests/bench/wide table runs/wide > runs/wide/table.md && tests/soak/page docs/scenes.md wide runs/wide/table.md
+	@tests/bench/wide table runs/wide > runs/wide/table.md && tests/soak/page docs/solver_cost.md wide runs/wide/table.md
 	@tests/bench/wide picture runs/wide | gnuplot > docs/wide_contact.svg
 
 # the same indentation by CalculiX, GetFEM and FEniCSx, which are installed for it, and by FEBio where febio4 is there; docs/peers.md from it.
@@ -72,20 +72,20 @@ work-precision trade:
 accuracy estimates:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/$@.yaml
 	@awk -v what=$@ -f docs/work_precision.awk $(foreach s,isotropic table1 positive,runs/$@/$(s)_table/table.csv) > runs/$@/table.md
-	@tests/soak/page docs/work_precision.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
+	@tests/soak/page docs/study_estimates.md $@ runs/$@/table.md; tail -2 runs/$@/table.md
 
 # the same in scenes of other kinds than the study's; two minutes
 accuracy-elsewhere:
 	@$(MAKE) --no-print-directory run PIPELINE=pipelines/accuracy_elsewhere.yaml
 	@awk -v what=accuracy -f docs/work_precision.awk runs/accuracy_elsewhere/elsewhere_table/table.csv > runs/accuracy_elsewhere/table.md
-	@tests/soak/page docs/work_precision.md elsewhere runs/accuracy_elsewhere/table.md; tail -2 runs/accuracy_elsewhere/table.md
+	@tests/soak/page docs/study_estimates.md elsewhere runs/accuracy_elsewhere/table.md; tail -2 runs/accuracy_elsewhere/table.md
 
 # cells cut where the error comes from against even and graded ones, in six scenes without friction; six minutes of CPU. ONLY="punch far": those
 # again, beside what runs/adaptive has of the others
 adaptive: build
 	@tests/bench/adaptive.py run $(build)/bin runs/adaptive
 	@for what in at runs; do tests/bench/adaptive.py $$what runs/adaptive/adaptive.csv > runs/adaptive/$$what.md && \
-	  tests/soak/page docs/work_precision.md adaptive_$$what runs/adaptive/$$what.md || exit 1; done
+	  tests/soak/page docs/study_adaptive.md adaptive_$$what runs/adaptive/$$what.md || exit 1; done
 	@tests/bench/adaptive.py picture runs/adaptive/adaptive.csv | gnuplot > docs/work_precision_adaptive.svg
 
 # the folders of lib and the includes between them: docs/map.svg
@@ -99,11 +99,11 @@ map:
 contact-discretisations:
 	@$(MAKE) --no-print-directory deps packages=python3-scipy
 	@mkdir -p runs && tests/bench/contact_discretisations.py | tee runs/contact_discretisations.md
-	@tests/soak/page docs/work_precision.md contact_discretisations runs/contact_discretisations.md
+	@tests/soak/page docs/study_friction.md contact_discretisations runs/contact_discretisations.md
 
 # accuracy in scenes of twelve kinds, drawn at random: whether what ends with success is within what was asked for, and whether bars hold.
 # Another SEED draws others; each scene is left as a config in runs/random. A solve of more than LONGEST seconds of CPU is left. Their counts
-# are in docs/work_precision.md. BARS=default judges the bars that the scenes get without an estimate, against
+# are in docs/study_estimates.md. BARS=default judges the bars that the scenes get without an estimate, against
 # the limits of what is asked for
 SEED ?= 12
 SCENES ?= 84
