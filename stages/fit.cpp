@@ -6,6 +6,7 @@
 #include "export/cards.hpp"
 #include "identification/fit/cross_check.hpp"
 #include "identification/fit/doubts.hpp"
+#include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/inverse/inverse_fit.hpp"
 #include "identification/inverse/scene_candidates.hpp"
 #include "identification/sensitivity/long_work.hpp"

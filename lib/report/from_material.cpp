@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/hdf5/h5.hpp"
+#include "identification/fit/stiffness_at_rest.hpp"
 #include "report/sources.hpp"
 #include "results/store/material_file.hpp"
 
