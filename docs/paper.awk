@@ -45,12 +45,12 @@ BEGIN {
   FS = "|"
   print "# The paper and Langer, side by side\n"
   print "<!-- written by `make paper` from docs/paper.csv and a run of pipelines/paper.yaml: do not edit -->\n"
-  print "Values and pictures of `make run PIPELINE=pipelines/paper.yaml`, beside those of [A23] ([references](references.md)). The errata it"
-  print "speaks of stand in [theory.md](theory.md). Meshes of 1 to 6 000 hexahedra; the paper's own size, 12 320 hexahedra in 100 steps,"
-  print "is `pipelines/indentation_paper_size.yaml`. Figures 1 to 3 and 6 of the paper are sketches."
-  print "\nThe paper's drawings cannot be had as data. What is compared are the numbers that it prints, in its tables and its text; those of its figures"
-  print "stand in `data/paper_a23_figure_9.csv` and `data/paper_a23_figure_13.csv` with the place they are from, and as points on the figures here. Of the"
-  print "other figures no number is printed: for them this page says what the text says of them and what Langer finds, and compares no curves.\n"
+  print "Values and pictures of `make run PIPELINE=pipelines/paper.yaml`, compared with [A23] ([references](references.md)). For the errata, see"
+  print "[theory](theory.md). Meshes have 1 to 6 000 hexahedra. The paper's own size, 12 320 hexahedra in 100 steps, is"
+  print "`pipelines/indentation_paper_size.yaml`. Figures 1 to 3 and 6 of the paper are sketches."
+  print "\nThe paper's drawings are not available as data. Compared are the numbers that it prints in its tables and its text. Those of its figures are in"
+  print "`data/paper_a23_figure_9.csv` and `data/paper_a23_figure_13.csv`, and are shown as points. For the other figures no number is printed: this page"
+  print "quotes the statements of the text and gives Langer's results.\n"
 }
 /^#/ || NF < 2 { next }
 $1 == "T" { printf "\n## %s\n\n| quantity | paper | Langer | difference, %% | why they differ |\n| --- | --- | --- | --- | --- |\n", $2; next }

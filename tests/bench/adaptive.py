@@ -22,7 +22,7 @@ KINDS = ["even hex8", "even hex27", "graded hex8", "graded hex27", "cut"]
 NAMES = ["scene", "kind", "level", "value", "error_percent", "cpu_s", "exit_code"]
 TITLES = {
     "pulled": "block pulled between clamped faces", "sheared": "block sheared between clamped faces", "pads": "two pads on a layer, one pulled",
-    "punch": "flat punch, rounded edge", "far": "small sphere beside the middle", "paper": "the paper's sphere, no friction"}
+    "punch": "flat punch, rounded edge", "far": "small sphere off the middle", "paper": "the paper's sphere, no friction"}
 SHEAR = ["supports=[{on: bottom, hold: [x, y, z]}, {on: top, hold: [y, z]}]", "loads=[{on: top, displacement: {x: 1.5}}]"]
 PAD = ", sets: {pad: {of: top, within: {box: {from: [4, 4, -4], to: [12, 4, 4]}}}, fixed: {of: top, within: {box: {from: [-12, 4, -4], to: [-4, 4, 4]}}}}"
 PUNCH = ["contacts.sphere.rigid={cylinder: {radius: 2, edge: 0.3, face: [0, 4, 0]}}", "contacts.sphere.motion[0].to=[0, -0.5, 0]"]
