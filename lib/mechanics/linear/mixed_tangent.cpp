@@ -1,5 +1,6 @@
 #include "mechanics/linear/mixed_tangent.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
