@@ -23,7 +23,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -96,6 +96,13 @@ SEED  ?= 1
 soak: configure
 	@cmake --build $(build) --parallel $(JOBS) --target $(programs) langer-soak
 	@$(build)/bin/langer-soak . $(build)/bin $(build)/soak --kills $(KILLS) --seed $(SEED) --pages all --table $(build)/soak.md
+
+# random scenes and their twins (tests/relations): SCENES of them from number FROM on, drawn by SEED
+relations: SCENES ?= 500
+relations: FROM ?= 0
+relations: configure
+	@cmake --build $(build) --parallel $(JOBS) --target langer-solve langer-relations
+	@$(build)/tests/langer-relations $(build)/bin/langer-solve $(build)/relations --scenes $(SCENES) --from $(FROM) --seed $(SEED)
 
 # every reader under libFuzzer, ASan and UBSan, for FUZZ_SECONDS each; needs clang and libclang-rt-dev
 FUZZ_SECONDS ?= 60
@@ -200,6 +207,7 @@ help:
 	@echo "make format                   the style of .clang-format in every source; make tidy: what clang-tidy finds"
 	@echo "make coverage                 lines that the tests reach, build-coverage/coverage.html (installs gcovr)"
 	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
+	@echo "make relations                random scenes against their turned, rescaled, unreduced, ... twins; SCENES=500 SEED=1 FROM=0"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
 	@echo "make mutants                  mutation tests: errors put into lib/ one at a time, which a test must notice; ONLY='contact.*' KEEP=1 CHECK=1"
 	@echo "make bench                    time the solver"
