@@ -3,6 +3,7 @@
 #include "accuracy/refinement/level_cost.hpp"
 #include "scene/run/footprint.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -102,13 +103,13 @@ TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the 
   const ReachedAccuracy good =
       reached(chosen, {of("force", "N", 10, -0.05), of("von_mises_max", "MPa", 1, 0.4)});
   CHECK(good.met);
-  CHECK(good.percent == doctest::Approx(0.5));
+  CHECK(good.percent == near(0.5));
   CHECK(good.words.empty());
   // of several indenters the worst, and never a success by the average
   const ReachedAccuracy bad =
       reached(chosen, {of("force_a", "N", 10, 0.01), of("force_b", "N", -2, 0.19)});
   CHECK(!bad.met);
-  CHECK(bad.percent == doctest::Approx(9.5));
+  CHECK(bad.percent == near(9.5));
   CHECK(bad.words.find("9.5 %") != std::string::npos);
 }
 
@@ -215,22 +216,22 @@ TEST_CASE("the footprint of indenters is where they cut the top") {
       const auto print = footprint(c, body);
       REQUIRE(print.has_value());
       const double a = std::sqrt(d * (2 * R - d));
-      CHECK(print->middle(0) == doctest::Approx(x).epsilon(1e-3));
-      CHECK(print->middle(1) == doctest::Approx(z).epsilon(1e-3));
-      CHECK(print->half(0) == doctest::Approx(a).epsilon(0.01));
-      CHECK(print->half(1) == doctest::Approx(a).epsilon(0.01));
-      CHECK(print->deepest == doctest::Approx(d).epsilon(1e-3));
+      CHECK(print->middle(0) == near(x, 1e-3));
+      CHECK(print->middle(1) == near(z, 1e-3));
+      CHECK(print->half(0) == near(a, 0.01));
+      CHECK(print->half(1) == near(a, 0.01));
+      CHECK(print->deepest == near(d, 1e-3));
     }
   }
   SUBCASE("of two, of one on its way, of one over the side, of none") {
     SolveConfig c = config;
     c.contacts["other"] = ball(8, 0);
-    CHECK(footprint(c, body)->low[0] == doctest::Approx(-2).epsilon(0.01));
-    CHECK(footprint(c, body)->high[0] == doctest::Approx(10).epsilon(0.01));
+    CHECK(footprint(c, body)->low[0] == near(-2, 0.01));
+    CHECK(footprint(c, body)->high[0] == near(10, 0.01));
     c = config;
     c.contacts["ball"].motion.push_back({2, {4, -1, 0}});
-    CHECK(footprint(c, body)->high[0] == doctest::Approx(6).epsilon(0.01));
-    CHECK(footprint(c, body)->half(1) == doctest::Approx(2).epsilon(0.01));
+    CHECK(footprint(c, body)->high[0] == near(6, 0.01));
+    CHECK(footprint(c, body)->half(1) == near(2, 0.01));
     c.contacts["ball"] = ball(14.5, 0);
     CHECK(footprint(c, body)->high[0] == 15);
     c.contacts["ball"] = ball(40, 0);
@@ -246,8 +247,8 @@ TEST_CASE("cells go where the indenters are, unless the config says where") {
   choose_accuracy(config, std::nullopt);
   const auto& block = std::get<IndentedBlock>(config.mesh->geometry);
   REQUIRE(block.under.has_value());
-  CHECK((*block.under)[0] == doctest::Approx(5).epsilon(1e-3));
-  CHECK((*block.under)[1] == doctest::Approx(-2).epsilon(1e-3));
+  CHECK((*block.under)[0] == near(5, 1e-3));
+  CHECK((*block.under)[1] == near(-2, 1e-3));
   std::get<IndentedBlock>(told.mesh->geometry).under = {1, 1};
   choose_accuracy(told, std::nullopt);
   CHECK((*std::get<IndentedBlock>(told.mesh->geometry).under)[0] == 1);
@@ -262,17 +263,15 @@ TEST_CASE(
   };
   const auto by_cells = finer_level(chosen, {of(2.2, 0)});
   REQUIRE(by_cells.has_value());
-  CHECK(by_cells->edge == doctest::Approx(0.16 * std::sqrt(0.8 / 2.2)).epsilon(0.05));
+  CHECK(by_cells->edge == near(0.16 * std::sqrt(0.8 / 2.2), 0.05));
   CHECK(by_cells->step == 0.25);
-  CHECK(finer_level(chosen, {of(1, 0, 0, 1)})->edge ==
-        doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  CHECK(finer_level(chosen, {of(1, 0, 0, 1)})->edge == near(0.16 * 0.8 / 1.25, 0.05));
   const auto by_step = finer_level(chosen, {of(0.3, 2)});
   REQUIRE(by_step.has_value());
-  CHECK(by_step->step == doctest::Approx(0.25 * std::sqrt(0.15)).epsilon(0.01));
+  CHECK(by_step->step == near(0.25 * std::sqrt(0.15), 0.01));
   CHECK(by_step->edge > 0.15);
   // with the order that was seen
-  CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge ==
-        doctest::Approx(0.16 * 0.8 / 1.25).epsilon(0.05));
+  CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge == near(0.16 * 0.8 / 1.25, 0.05));
   CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));  // not even the finest
   chosen.level.edge = 0.04;
   CHECK(!finer_level(chosen, {of(3.2, 0)}));  // the finest there is
@@ -351,8 +350,7 @@ TEST_CASE("an indenter that touches nothing has a force of 0 and no percent") {
   CHECK(accuracy.summary({none}).empty());
   accuracy.need({none}, "out.h5");
   REQUIRE(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}}).size() == 1);
-  CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value ==
-        doctest::Approx(0.5));
+  CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value == near(0.5));
 }
 
 TEST_CASE(
@@ -378,7 +376,7 @@ TEST_CASE(
     CHECK(nearest < 1e-9);
     IndentedBlock fine = b;
     fine.edge = 0.0875;
-    CHECK(mesh_of(fine, {}, notes).n_cells() == doctest::Approx(8 * mesh.n_cells()).epsilon(0.35));
+    CHECK(mesh_of(fine, {}, notes).n_cells() == near(8 * mesh.n_cells(), 0.35));
   }
   IndentedBlock outside{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.175};
   outside.under = {16, 0};
@@ -396,9 +394,9 @@ TEST_CASE(
     const IndentedBlock coarse{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge},
         fine{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, edge / 2};
     const Block a = coarse.block(), b = fine.block();
-    CHECK(coarse.contact_radius() == doctest::Approx(2));
-    CHECK(a.centre->edge == doctest::Approx(2 * edge));
-    CHECK(b.centre->edge == doctest::Approx(edge));
+    CHECK(coarse.contact_radius() == near(2));
+    CHECK(a.centre->edge == near(2 * edge));
+    CHECK(b.centre->edge == near(edge));
     for (int i = 0; i < 3; ++i) CHECK(std::abs(b.divisions[i] - 2 * a.divisions[i]) <= 4);
     CHECK(contradictions(coarse, {}).empty());
   }

@@ -9,6 +9,7 @@
 #include "accuracy/estimate/truncation.hpp"
 #include "core/config/tree.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -83,7 +84,7 @@ TEST_CASE(
     const std::vector<double>& bars = estimate.along.at("force");
     REQUIRE(bars.size() == path.size());
     REQUIRE(path.size() == 8);
-    CHECK(bars.back() == doctest::Approx(estimate.at_end[0].total()).epsilon(1e-12));
+    CHECK(bars.back() == near(estimate.at_end[0].total(), 1e-12));
     const SolveConfig finer = disc(0.05, friction, friction > 0 ? 0.03125 : 0.125);
     const std::vector<StepForces> right = solved_path(finer, finer.material, nowhere).path;
     int held = 0;
@@ -99,16 +100,16 @@ TEST_CASE(
 TEST_CASE(
     "the limit of wider bodies: what falls by one ratio is summed up, what does not is told whole") {
   for (double r : {0.1, 0.3, 0.6, 0.75})  // f = 10 + 0.5 r^n
-    CHECK(beyond(10.5, 10 + 0.5 * r, 10 + 0.5 * r * r) == doctest::Approx(0.5).epsilon(1e-10));
+    CHECK(beyond(10.5, 10 + 0.5 * r, 10 + 0.5 * r * r) == near(0.5, 1e-10));
   for (double power : {1.0, 2.0, 3.0}) {  // f = 10 - 1 / width^power, width 2, 3, 4.5
     const auto f = [&](double width) {
       return 10 - std::pow(width, -power);
     };
-    CHECK(beyond(f(2), f(3), f(4.5)) == doctest::Approx(-std::pow(2, -power)).epsilon(1e-10));
+    CHECK(beyond(f(2), f(3), f(4.5)) == near(-std::pow(2, -power), 1e-10));
   }
   CHECK(beyond(10, 10, 10) == 0);
-  CHECK(beyond(10, 10.1, 10.05) == doctest::Approx(-0.15));  // to and fro
-  CHECK(beyond(10, 10.1, 10.25) == doctest::Approx(-0.25));  // grows
+  CHECK(beyond(10, 10.1, 10.05) == near(-0.15));  // to and fro
+  CHECK(beyond(10, 10.1, 10.25) == near(-0.25));  // grows
 }
 
 TEST_CASE("what the sides of a narrow disc change is told, and of a wide one that it is nothing") {
@@ -140,14 +141,14 @@ TEST_CASE("wider and thicker bodies keep the surface and the place below the ind
   block.mesh->geometry = IndentedBlock{{-10, 1, -6}, {20, 4, 12}, 2, 0.5};
   const auto wide = wider(block, Truncation::sides), thick = wider(block, Truncation::bottom);
   const auto& w = std::get<IndentedBlock>(wide[1].mesh->geometry);
-  CHECK(w.size[0] == doctest::Approx(45));
+  CHECK(w.size[0] == near(45));
   CHECK(w.size[1] == 4);
-  CHECK(w.size[2] == doctest::Approx(27));
-  CHECK(w.origin[0] == doctest::Approx(-22.5));
-  CHECK(w.origin[2] == doctest::Approx(-13.5));
+  CHECK(w.size[2] == near(27));
+  CHECK(w.origin[0] == near(-22.5));
+  CHECK(w.origin[2] == near(-13.5));
   const auto& t = std::get<IndentedBlock>(thick[0].mesh->geometry);
-  CHECK(t.size[1] == doctest::Approx(6));
-  CHECK(t.origin[1] + t.size[1] == doctest::Approx(5));
+  CHECK(t.size[1] == near(6));
+  CHECK(t.origin[1] + t.size[1] == near(5));
   CHECK(t.size[0] == 20);
 }
 
@@ -161,8 +162,8 @@ TEST_CASE(
   CHECK(asked.own);
   CHECK(by_itself.own);
   REQUIRE(by_itself.length.size() == 3);
-  CHECK(asked.length[2] == doctest::Approx(1.5).epsilon(0.05));
-  CHECK(by_itself.length[2] == doctest::Approx(1.75).epsilon(0.05));
+  CHECK(asked.length[2] == near(1.5, 0.05));
+  CHECK(by_itself.length[2] == near(1.75, 0.05));
   const ErrorEstimate two = estimate_of(config).at_end[0];
   config.estimate = EstimateBy::refinement;
   const ErrorEstimate one = estimate_of(config).at_end[0];

@@ -11,6 +11,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 #include "support/section.hpp"
 
 using namespace langer;
@@ -123,7 +124,7 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   CHECK(most > 0.9);
   CHECK(off < 1e-4 * most);
   for (const Vec3& r : movement->r[0]) dr -= r[1];
-  CHECK(dr == doctest::Approx((force[1] - force[0]) / (2 * step)).epsilon(1e-4));
+  CHECK(dr == near((force[1] - force[0]) / (2 * step), 1e-4));
 }
 
 TEST_CASE(
@@ -174,8 +175,8 @@ TEST_CASE("symmetry leaves the errors of reactions and forces as they are") {
     const Estimated part = by_dual_solutions(scene + "homogeneous: off\nsymmetry: auto\n");
     REQUIRE(!part.errors.empty());  // of a set that the part does not have there is none
     for (const ErrorEstimate& e : part.errors) {
-      CHECK(e.cells == doctest::Approx(whole.of(e.of.name).cells).epsilon(1e-3));
-      CHECK(e.scatter == doctest::Approx(whole.of(e.of.name).scatter).epsilon(1e-3));
+      CHECK(e.cells == near(whole.of(e.of.name).cells, 1e-3));
+      CHECK(e.scatter == near(whole.of(e.of.name).scatter, 1e-3));
     }
   }
 }

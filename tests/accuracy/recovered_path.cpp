@@ -9,6 +9,7 @@
 #include "core/config/tree.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -81,7 +82,7 @@ TEST_CASE("a config without an estimate gets a bar at every step that holds") {
     }
     const ErrorEstimate& at_end = coarse.errors.at_end.front();
     CHECK(at_end.of.name == "force");
-    CHECK(at_end.total() == doctest::Approx(bars.back()));
+    CHECK(at_end.total() == near(bars.back()));
     CHECK((at_end.increments > 0) == has_friction(config));
     CHECK(at_end.scatter > 0);
   }
@@ -104,11 +105,11 @@ TEST_CASE(
   const auto bars =
       recovered.errors(end.last, valued(config, run.scene, run.mesh, end.last)).along.at("force");
   REQUIRE(bars.size() == 5);
-  CHECK(shares.back() == doctest::Approx(std::pow(recovered_error(body, end.last.u).eta, 2)));
+  CHECK(shares.back() == near(std::pow(recovered_error(body, end.last.u).eta, 2)));
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const double force = path[i].of.at("force"),
                  touch = 2 * 0.5 * one_by_one(path[i].touching.at("force"), false);
-    CHECK(bars[i] / force - touch == doctest::Approx(shares[i]).epsilon(0.35));
+    CHECK(bars[i] / force - touch == near(shares[i], 0.35));
   }
 }
 

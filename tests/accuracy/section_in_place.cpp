@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -82,7 +83,7 @@ TEST_CASE(
     CHECK(disc.size == std::array{6.2, 2.0});
     CHECK(disc.base == block.origin[1]);
     CHECK(disc.edge == 0.3);
-    CHECK(section->mesh->points.at("A")[0] == doctest::Approx(3).epsilon(1e-12));
+    CHECK(section->mesh->points.at("A")[0] == near(3, 1e-12));
     CHECK(section->mesh->points.at("A")[2] == 0);
     CHECK(unchanged_by(section->contacts.at("ball").rigid, {Vec3(-1, 1, -1).asDiagonal()}));
     CHECK(section->complaints().empty());
@@ -233,8 +234,7 @@ TEST_CASE("an accuracy counts the sides with the estimate: shorter cells first, 
   REQUIRE(section.taken());
   CHECK(edge() < first);
   const double after = edge(), step = section.config().path.largest_increment();
-  CHECK(after == doctest::Approx(first * std::sqrt(0.8 * (1 - percent) / 2))
-                     .epsilon(0.3));  // by what the sides leave
+  CHECK(after == near(first * std::sqrt(0.8 * (1 - percent) / 2), 0.3));  // by what the sides leave
   // what increments cost is taken from them
   CHECK_FALSE(section.accurate({{{"force", "N", 2}, 0.004, 0.04, 0, 0, 2}}));
   CHECK(section.config().path.largest_increment() < 0.6 * step);

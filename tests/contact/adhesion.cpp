@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mechanics/contact/rigid.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -52,7 +53,7 @@ TEST_CASE("a bond's force is the slope of its potential, and its tangent that of
       const double slope =
           (potential(law, more, c.viscous, c.beta) - potential(law, less, c.viscous, c.beta)) /
           (2 * step);
-      CHECK(-here.force[j] == doctest::Approx(slope).epsilon(1e-6));
+      CHECK(-here.force[j] == near(slope, 1e-6));
       const Vec3 change = (more.force - less.force) / (2 * step);
       CHECK((here.tangent.col(j) - change).norm() <= 1e-5 * here.tangent.norm());
     }
@@ -73,13 +74,13 @@ TEST_CASE("a bond that is pulled off bears sqrt(w C) at most and takes w, in ste
     const double traction = -now.force[1], before = 100 * g_0 * std::pow(double(i - 1) / n, 2);
     work += 0.5 * (traction + last) * (g - before), taken += now.dissipated;
     bond.beta = now.beta, last = traction, most = std::max(most, traction);
-    if (i == n) CHECK(work == doctest::Approx(now.stored + taken).epsilon(1e-5));
+    if (i == n) CHECK(work == near(now.stored + taken, 1e-5));
   }
-  CHECK(most == doctest::Approx(std::sqrt(law.work * law.stiffness)).epsilon(1e-3));
-  CHECK(taken == doctest::Approx(law.work * (1 - 1e-4)).epsilon(1e-6));
+  CHECK(most == near(std::sqrt(law.work * law.stiffness), 1e-3));
+  CHECK(taken == near(law.work * (1 - 1e-4), 1e-6));
   const Adhesive once = adhesive(law, shape_at(flat, Vec3(0, 100 * g_0, 0)), Vec3(0, 100 * g_0, 0),
                                  {1, Vec3::Zero(), true}, 0);
-  CHECK(once.dissipated == doctest::Approx(taken).epsilon(1e-9));
+  CHECK(once.dissipated == near(taken, 1e-9));
 }
 
 TEST_CASE("bonds come back with healing only, and nothing holds what never touched") {

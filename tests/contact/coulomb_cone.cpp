@@ -1,4 +1,5 @@
 #include "mechanics/contact/coulomb_cone.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,8 +17,8 @@ TEST_CASE("the projection gives the worked values at mu = 0.34") {
   for (const auto& c : cases) {
     const auto p = project_on_cone(Vec3(c[1], c[0], 0), 0.34);
     CHECK(p.status == ContactStatus::slip);
-    CHECK(p.r[1] == doctest::Approx(c[2]).epsilon(1e-4));
-    CHECK(p.r[0] == doctest::Approx(c[3]).epsilon(1e-4));
+    CHECK(p.r[1] == near(c[2], 1e-4));
+    CHECK(p.r[0] == near(c[3], 1e-4));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "mechanics/mesh/reference.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -222,7 +223,7 @@ TEST_CASE("the outline of every shape lies on its surface and is seen from outsi
     if (const auto p = point_inside(shape)) CHECK(shape_at(shape, *p).gap < 0);
   }
   const Outline ball = outline(Sphere{2, {1, 2, 3}}, {Vec3::Zero(), 1, 96});
-  CHECK(area(ball) == doctest::Approx(4 * M_PI * 4).epsilon(1e-3));
+  CHECK(area(ball) == near(4 * M_PI * 4, 1e-3));
 }
 
 TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
@@ -241,7 +242,7 @@ TEST_CASE("the length of a normal or an axis does not matter, whatever it is") {
             return true;
           },
           other));
-      CHECK(shape_at(other, x).gap == doctest::Approx(shape_at(one, x).gap).epsilon(1e-14));
+      CHECK(shape_at(other, x).gap == near(shape_at(one, x).gap, 1e-14));
       CHECK((shape_at(other, x).normal - shape_at(one, x).normal).norm() < 1e-14);
     }
 }
@@ -255,8 +256,7 @@ TEST_CASE(
     CHECK(cut.cap.faces.empty());
     REQUIRE(cut.kept.lines.size() == whole.lines.size() + 2);
     for (const auto& line : cut.kept.lines)
-      for (int p : line)
-        CHECK(cut.kept.points[static_cast<std::size_t>(p)][2] == doctest::Approx(at));
+      for (int p : line) CHECK(cut.kept.points[static_cast<std::size_t>(p)][2] == near(at));
   }
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("normal and curvature are the first and second derivatives of the gap"
         smooth = smooth && (a.curvature - p.curvature).norm() < 1e-3 &&
                  (b.curvature - p.curvature).norm() < 1e-3;
       }
-      CHECK(p.normal.norm() == doctest::Approx(1).epsilon(1e-12));
+      CHECK(p.normal.norm() == near(1, 1e-12));
       CHECK((gradient - p.normal).norm() < 1e-8);
       if (!smooth) continue;
       CHECK((slope - p.curvature).norm() < 1e-5);
@@ -322,11 +322,11 @@ TEST_CASE("an ellipsoid of equal axes is a sphere, its poles are where they shou
   const Indenter ball = Ellipsoid{{2, 2, 2}, {0, 1, 0}}, sphere = Sphere{2, {0, 1, 0}},
                  egg = Ellipsoid{{3, 1.5, 2}, {0, 5, 0}};
   for (const Vec3& x : {Vec3(3, 0, 1), Vec3(0.3, -1.2, 0.4), Vec3(0, -3, 0)}) {
-    CHECK(shape_at(ball, x).gap == doctest::Approx(shape_at(sphere, x).gap).epsilon(1e-10));
+    CHECK(shape_at(ball, x).gap == near(shape_at(sphere, x).gap, 1e-10));
     CHECK((shape_at(ball, x).curvature - shape_at(sphere, x).curvature).norm() < 1e-8);
   }
-  CHECK(shape_at(egg, Vec3(0, 3, 0)).gap == doctest::Approx(0.5).epsilon(1e-10));
-  CHECK(shape_at(egg, Vec3(4, 5, 0)).gap == doctest::Approx(1).epsilon(1e-10));
+  CHECK(shape_at(egg, Vec3(0, 3, 0)).gap == near(0.5, 1e-10));
+  CHECK(shape_at(egg, Vec3(4, 5, 0)).gap == near(1, 1e-10));
   CHECK((shape_at(egg, Vec3(0, 3, 0)).normal - Vec3(0, -1, 0)).norm() < 1e-10);
 }
 
@@ -367,7 +367,7 @@ TEST_CASE(
   };
   const double ball = press("sphere", Sphere{2.5, {0, 6.5, 0}});
   CHECK(press("ellipsoid of equal axes", Ellipsoid{{2.5, 2.5, 2.5}, {0, 6.5, 0}}) ==
-        doctest::Approx(ball).epsilon(1e-8));
+        near(ball, 1e-8));
   CHECK(press("flat-ended cylinder", Cylinder{2, 0.4, {0, 4, 0}, {0, 1, 0}}) > 1.5 * ball);
   CHECK(press("long ellipsoid", Ellipsoid{{5, 2.5, 2.5}, {0, 6.5, 0}}) > ball);
   Facets facets;
@@ -375,7 +375,7 @@ TEST_CASE(
   Triangles t = half_sphere(2, 24, 48);
   for (Vec3& p : t.points) p += vec(facets.move);
   facets.tree = std::make_shared<TriangleTree>(std::move(t));
-  CHECK(press("faceted sphere", facets) == doctest::Approx(ball).epsilon(0.01));
+  CHECK(press("faceted sphere", facets) == near(ball, 0.01));
 }
 
 TEST_CASE(
@@ -402,7 +402,7 @@ TEST_CASE(
     CHECK(out.faces.size() <= triangles);
     CHECK(out.faces.size() < 6 * ball.faces.size());
     CHECK(out.faces.size() > ball.faces.size() / 2);
-    CHECK(area(out) == doctest::Approx(4 * M_PI * 2.05 * 2.05).epsilon(0.02));
+    CHECK(area(out) == near(4 * M_PI * 2.05 * 2.05, 0.02));
     int inwards = 0;
     for (const auto& face : out.faces) {
       const Outline one{out.points, {face}, {}};

@@ -18,6 +18,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 #include "support/section.hpp"
 
 using namespace langer;
@@ -88,10 +89,10 @@ TEST_CASE("a body whose cells are cut at random stays one body") {
     REQUIRE(mesh.n_cells() > 100);
     REQUIRE(!mesh.hanging.empty());
     CHECK(hanging_fault(mesh) == "");
-    CHECK(quality(mesh).volume == doctest::Approx(1).epsilon(1e-13));
+    CHECK(quality(mesh).volume == near(1, 1e-13));
     double area = 0;
     for (const Facet& facet : boundary(mesh)) area += nodal_areas(mesh, {facet}).sum();
-    CHECK(area == doctest::Approx(6).epsilon(1e-13));
+    CHECK(area == near(6, 1e-13));
     std::vector<std::array<int, 2>> at(static_cast<std::size_t>(mesh.n_nodes()), {9, 0});
     for (int e = 0; e < mesh.n_cells(); ++e)
       for (int n : mesh.cell(e))
@@ -189,7 +190,7 @@ TEST_CASE("more cells that are cut store less energy, down to that of all of the
   CHECK(coarse > one);
   CHECK(one > two);
   CHECK(two > fine);
-  CHECK(all == doctest::Approx(fine).epsilon(1e-10));
+  CHECK(all == near(fine, 1e-10));
   CHECK(coarse - two > 0.5 * (coarse - fine));  // what is cut is where the energy is
 }
 
@@ -209,8 +210,8 @@ TEST_CASE("under a sphere the quarter of a cut body is its whole, with friction 
     for (int across : {12, 13}) {  // planes between cells, and through them
       CAPTURE(across);
       const double whole = force("none", across);
-      CHECK(force("quarter", across) == doctest::Approx(whole).epsilon(1e-8));
-      CHECK(force("half_turn", across) == doctest::Approx(whole).epsilon(1e-8));
+      CHECK(force("quarter", across) == near(whole, 1e-8));
+      CHECK(force("half_turn", across) == near(whole, 1e-8));
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -129,7 +130,7 @@ TEST_CASE(
       }
       // the mean stress of its points is the volume's pressure, since the rest is isochoric
       for (const GaussState& s : gauss_states(formulation, one.material, one.geometry, one.a, u))
-        CHECK(s.sigma.trace() / 3 == doctest::Approx(s.pressure).epsilon(1e-9).scale(1));
+        CHECK(s.sigma.trace() / 3 == near(s.pressure, 1e-9, 1e-12 * s.sigma.norm()));
     }
 }
 
@@ -148,9 +149,10 @@ TEST_CASE("the dilatation's gradient is its derivative") {
             one.a, up, nullptr, false, plus);
       solid(formulation, one.material, test::local_modulus(formulation, one.material), one.geometry,
             one.a, down, nullptr, false, minus);
+      // some derivatives are 0; rounding leaves eps/h = 2e-10 of them
       for (int k = 0; k < n_pressures(formulation, n); ++k)
         CHECK((plus.J_minus_1[k] - minus.J_minus_1[k]) / (2 * h) ==
-              doctest::Approx(at.dJ_du[k][j]).epsilon(1e-7).scale(1));
+              near(at.dJ_du[k][j], 1e-7, 1e-9));
     }
   }
 }

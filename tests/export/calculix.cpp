@@ -12,6 +12,7 @@
 
 #include "export/cards.hpp"
 #include "mechanics/material/uniaxial.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -85,6 +86,6 @@ TEST_CASE("CalculiX makes of its cards the stress of Langer's laws") {
                                           fmt::format(BINARY_DIR "/calculix/{}_{}", name, stretch));
       // six digits in its table; other volume terms (Arruda-Boyce) and its own expansion of them:
       // of the order of sigma d
-      CHECK(theirs == doctest::Approx(own).epsilon(3e-4));
+      CHECK(theirs == near(own, 3e-4));
     }
 }

@@ -11,6 +11,7 @@
 #include "export/export_scene.hpp"
 #include "export/febio_material.hpp"
 #include "support/foreign_laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -262,12 +263,12 @@ void compare(const Card& card, const Material& m, const Mat3& F) {
   const double own = isochoric(m, C, a).W;
   // twelve digits of two components leave the third, their length's rest, to 1e-6
   const bool user = card.text.find("USER MATERIAL") != std::string::npos;
-  CHECK(theirs.isochoric == doctest::Approx(own).epsilon(user ? 1e-5 : tolerance));
+  CHECK(theirs.isochoric == near(own, user ? 1e-5 : tolerance));
   const double square = volume_energy(m.volume, J - 1).W;
   if (card.text.find("volume term here") == std::string::npos)
-    CHECK(theirs.volumetric == doctest::Approx(square).epsilon(tolerance));
+    CHECK(theirs.volumetric == near(square, tolerance));
   else  // of another form, of the same bulk modulus
-    CHECK(theirs.volumetric == doctest::Approx(square).epsilon(0.03));
+    CHECK(theirs.volumetric == near(square, 0.03));
 }
 
 }  // namespace
@@ -303,7 +304,7 @@ TEST_CASE("the formulas tell FEBio's own Yeoh and Arruda-Boyce from the laws of 
       chains{{ArrudaBoyce{0.3, 1.2}}, {}, {}};
   // coefficients as they are: half the stress, and half as much again
   CHECK(ratio(head + "Yeoh" + k + "<c1>0.269</c1><c2>0.376</c2><c3>0.415</c3></material>",
-              table1) == doctest::Approx(0.503).epsilon(0.02));
+              table1) == near(0.503, 0.02));
   CHECK(ratio(head + "Arruda-Boyce" + k + "<mu>0.3</mu><N>1.44</N></material>", chains) > 1.5);
 }
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "material/catalogue.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -30,7 +31,7 @@ TEST_CASE(
     const Comparison same = cross_check(problem, f.best, 1);
     CAPTURE(same.text);
     CHECK(same.agrees);
-    CHECK(same.cost == doctest::Approx(f.best.cost).epsilon(1e-4));
+    CHECK(same.cost == near(f.best.cost, 1e-4));
     LeastSquaresResult stopped = f.best;
     stopped.cost *= 1.01;
     const Comparison lower = cross_check(problem, stopped, 1);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 using test::Curve, test::parse_curve;
@@ -32,8 +33,8 @@ bool starts(const std::string& s, const std::string& with) {
 TEST_CASE(
     "strain in percent, stretch, kPa and nominal stress are converted by the columns' names") {
   const Curve a = parse_curve("# a comment\nstrain,cauchy_stress_MPa\n0.1,0.5\n\n0.2,0.75\n", "a");
-  CHECK(a.strain[0] == doctest::Approx(0.1).epsilon(1e-14));
-  CHECK(a.strain[1] == doctest::Approx(0.2).epsilon(1e-14));
+  CHECK(a.strain[0] == near(0.1, 1e-14));
+  CHECK(a.strain[1] == near(0.2, 1e-14));
   CHECK(a.stress == std::vector{0.5, 0.75});
   CHECK(a.measure == StressMeasure::cauchy);
   const Curve b = parse_curve(
@@ -44,7 +45,7 @@ TEST_CASE(
   const Curve c =
       parse_curve("\xEF\xBB\xBFstrain_percent,cauchy_stress_Pa\n25,5e5\n50,75e4\n", "c");
   CHECK(c.strain == std::vector{0.25, 0.5});
-  CHECK(c.stress[1] == doctest::Approx(0.75).epsilon(1e-15));
+  CHECK(c.stress[1] == near(0.75, 1e-15));
 }
 
 TEST_CASE("what is not a finite number is refused with line and column") {

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "material/catalogue.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -70,7 +71,7 @@ void recovered(const char* name, const Material& truth, const Material& law,
     CHECK(std::abs(f.best.p[static_cast<Eigen::Index>(i)] - expected[i]) <=
           1e-6 * std::abs(expected[i]));
   }
-  CHECK(f.quality.r2 == doctest::Approx(1).epsilon(1e-12));
+  CHECK(f.quality.r2 == near(1, 1e-12));
 }
 
 }  // namespace
@@ -143,8 +144,8 @@ TEST_CASE("GOH started at an angle of symmetry leaves it for the true one") {
     const FitResult f = fit(problem, {.starts = 1});
     CHECK(f.best.converged);
     CHECK(f.best.kkt <= 1e-8);
-    CHECK(std::abs(f.best.p[3]) == doctest::Approx(62).epsilon(1e-6));
-    CHECK(f.best.p[4] == doctest::Approx(0.1).epsilon(1e-5));
+    CHECK(std::abs(f.best.p[3]) == near(62, 1e-6));
+    CHECK(f.best.p[4] == near(0.1, 1e-5));
   }
 }
 
@@ -176,9 +177,9 @@ TEST_CASE("weights decide between tests that contradict each other") {
     return fit({soft, {free("matrix.neo_hooke.a1", 0.1, 0, 1)}, tests}, {.starts = 1}).best.p[0];
   };
   // weighted mean with squared weights
-  CHECK(found(1, 1) == doctest::Approx(0.2).epsilon(1e-10));
-  CHECK(found(3, 1) == doctest::Approx((9 * 0.1 + 0.3) / 10).epsilon(1e-10));
-  CHECK(found(1, 3) == doctest::Approx((0.1 + 9 * 0.3) / 10).epsilon(1e-10));
+  CHECK(found(1, 1) == near(0.2, 1e-10));
+  CHECK(found(3, 1) == near((9 * 0.1 + 0.3) / 10, 1e-10));
+  CHECK(found(1, 3) == near((0.1 + 9 * 0.3) / 10, 1e-10));
 }
 
 TEST_CASE("quality: R2 and the information criteria of a known misfit") {
@@ -190,11 +191,9 @@ TEST_CASE("quality: R2 and the information criteria of a known misfit") {
           {.starts = 1});
   const double n = 12, rss = f.best.r.squaredNorm();
   const VecX s = measured_stress(std::vector{t});
-  CHECK(f.quality.r2 ==
-        doctest::Approx(1 - rss / (s.array() - s.mean()).matrix().squaredNorm()).epsilon(1e-12));
-  CHECK(f.quality.aicc ==
-        doctest::Approx(n * std::log(rss / n) + 4 + 12. / (n - 3)).epsilon(1e-12));
-  CHECK(f.quality.bic == doctest::Approx(n * std::log(rss / n) + 2 * std::log(n)).epsilon(1e-12));
+  CHECK(f.quality.r2 == near(1 - rss / (s.array() - s.mean()).matrix().squaredNorm(), 1e-12));
+  CHECK(f.quality.aicc == near(n * std::log(rss / n) + 4 + 12. / (n - 3), 1e-12));
+  CHECK(f.quality.bic == near(n * std::log(rss / n) + 2 * std::log(n), 1e-12));
 }
 
 TEST_CASE(
@@ -210,9 +209,8 @@ TEST_CASE(
   CHECK(std::isnan(f.of_test[0].mean_error_percent));
   CHECK(std::isnan(f.of_test[0].max_error_percent));
   CHECK(f.of_test[1].mean_error_percent > 0.1);
-  CHECK(
-      f.quality.mean_error_percent ==
-      doctest::Approx(f.of_test[1].mean_error_percent).epsilon(1e-14));  // another order of one sum
+  CHECK(f.quality.mean_error_percent ==
+        near(f.of_test[1].mean_error_percent, 1e-14));  // another order of one sum
   CHECK(f.quality.max_error_percent == f.of_test[1].max_error_percent);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "identification/fit/test_data.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -43,10 +44,10 @@ void is_the_test(const std::string& text, const TestFormat& format = {}) {
   CAPTURE(text);
   const Test t = parse_tests(text, "l.csv", format).at(0);
   REQUIRE(t.points() == 2);
-  CHECK(t.first[0] == doctest::Approx(1));
-  CHECK(t.first[1] == doctest::Approx(1.25));
-  CHECK(t.stress_x[0] == doctest::Approx(0));
-  CHECK(t.stress_x[1] == doctest::Approx(0.5));
+  CHECK(t.first[0] == near(1));
+  CHECK(t.first[1] == near(1.25));
+  CHECK(t.stress_x[0] == near(0));
+  CHECK(t.stress_x[1] == near(0.5));
   CHECK(t.measure == StressMeasure::nominal);
 }
 
@@ -110,10 +111,10 @@ TEST_CASE(
   b.strain_x = "ux_mm", b.strain_z = "uz_mm", b.stress_x = "Fx_N", b.stress_z = "Fz_N";
   b.strain = StrainMeasure::engineering;
   const Test t = parse_tests("ux_mm,uz_mm,Fx_N,Fz_N\n0,0,0,0\n4,4,10,10\n", "l.csv", b)[0];
-  CHECK(t.first[1] == doctest::Approx(1.1));
-  CHECK(t.second[1] == doctest::Approx(1.05));
-  CHECK(t.stress_x[1] == doctest::Approx(0.5));
-  CHECK(t.stress_z[1] == doctest::Approx(0.25));
+  CHECK(t.first[1] == near(1.1));
+  CHECK(t.second[1] == near(1.05));
+  CHECK(t.stress_x[1] == near(0.5));
+  CHECK(t.stress_z[1] == near(0.25));
   b.width_z.reset();
   holds(refusal("ux_mm,uz_mm,Fx_N,Fz_N\n0,0,0,0\n4,4,10,10\n", b),
         "width_z: missing, for the column \"Fz_N\"");
@@ -124,7 +125,7 @@ TEST_CASE("what can be read in two ways is asked about, and the key that is name
   holds(refusal(thousands), "l.csv:2:1: found 1,234, and no other number tells");
   TestFormat f;
   f.decimal = DecimalSign::comma;
-  CHECK(parse_tests(thousands, "l.csv", f)[0].first[0] == doctest::Approx(2.234));
+  CHECK(parse_tests(thousands, "l.csv", f)[0].first[0] == near(2.234));
   const std::string both = "strain;nominal_stress_MPa\n0,1;0.5\n0,2;0.6\n";
   holds(refusal(both), "l.csv:2:1: found 0,1 in a file with 0.5 (line 2)");
   holds(refusal(both, f), "l.csv:2:5: found 0.5; expected a finite number");
@@ -174,7 +175,7 @@ TEST_CASE(
   holds(refusal("stretch,cauchy_stress_MPa\n1,0\n1.25,0.5\n", f),
         "strain: log for the column \"stretch\"; expected the measure that");
   CHECK(parse_tests("True strain (%),true_stress_kPa\n0,0\n10,5\n", "l.csv", {})[0].first[1] ==
-        doctest::Approx(std::exp(0.1)));
+        near(std::exp(0.1)));
 }
 
 TEST_CASE(
@@ -201,11 +202,9 @@ TEST_CASE(
     REQUIRE(nominal.points() == real.points());
     CHECK(nominal.first[0] >= 1);
     for (std::size_t i = 0; i < real.points(); ++i) {
-      CHECK(
-          real.first[i] * l0 ==
-          doctest::Approx(1.8 - 0.002 * static_cast<double>(real.points() - 1 - i)).epsilon(1e-5));
-      CHECK(nominal.stress_x[i] * nominal.first[i] ==
-            doctest::Approx(real.stress_x[i]).epsilon(1e-5));
+      CHECK(real.first[i] * l0 ==
+            near(1.8 - 0.002 * static_cast<double>(real.points() - 1 - i), 1e-5));
+      CHECK(nominal.stress_x[i] * nominal.first[i] == near(real.stress_x[i], 1e-5));
     }
   }
   TestFormat f;
@@ -215,7 +214,7 @@ TEST_CASE(
   const Test t =
       parse_tests("stretch,nominal_stress_MPa\n1,0\n1.25,0.5\n1.5,1\n2,2\n", "l.csv", f)[0];
   REQUIRE(t.points() == 2);
-  CHECK(t.first[1] == doctest::Approx(1.2));
+  CHECK(t.first[1] == near(1.2));
 }
 
 TEST_CASE(
@@ -277,7 +276,6 @@ TEST_CASE("any table of numbers in any dialect is read back to the last digit, o
     CAPTURE(text);
     const Test t = parse_tests(text, "l.csv", {}).at(0);
     CHECK(t.first == stretch);
-    for (std::size_t i = 0; i < 4; ++i)
-      CHECK(t.stress_x[i] == doctest::Approx(1e-3 * stress[i]).epsilon(1e-14));
+    for (std::size_t i = 0; i < 4; ++i) CHECK(t.stress_x[i] == near(1e-3 * stress[i], 1e-14));
   }
 }

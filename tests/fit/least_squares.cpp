@@ -9,6 +9,7 @@
 
 #include "core/tensor/dense.hpp"
 #include "identification/fit/bounded_linear.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -142,7 +143,7 @@ TEST_CASE("Rosenbrock's valley is followed to its end, also along a bound") {
   const auto s = least_squares(q);
   CHECK(s.kkt <= 1e-8);
   CHECK((s.p - vec({0.5, 0.25})).norm() <= 1e-10);
-  CHECK(s.cost == doctest::Approx(0.125).epsilon(1e-12));
+  CHECK(s.cost == near(0.125, 1e-12));
 }
 
 TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm") {
@@ -150,7 +151,7 @@ TEST_CASE("a fixed parameter stays, and a parameter without effect does no harm"
   auto q = e.problem(vec({1, 0.2}), vec({-10, 0.2}), vec({10, 0.2}));
   auto s = least_squares(q);
   CHECK(s.p[1] == 0.2);
-  CHECK(s.p[0] == doctest::Approx(e.best_p0(0.2)).epsilon(1e-10));
+  CHECK(s.p[0] == near(e.best_p0(0.2), 1e-10));
 
   q = e.problem(vec({1, 0, 7}), vec({-10, -10, -10}), vec({10, 10, 10}));
   q.typical = VecX::Ones(3);
@@ -189,7 +190,7 @@ TEST_CASE(
   CHECK(slight.why == "optimal to a thirtieth of the standard errors; the model has kinks");
   CHECK(std::abs(slight.p[0] - c) < 0.03 * std::sqrt(covariance(slight)(0, 0)));
   CHECK_FALSE(strong.converged);
-  CHECK(strong.p[0] == doctest::Approx(c));
+  CHECK(strong.p[0] == near(c));
 }
 
 TEST_CASE("steps into a region without model are shortened, a start without model is reported") {
@@ -202,7 +203,7 @@ TEST_CASE("steps into a region without model are shortened, a start without mode
   q.size = 2;
   const auto s = least_squares(q);
   CHECK(s.converged);
-  CHECK(s.p[0] == doctest::Approx(4).epsilon(1e-10));
+  CHECK(s.p[0] == near(4, 1e-10));
   q.start = vec({-1});
   const auto none = least_squares(q);
   CHECK(!none.converged);
@@ -249,8 +250,8 @@ TEST_CASE(
     const MatX cov = covariance(s);
     if (trial == 0) {
       const double variance = s.r.squaredNorm() / 19;
-      CHECK(cov(0, 0) == doctest::Approx(variance / 21).epsilon(1e-9));
-      CHECK(cov(1, 1) == doctest::Approx(variance / x.squaredNorm()).epsilon(1e-9));
+      CHECK(cov(0, 0) == near(variance / 21, 1e-9));
+      CHECK(cov(1, 1) == near(variance / x.squaredNorm(), 1e-9));
       CHECK(std::abs(cov(0, 1)) <= 1e-9 * cov(0, 0));
     }
     covered += std::abs(s.p[1] - 2) <=
@@ -272,10 +273,10 @@ TEST_CASE(
   const auto s = least_squares(q);
   CHECK(s.converged);
   CHECK(s.kkt <= 1e-8);
-  CHECK(std::abs(s.p[0]) == doctest::Approx(std::sqrt(1 / 1.01)).epsilon(1e-9));
+  CHECK(std::abs(s.p[0]) == near(std::sqrt(1 / 1.01), 1e-9));
   // at a bound there is one side only
   q.lower = vec({0});
-  CHECK(least_squares(q).p[0] == doctest::Approx(std::sqrt(1 / 1.01)).epsilon(1e-9));
+  CHECK(least_squares(q).p[0] == near(std::sqrt(1 / 1.01), 1e-9));
 
   // here the flat place is the optimum: reached from far, where J^T J alone tells nothing of the
   // curvature

@@ -11,6 +11,7 @@
 #include "identification/fit/identifiability.hpp"
 #include "material/catalogue.hpp"
 #include "support/correlated.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -78,12 +79,12 @@ TEST_CASE(
     CHECK(!f.symmetric[3]);
     const bool mirrored = apart(f.best.p[3], -expected.best.p[3]) < 1;
     CHECK(apart(f.best.p[3], mirrored ? -expected.best.p[3] : expected.best.p[3]) <= 1e-4);
-    CHECK(f.covariance(3, 3) == doctest::Approx(expected.covariance(3, 3)).epsilon(1e-4));
+    CHECK(f.covariance(3, 3) == near(expected.covariance(3, 3), 1e-4));
     const Profile p = profile_of(q, f, 3);
     const double below = f.best.p[3] - p.low, above = p.high - f.best.p[3],
                  centre = expected.best.p[3];
-    CHECK((mirrored ? above : below) == doctest::Approx(centre - known.low).epsilon(1e-2));
-    CHECK((mirrored ? below : above) == doctest::Approx(known.high - centre).epsilon(1e-2));
+    CHECK((mirrored ? above : below) == near(centre - known.low, 1e-2));
+    CHECK((mirrored ? below : above) == near(known.high - centre, 1e-2));
   }
 }
 
@@ -110,8 +111,7 @@ TEST_CASE(
       CHECK(std::isnan(f.covariance(3, 3)));
       for (int i : {0, 1, 2}) {
         CAPTURE(i);
-        CHECK(std::sqrt(f.covariance(i, i)) ==
-              doctest::Approx(std::sqrt(without.covariance(i, i))).epsilon(0.02));
+        CHECK(std::sqrt(f.covariance(i, i)) == near(std::sqrt(without.covariance(i, i)), 0.02));
       }
       const Profile p = profile_of(q, f, 3);
       CHECK(p.low < f.best.p[3]);
@@ -158,8 +158,8 @@ TEST_CASE(
   CHECK(apart(a.best.p[3], b.best.p[3]) <= 0.05);
   CHECK(!x.low_open);
   CHECK(!y.high_open);
-  CHECK(y.high - b.best.p[3] == doctest::Approx(x.high - a.best.p[3]).epsilon(0.02));
-  CHECK(b.best.p[3] - y.low == doctest::Approx(a.best.p[3] - x.low).epsilon(0.02));
+  CHECK(y.high - b.best.p[3] == near(x.high - a.best.p[3], 0.02));
+  CHECK(b.best.p[3] - y.low == near(a.best.p[3] - x.low, 0.02));
   FitProblem yeoh = other;
   yeoh.law = {{Yeoh{0.01, 0.1, 0.1}}, {hgo_fibre(0.1, 1, 80)}, volume};
   yeoh.free = {{"matrix.yeoh.a1", 0.01, 0, 10}, {"matrix.yeoh.a2", 0.1, 0, 10},
@@ -227,5 +227,5 @@ TEST_CASE("a tie to a number that is not fitted, and one with factor and offset"
   CHECK(truth.fibres[1].alpha_deg == 110);
   CHECK(std::get<HgoFibre>(truth.fibres[1].law).c2 == 2);
   q.tests = measured(truth, 0, 1);
-  CHECK(fit(q, {.starts = 2}).best.p[0] == doctest::Approx(0.3).epsilon(1e-9));
+  CHECK(fit(q, {.starts = 2}).best.p[0] == near(0.3, 1e-9));
 }

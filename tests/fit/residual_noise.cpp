@@ -10,6 +10,7 @@
 #include "core/base/student.hpp"
 #include "identification/fit/identifiability.hpp"
 #include "support/correlated.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -50,9 +51,8 @@ VecX drawn(const std::vector<Eigen::Index>& curves, double rho, Random& random) 
 TEST_CASE("Student's factor at 95 %") {
   for (const auto& [freedom, factor] :
        {std::pair{2., 4.303}, {3., 3.182}, {5., 2.571}, {10., 2.228}, {30., 2.042}, {120., 1.980}})
-    CHECK(student_95(freedom) == doctest::Approx(factor).epsilon(freedom < 4 ? 0.01 : 0.001));
-  CHECK(student_95(std::numeric_limits<double>::infinity()) ==
-        doctest::Approx(1.959964).epsilon(1e-6));
+    CHECK(student_95(freedom) == near(factor, freedom < 4 ? 0.01 : 0.001));
+  CHECK(student_95(std::numeric_limits<double>::infinity()) == near(1.959964, 1e-6));
 }
 
 TEST_CASE("covariance, variance along a direction and likelihood are those of the dense matrices") {
@@ -69,13 +69,12 @@ TEST_CASE("covariance, variance along a direction and likelihood are those of th
   CHECK((got.topLeftCorner(2, 2) - expected_2).norm() <= 1e-12 * expected_2.norm());
   CHECK(std::isnan(got(2, 2)));
   const VecX v = normal(20, random);
-  CHECK(along(noise, v).variance == doctest::Approx(v.dot(V * v)).epsilon(1e-12));
+  CHECK(along(noise, v).variance == near(v.dot(V * v), 1e-12));
   // the factor is the ratio of the errors, and that of Student's factors, which is one for a noise
   // that is told
   const VecX factor = interval_factors(J, {false, false, false}, noise);
   for (int i = 0; i < 3; ++i)
-    CHECK(factor[i] ==
-          doctest::Approx(std::sqrt(expected(i, i) / inverse(i, i)) / noise.total()).epsilon(1e-9));
+    CHECK(factor[i] == near(std::sqrt(expected(i, i) / inverse(i, i)) / noise.total(), 1e-9));
   //   -2 ln L of the autoregression, with the deviation that is best for each rho
   const VecX r = drawn({7, 1, 12}, 0.8, random);
   double lowest = 1e300;
@@ -88,10 +87,9 @@ TEST_CASE("covariance, variance along a direction and likelihood are those of th
     lowest = std::min(lowest, 20 * std::log(Q / 20) + std::log(R.determinant()) -
                                   20 * std::log(1 - unit.rho * unit.rho));
   }
-  CHECK(minus_two_log_likelihood(r, noise) == doctest::Approx(lowest).epsilon(1e-4));
+  CHECK(minus_two_log_likelihood(r, noise) == near(lowest, 1e-4));
   noise.rho = 0;
-  CHECK(minus_two_log_likelihood(r, noise) ==
-        doctest::Approx(20 * std::log(r.squaredNorm() / 20)).epsilon(1e-12));
+  CHECK(minus_two_log_likelihood(r, noise) == near(20 * std::log(r.squaredNorm() / 20), 1e-12));
 }
 
 TEST_CASE("correlation and size of known noise are found, whatever the parameters took from it") {
@@ -111,8 +109,8 @@ TEST_CASE("correlation and size of known noise are found, whatever the parameter
       mean_rho += n.rho / 60, mean_square += n.deviation * n.deviation / 60;
       if (n.rho == 0) CHECK(n.effective == 240);
     }
-    CHECK(mean_rho == doctest::Approx(rho).epsilon(0.05).scale(rho > 0 ? 0 : 1));
-    CHECK(mean_square == doctest::Approx(1).epsilon(rho > 0.95 ? 0.35 : 0.15));
+    CHECK(mean_rho == near(rho, 0.05, rho > 0 ? 0 : 0.05));
+    CHECK(mean_square == near(1, rho > 0.95 ? 0.35 : 0.15));
   }
 }
 
@@ -121,8 +119,8 @@ TEST_CASE(
   Random random(2);
   const std::vector<Eigen::Index> curves{20000};
   const ResidualNoise n = residual_noise(drawn(curves, 0.9, random), MatX(20000, 0), curves, 1);
-  CHECK(n.rho == doctest::Approx(0.9).epsilon(0.02));
-  CHECK(n.effective == doctest::Approx(20000 * (1 - n.rho) / (1 + n.rho)).epsilon(0.01));
+  CHECK(n.rho == near(0.9, 0.02));
+  CHECK(n.effective == near(20000 * (1 - n.rho) / (1 + n.rho), 0.01));
   const std::vector<Eigen::Index> short_ones(10, 30);
   const ResidualNoise drift =
       residual_noise(drawn(short_ones, 0.999, random), MatX(300, 0), short_ones, 1);
@@ -158,7 +156,7 @@ TEST_CASE("the bootstrap holds the estimate where residuals have a mean and a tr
     CHECK(b.high[0] > best.p[0]);
     // and is as wide as the standard error says
     const double error = std::sqrt(covariance(best.J, {false}, noise)(0, 0));
-    CHECK(b.high[0] - b.low[0] == doctest::Approx(2 * 1.96 * error).epsilon(0.45));
+    CHECK(b.high[0] - b.low[0] == near(2 * 1.96 * error, 0.45));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "mechanics/material/at_rest.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -65,8 +66,8 @@ TEST_CASE(
     }
     ++raised;
     CHECK(s->key == "matrix.yeoh.a1");
-    CHECK(s->taken == doctest::Approx(s->least).epsilon(1e-9));
-    CHECK(problem.free[0].lower == doctest::Approx(s->least / 2));
+    CHECK(s->taken == near(s->least, 1e-9));
+    CHECK(problem.free[0].lower == near(s->least / 2));
     CHECK(shear_modulus(found.material) == s->taken);
     CHECK(s->fitted < s->taken);
     CHECK((2 * found.best.cost - before) / (s->noise * s->noise) < 3.84);
@@ -99,8 +100,7 @@ TEST_CASE("the least modulus is the standard error of a neo-Hookean modulus alon
   const FitResult found = fit(problem, few);
   // covariance = s^2 (J^T J)^-1, and mu = 2 a1
   const double s = std::sqrt(2 * found.best.cost / static_cast<double>(found.best.r.size() - 1));
-  CHECK(least_shear_modulus(problem, s) ==
-        doctest::Approx(2 * std::sqrt(covariance(found.best)(0, 0))).epsilon(1e-5));
+  CHECK(least_shear_modulus(problem, s) == near(2 * std::sqrt(covariance(found.best)(0, 0)), 1e-5));
 }
 
 TEST_CASE("every law of the matrix gets stiffness at rest by one of its numbers") {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -49,8 +50,8 @@ TEST_CASE("one file of several protocols: split into tests, or one of them chose
   CHECK(tests[0].name == "s_a");
   CHECK(tests[0].first == std::vector{1.1, 1.3});
   CHECK(tests[0].second == std::vector{1.2, 1.4});
-  CHECK(tests[1].stress_x[1] == doctest::Approx(0.06).epsilon(1e-15));
-  CHECK(tests[1].stress_z[0] == doctest::Approx(0.005).epsilon(1e-15));
+  CHECK(tests[1].stress_x[1] == near(0.06, 1e-15));
+  CHECK(tests[1].stress_z[0] == near(0.005, 1e-15));
   f.split = "", f.where = {{"protocol", "b"}};
   const auto one = tests_of(parse_table(two_protocols, "t"), f);
   REQUIRE(one.size() == 1);
@@ -66,13 +67,13 @@ TEST_CASE("strain measures and units become stretches and MPa") {
     return tests_of(parse_table("e,s\n0,0\n" + cell + ",5e4\n", "t"), f)[0];
   };
   CHECK(read("0.25").first[1] == 1.25);
-  CHECK(read("0.25").stress_x[1] == doctest::Approx(0.05).epsilon(1e-15));
+  CHECK(read("0.25").stress_x[1] == near(0.05, 1e-15));
   f.strain_unit = StrainUnit::percent;
   CHECK(read("25").first[1] == 1.25);
   f.strain_unit = StrainUnit::fraction, f.strain = StrainMeasure::green_lagrange;
-  CHECK(read("0.28125").first[1] == doctest::Approx(1.25).epsilon(1e-15));
+  CHECK(read("0.28125").first[1] == near(1.25, 1e-15));
   f.strain = StrainMeasure::log;
-  CHECK(read("0.2").first[1] == doctest::Approx(std::exp(0.2)).epsilon(1e-15));
+  CHECK(read("0.2").first[1] == near(std::exp(0.2), 1e-15));
   f.like.kind = TestKind::simple_shear;
   CHECK(read("0.2").first == std::vector{0., 0.2});
 }
@@ -118,10 +119,10 @@ TEST_CASE(
   CHECK(t.time == std::vector<double>{4, 5});
   CHECK(t.before.time == std::vector<double>{0.5, 1, 2, 3});
   // 9 mm + 1 mm are the length at rest
-  CHECK(t.before.first[3] == doctest::Approx(1.2).epsilon(1e-14));
-  CHECK(t.first[0] == doctest::Approx(1.1).epsilon(1e-14));
-  CHECK(t.stress_x[0] == doctest::Approx(2.0 / 3).epsilon(1e-14));  // of what is compared
-  CHECK(t.stress_x[1] == doctest::Approx(1).epsilon(1e-14));
+  CHECK(t.before.first[3] == near(1.2, 1e-14));
+  CHECK(t.first[0] == near(1.1, 1e-14));
+  CHECK(t.stress_x[0] == near(2.0 / 3, 1e-14));  // of what is compared
+  CHECK(t.stress_x[1] == near(1, 1e-14));
 }
 
 TEST_CASE("forces that are normalised need no sizes, others do") {

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "material/catalogue.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 using test::Curve, test::fit_uniaxial, test::curve_error;
@@ -106,8 +107,8 @@ TEST_CASE("a fitted fibre angle comes back") {
                    Material{{Yeoh{0.05, 0.05, 0.02}}, {hgo_fibre(0.1, 0.3, 5)}, volume},
                    {free("fibres[0].alpha", 5, 0, 90), free("fibres[0].hgo.c1", 0.5, 0, 5)}, {});
   CHECK(f.best.converged);
-  CHECK(f.best.p[0] == doctest::Approx(25).epsilon(1e-6));
-  CHECK(f.best.p[1] == doctest::Approx(0.1).epsilon(1e-6));
+  CHECK(f.best.p[0] == near(25, 1e-6));
+  CHECK(f.best.p[1] == near(0.1, 1e-6));
 }
 
 TEST_CASE(
@@ -164,8 +165,8 @@ TEST_CASE("Table 1, Yeoh: the printed column is 3/2 of a least-squares fit with 
   CHECK(std::abs(error(scaled).mean_percent - 2.1) <= 0.2);
   CHECK(error(scaled).mean_percent <= 1.2 * f.quality.mean_error_percent);
   // (-0.041, 0.199, 0.004): a3 is the soft combination, within one standard error of the paper's
-  CHECK(f.best.p[0] == doctest::Approx(-0.059 / 1.5).epsilon(0.06));
-  CHECK(f.best.p[1] == doctest::Approx(0.291 / 1.5).epsilon(0.03));
+  CHECK(f.best.p[0] == near(-0.059 / 1.5, 0.06));
+  CHECK(f.best.p[1] == near(0.291 / 1.5, 0.03));
   CHECK(std::abs(f.best.p[2] - 0.016 / 1.5) <= std::sqrt(f.covariance(2, 2)));
 }
 
@@ -182,8 +183,8 @@ TEST_CASE("Table 1, HGO: the printed column is -3/2 of a least-squares fit with 
   };
   CHECK(std::abs(stress_at(printed, 0.6) + 1.724) <= 5e-4);  // it pushes where the skin pulls
   CHECK(std::abs(error(turned).mean_percent - 2.5) <= 0.2);
-  CHECK(f.best.p[0] == doctest::Approx(-0.312 / 1.5).epsilon(0.04));
-  CHECK(f.best.p[1] == doctest::Approx(0.297 / 1.5).epsilon(0.04));
+  CHECK(f.best.p[0] == near(-0.312 / 1.5, 0.04));
+  CHECK(f.best.p[1] == near(0.297 / 1.5, 0.04));
   CHECK(std::abs(f.best.p[2] - 0.087) <= std::sqrt(f.covariance(2, 2)));
 }
 
@@ -196,7 +197,7 @@ TEST_CASE("with every modulus positive the best fit of the curve has no fibre") 
   CHECK(std::isnan(f.covariance(4, 4)));  // c2 of a fibre that is not there
   CHECK(f.best.p[0] == 0);
   const double cost = fit_uniaxial(abdomen(), yeoh, yeoh_parameters(0)).best.cost;
-  CHECK(f.best.cost == doctest::Approx(cost).epsilon(1e-12));
+  CHECK(f.best.cost == near(cost, 1e-12));
 }
 
 TEST_CASE(

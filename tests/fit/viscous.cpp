@@ -7,6 +7,7 @@
 #include "identification/fit/fit.hpp"
 #include "identification/fit/test_range.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -67,10 +68,9 @@ TEST_CASE(
     options.starts = 1;
     const FitResult found = fit(problem, options);
     CAPTURE(static_cast<int>(kind));
-    CHECK(found.best.p[0] == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(found.best.p[0] == near(0.05, 1e-6));
     for (std::size_t i = 0; i < 3; ++i)
-      CHECK(found.best.p[static_cast<Eigen::Index>(i) + 1] ==
-            doctest::Approx((*law.viscous)[i].gamma).epsilon(1e-6));
+      CHECK(found.best.p[static_cast<Eigen::Index>(i) + 1] == near((*law.viscous)[i].gamma, 1e-6));
   }
 }
 
@@ -89,9 +89,9 @@ TEST_CASE(
   FitOptions options;
   options.starts = 3;
   const FitResult found = fit(problem, options);
-  CHECK(found.best.p[0] == doctest::Approx(0.2).epsilon(1e-6));
-  CHECK(found.best.p[1] == doctest::Approx(0.3).epsilon(1e-5));
-  CHECK(found.best.p[2] == doctest::Approx(0.5).epsilon(1e-5));
+  CHECK(found.best.p[0] == near(0.2, 1e-6));
+  CHECK(found.best.p[1] == near(0.3, 1e-5));
+  CHECK(found.best.p[2] == near(0.5, 1e-5));
   CHECK(std::abs(found.best.p[3]) < 1e-6);
 }
 

@@ -13,6 +13,7 @@
 #include "mechanics/mesh/select.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -133,11 +134,10 @@ TEST_CASE(
   for (double x : {0.03, 0.1, 0.3, 0.45, 0.62, 0.97, 1.0}) {
     CAPTURE(x);
     const PathPlace smooth = place_on(t, {0, 1}, x);
-    CHECK(of(smooth.value, false) == doctest::Approx(cubic(x)).epsilon(1e-12));
-    CHECK(of(smooth.rate, false) == doctest::Approx(1 + 4 * x - 9 * x * x).epsilon(1e-11));
+    CHECK(of(smooth.value, false) == near(cubic(x), 1e-12));
+    CHECK(of(smooth.rate, false) == near(1 + 4 * x - 9 * x * x, 1e-11));
     const PathPlace kink = place_on(t, {0, 0.5, 1}, x);
-    CHECK(of(kink.value, true) ==
-          doctest::Approx(x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x)).epsilon(1e-12));
+    CHECK(of(kink.value, true) == near(x > 0.5 ? cubic(0.5) - 7 * (x - 0.5) : cubic(x), 1e-12));
   }
   CHECK(place_on(t, {0, 1}, -0.1).value.empty());
   CHECK(place_on(t, {0, 1}, 1.04).exists);
@@ -149,11 +149,11 @@ TEST_CASE("A history that comes back is followed in its order") {
   Abscissa over;
   over.t = {0, 0.5, 1}, over.s = {0, 2, 0};
   std::size_t piece = 0;
-  CHECK(*over.find(1, piece, 0) == doctest::Approx(0.25));
-  CHECK(*over.find(2, piece, 0) == doctest::Approx(0.5));
+  CHECK(*over.find(1, piece, 0) == near(0.25));
+  CHECK(*over.find(2, piece, 0) == near(0.5));
   piece = 1;
-  CHECK(*over.find(1, piece, 0) == doctest::Approx(0.75));
-  CHECK(over.rate(1) == doctest::Approx(-0.25));
+  CHECK(*over.find(1, piece, 0) == near(0.75));
+  CHECK(over.rate(1) == near(-0.25));
   CHECK_FALSE(over.find(2.1, piece, 0.01));
 }
 
@@ -193,8 +193,8 @@ TEST_CASE(
       "data: [{kind: scene, solve: there_and_back.yaml, file: cycle.csv, columns: {u_ind: travel_mm, force: force_N}}]\n" +
       std::string(law) +
       "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}, {key: matrix.yeoh.a3}]\ndraft: false\n");
-  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
-  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
+  CHECK(found.fit.best.p[0] == near(0.012, 1e-4));
+  CHECK(found.fit.best.p[1] == near(0.03, 1e-4));
 }
 
 TEST_CASE("A law is found from the travel of an indenter that is pushed, measured over its force") {
@@ -217,9 +217,9 @@ TEST_CASE("A law is found from the travel of an indenter that is pushed, measure
   REQUIRE(found.record.curves.size() == 1);
   CHECK(found.record.curves[0].quantity == "u_ind");
   CHECK(found.record.curves[0].x_name == "force");
-  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
-  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-4));
-  CHECK(found.fit.best.p[2] == doctest::Approx(0.01).epsilon(1e-3));
+  CHECK(found.fit.best.p[0] == near(0.012, 1e-4));
+  CHECK(found.fit.best.p[1] == near(0.03, 1e-4));
+  CHECK(found.fit.best.p[2] == near(0.01, 1e-3));
   holds(refusal(data + ", touch_offset: 0.1}]\n" + law + three), "data[0].touch_offset");
 }
 
@@ -250,8 +250,8 @@ TEST_CASE("The force on one of two indenters is over its own travel and against 
           "law: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n") +
       "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}]\ndraft: false\n");
   REQUIRE(found.fit.best.converged);
-  CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-5));
-  CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-5));
+  CHECK(found.fit.best.p[0] == near(0.012, 1e-5));
+  CHECK(found.fit.best.p[1] == near(0.03, 1e-5));
 }
 
 TEST_CASE(
@@ -289,9 +289,9 @@ TEST_CASE(
                              "}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\n";
     const Found found = fitted(std::string(force) + "}]\n" + from + three + "jobs: 2\n");
     REQUIRE(found.fit.best.converged);
-    CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-6));
-    CHECK(found.fit.best.p[1] == doctest::Approx(0.03).epsilon(1e-6));
-    CHECK(found.fit.best.p[2] == doctest::Approx(0.01).epsilon(1e-6));
+    CHECK(found.fit.best.p[0] == near(0.012, 1e-6));
+    CHECK(found.fit.best.p[1] == near(0.03, 1e-6));
+    CHECK(found.fit.best.p[2] == near(0.01, 1e-6));
     REQUIRE(found.record.curves.size() == 1);
     CHECK(found.record.curves[0].unit == "N");
     CHECK(found.record.curves[0].max_error_percent < 1e-5);
@@ -329,8 +329,8 @@ TEST_CASE("Touch offset, force offset and compliance of the machine are found be
                                "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0]." +
                                machine.key + "\"}]\ndraft: false\n");
     REQUIRE(found.fit.best.converged);
-    CHECK(found.fit.best.p[0] == doctest::Approx(0.012).epsilon(1e-4));
-    CHECK(found.fit.best.p[1] == doctest::Approx(machine.value).epsilon(1e-3));
+    CHECK(found.fit.best.p[0] == near(0.012, 1e-4));
+    CHECK(found.fit.best.p[1] == near(machine.value, 1e-3));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mechanics/material/parameters.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -197,7 +198,7 @@ void check_scalar(const std::string& text, const std::string& scalar, const std:
                : end.scalars.at(scalar);
   };
   const double difference = (last(more) - last(less)) / (2 * h);
-  CHECK(told == doctest::Approx(difference).epsilon(tolerance));
+  CHECK(told == near(difference, tolerance));
 }
 
 TEST_CASE(

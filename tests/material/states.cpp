@@ -10,6 +10,7 @@
 #include "core/tensor/invariants.hpp"
 #include "core/tensor/voigt.hpp"
 #include "material/catalogue.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -44,7 +45,7 @@ TEST_CASE("held uniaxial states are those of the uniaxial solver, for every law"
       const Uniaxial u = uniaxial_incompressible(m, l);
       REQUIRE(s.converged);
       CHECK(std::abs(s.sigma(0, 0) - u.sigma) <= 1e-10 * (std::abs(u.sigma) + 0.1));
-      CHECK(s.F(2, 2) == doctest::Approx(u.stretch[2]).epsilon(1e-10));
+      CHECK(s.F(2, 2) == near(u.stretch[2], 1e-10));
     }
 }
 
@@ -69,7 +70,7 @@ TEST_CASE(
         const auto P = measured_stress(s, kind, StressMeasure::nominal);
         // both sides pull in an equibiaxial test
         const double work = kind == TestKind::equibiaxial ? P[0] + P[1] : P[0];
-        CHECK(work == doctest::Approx(slope).epsilon(1e-8).scale(1));
+        CHECK(work == near(slope, 1e-8));
         CHECK(std::abs(s.F.determinant() - 1) <= 1e-14);
         if (kind == TestKind::uniaxial) CHECK(std::abs(s.sigma(2, 2)) <= 1e-9);
         if (shear == OffAxisShear::free && kind != TestKind::simple_shear)
@@ -88,7 +89,7 @@ TEST_CASE("off-axis fibres shear a free sheet and not a held one") {
   // the mirrored specimen shears the other way
   const PlaneState mirrored =
       state(positive_hgo_yeoh(-30), TestKind::uniaxial, 1.3, 1, OffAxisShear::free);
-  CHECK(mirrored.F(0, 2) == doctest::Approx(-free.F(0, 2)).epsilon(1e-9));
+  CHECK(mirrored.F(0, 2) == near(-free.F(0, 2), 1e-9));
 }
 
 TEST_CASE("exact values of equibiaxial tension and simple shear") {
@@ -109,17 +110,13 @@ TEST_CASE("stress measures are F's, also in a sheared state") {
         state(m, kind, kind == TestKind::simple_shear ? 0.4 : 1.3, 1.1, OffAxisShear::free);
     const Mat3 P = s.sigma * s.F.inverse().transpose(), S = s.F.inverse() * P;
     const int column = kind == TestKind::simple_shear ? 2 : 0;
-    CHECK(measured_stress(s, kind, StressMeasure::cauchy)[0] ==
-          doctest::Approx(s.sigma(0, column)).epsilon(1e-13));
-    CHECK(measured_stress(s, kind, StressMeasure::nominal)[0] ==
-          doctest::Approx(P(0, column)).epsilon(1e-12));
-    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[0] ==
-          doctest::Approx(S(0, column)).epsilon(1e-12));
+    CHECK(measured_stress(s, kind, StressMeasure::cauchy)[0] == near(s.sigma(0, column), 1e-13));
+    CHECK(measured_stress(s, kind, StressMeasure::nominal)[0] == near(P(0, column), 1e-12));
+    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[0] == near(S(0, column), 1e-12));
     if (kind == TestKind::simple_shear) continue;
-    CHECK(measured_stress(s, kind, StressMeasure::nominal)[1] ==
-          doctest::Approx(P(2, 2)).epsilon(1e-12).scale(1e-3));
-    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[1] ==
-          doctest::Approx(S(2, 2)).epsilon(1e-12).scale(1e-3));
+    // 0 in a uniaxial test: rounding of stresses of about 1 MPa
+    CHECK(measured_stress(s, kind, StressMeasure::nominal)[1] == near(P(2, 2), 1e-12, 1e-15));
+    CHECK(measured_stress(s, kind, StressMeasure::second_piola)[1] == near(S(2, 2), 1e-12, 1e-15));
   }
 }
 

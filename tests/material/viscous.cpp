@@ -10,6 +10,7 @@
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/voigt.hpp"
 #include "material/catalogue.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -138,8 +139,7 @@ TEST_CASE("viscous: ramp and hold against the convolution, error of second order
     const bool smooth =
         std::all_of(named.material.fibres.begin(), named.material.fibres.end(),
                     [](const Fibre& f) { return f.tension_switch == FibreSwitch::off; });
-    if (smooth && coarse > 1e-9)
-      CHECK(std::log2(coarse / fine) == doctest::Approx(2).epsilon(0.02));
+    if (smooth && coarse > 1e-9) CHECK(std::log2(coarse / fine) == near(2, 0.02));
   }
 }
 
@@ -243,8 +243,8 @@ TEST_CASE("viscous: storage and loss of a small cycle are those of the spectrum"
       storage += 2. / n * tau * std::sin(phase), loss += 2. / n * tau * std::cos(phase);
     }
     CAPTURE(draw);
-    CHECK(storage == doctest::Approx(expected_storage).epsilon(3e-5));
-    CHECK(loss == doctest::Approx(expected_loss).epsilon(3e-5));
+    CHECK(storage == near(expected_storage, 3e-5));
+    CHECK(loss == near(expected_loss, 3e-5));
   }
 }
 
@@ -254,7 +254,7 @@ TEST_CASE("viscous: one branch a decade follows a continuous spectrum") {
     const auto branches = branches_of(spectrum);
     double sum = 0;
     for (const ViscousBranch& b : branches) sum += b.gamma;
-    CHECK(sum == doctest::Approx(0.3 * std::log(tau2 / tau1)).epsilon(1e-13));
+    CHECK(sum == near(0.3 * std::log(tau2 / tau1), 1e-13));
     for (double t = tau1 / 10; t < 10 * tau2; t *= 1.3) {
       double discrete = 0, exact = 0;
       for (const ViscousBranch& b : branches) discrete += b.gamma * std::exp(-t / b.tau);

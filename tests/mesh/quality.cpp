@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "mesh/cells.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 using example::one_cell;
@@ -14,17 +15,17 @@ TEST_CASE("quality of a turned brick: edges, aspect, Jacobian and volume in clos
   const Mat3 R = example::turn(25, {1, 2, 3});
   const Quality q =
       quality(one_cell([&](const Vec3& x) { return Vec3(R * Vec3(2 * x[0], x[1], 0.5 * x[2])); }));
-  CHECK(q.volume == doctest::Approx(8).epsilon(1e-14));
-  CHECK(q.least_jacobian == doctest::Approx(1).epsilon(1e-14));  // 2 * 1 * 0.5
-  CHECK(q.least_scaled_jacobian == doctest::Approx(1).epsilon(1e-14));
-  CHECK(q.shortest_edge == doctest::Approx(1).epsilon(1e-14));
-  CHECK(q.longest_edge == doctest::Approx(4).epsilon(1e-14));
-  CHECK(q.largest_aspect == doctest::Approx(4).epsilon(1e-14));
+  CHECK(q.volume == near(8, 1e-14));
+  CHECK(q.least_jacobian == near(1, 1e-14));  // 2 * 1 * 0.5
+  CHECK(q.least_scaled_jacobian == near(1, 1e-14));
+  CHECK(q.shortest_edge == near(1, 1e-14));
+  CHECK(q.longest_edge == near(4, 1e-14));
+  CHECK(q.largest_aspect == near(4, 1e-14));
 }
 
 TEST_CASE("a cell sheared by 45 degrees has the scaled Jacobian 1/sqrt(2)") {
   const Quality q = quality(one_cell([](const Vec3& x) { return Vec3(x[0] + x[1], x[1], x[2]); }));
-  CHECK(q.least_scaled_jacobian == doctest::Approx(1 / std::sqrt(2.0)).epsilon(1e-14));
+  CHECK(q.least_scaled_jacobian == near(1 / std::sqrt(2.0), 1e-14));
 }
 
 TEST_CASE("the Jacobian is the derivative of the position") {

@@ -14,6 +14,7 @@
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "mesh/cells.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -40,7 +41,7 @@ TEST_CASE("hex27: the Gauss points integrate polynomials of degree 5 in each dir
       double sum = 0;
       for (int g = 0; g < 27; ++g)
         sum += cell.weight[g] * std::pow(cell.gauss[g][0], p) * std::pow(cell.gauss[g][2], q);
-      CHECK(sum == doctest::Approx(p % 2 || q % 2 ? 0 : 8.0 / ((p + 1) * (q + 1))).epsilon(1e-14));
+      CHECK(sum == near(p % 2 || q % 2 ? 0 : 8.0 / ((p + 1) * (q + 1)), 1e-14, 1e-14));
     }
 }
 
@@ -74,7 +75,7 @@ TEST_CASE(
   };
   double value = 0;
   for (int a = 0; a < 15; ++a) value += cell.shape(xi)[a] * field(cell.node[a]);
-  CHECK(value == doctest::Approx(field(xi)).epsilon(1e-14));
+  CHECK(value == near(field(xi), 1e-14));
   for (int k = 0; k < 3; ++k) {
     const Vec3 h = 1e-5 * Vec3::Unit(k);
     CHECK((cell.gradient(xi).col(k) - (cell.shape(xi + h) - cell.shape(xi - h)) / 2e-5).norm() <
@@ -97,14 +98,12 @@ TEST_CASE(
         double sum = 0;
         for (int g = 0; g < cell.n_gauss; ++g) sum += cell.weight[g] * f(cell.gauss[g]);
         CHECK(sum ==
-              doctest::Approx(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3))
-                  .epsilon(1e-13));
+              near(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3), 1e-13));
         if (r > 0) continue;
         double on_facet = 0;  // 0, zeta = 0
         for (const FacetPoint& x : cell.facet_points[0])
           on_facet += x.weight * f(x.xi) * x.along_1.cross(x.along_2).norm();
-        CHECK(on_facet ==
-              doctest::Approx(factorial(p) * factorial(q) / factorial(p + q + 2)).epsilon(1e-13));
+        CHECK(on_facet == near(factorial(p) * factorial(q) / factorial(p + q + 2), 1e-13));
       }
 }
 
@@ -125,12 +124,9 @@ TEST_CASE(
     for (int k = 0; k < 3; ++k) CHECK((x(3 + k) - (x(k) + x((k + 1) % 3)) / 2).norm() < 1e-15);
     CHECK((x(6) - (x(0) + x(1) + x(2)) / 3).norm() < 1e-15);
     const VecX shares = nodal_areas(mesh, {{0, f}}) / area.norm();
-    CHECK(shares.sum() == doctest::Approx(1).epsilon(1e-14));
+    CHECK(shares.sum() == near(1, 1e-14));
     for (int k = 0; k < 7; ++k)
-      CHECK(shares[n[k]] == doctest::Approx(k < 3   ? 1. / 20
-                                            : k < 6 ? 2. / 15
-                                                    : 9. / 20)
-                                .epsilon(1e-13));
+      CHECK(shares[n[k]] == near(k < 3 ? 1. / 20 : k < 6 ? 2. / 15 : 9. / 20, 1e-13));
   }
 }
 
@@ -142,9 +138,9 @@ TEST_CASE(
   CHECK(mesh.n_nodes() == 343);
   CHECK(mesh.n_cells() == 27);
   const Quality q = quality(mesh), before = quality(linear);
-  CHECK(q.volume == doctest::Approx(before.volume).epsilon(1e-14));
+  CHECK(q.volume == near(before.volume, 1e-14));
   CHECK(q.shortest_edge == before.shortest_edge);
-  CHECK(q.least_scaled_jacobian == doctest::Approx(before.least_scaled_jacobian).epsilon(1e-12));
+  CHECK(q.least_scaled_jacobian == near(before.least_scaled_jacobian, 1e-12));
   for (int e = 0; e < 27; ++e)
     for (int a = 0; a < 27; ++a) {
       Vec3 x = Vec3::Zero();
@@ -193,12 +189,12 @@ TEST_CASE("the straight cells between the nodes of hex27 fill the same block and
   CHECK(parts.n_cells() == 8 * 4);
   CHECK(parts.n_nodes() == quadratic.n_nodes());
   const Quality q = quality(parts);
-  CHECK(q.volume == doctest::Approx(12).epsilon(1e-14));
-  CHECK(q.least_scaled_jacobian == doctest::Approx(1).epsilon(1e-14));
+  CHECK(q.volume == near(12, 1e-14));
+  CHECK(q.least_scaled_jacobian == near(1, 1e-14));
   const Mesh tetrahedra = test::tetrahedra(test::block({0, 2, 3}, {0, 1}, {0, 3, 4})),
              in_them = between_nodes(tetrahedra);
   CHECK(in_them.n_cells() == 4 * 6 * 4);
-  CHECK(quality(in_them).volume == doctest::Approx(12).epsilon(1e-14));
+  CHECK(quality(in_them).volume == near(12, 1e-14));
   CHECK(quality(in_them).least_jacobian > 0);
 }
 
@@ -210,7 +206,7 @@ TEST_CASE(
     mesh.node_sets.clear();
     name_sides(mesh);
     const VecX areas = nodal_areas(mesh, mesh.facet_sets.at("top"));
-    CHECK(areas.sum() == doctest::Approx(12).epsilon(1e-14));
+    CHECK(areas.sum() == near(12, 1e-14));
     for (int i = 0; i < mesh.n_nodes(); ++i) {
       const Vec3& X = mesh.X[i];
       const double expected = X[1] < 1               ? 0
@@ -218,7 +214,7 @@ TEST_CASE(
                               : X == Vec3(1, 1, 1.5) ? 6 * 16.0 / 36
                               : X == Vec3(2, 1, 1.5) ? 6 * 4.0 / 36 + 3 * 4.0 / 36
                                                      : areas[i];
-      CHECK(areas[i] == doctest::Approx(expected).epsilon(1e-14));
+      CHECK(areas[i] == near(expected, 1e-14));
       CHECK((X[1] < 1 ? areas[i] == 0 : areas[i] > 0));
     }
     // a slanted plane keeps its area whichever side of the cells lies in it

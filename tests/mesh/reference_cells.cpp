@@ -11,6 +11,7 @@
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/raise.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -87,8 +88,8 @@ TEST_CASE(
     for (int k = 0; k < 20; ++k) {
       const Vec3 xi = inside(cell, random);
       const VecX N = cell.shape(xi), corners = cell.corner_shape(xi);
-      CHECK(N.sum() == doctest::Approx(1).epsilon(1e-14));
-      CHECK(corners.sum() == doctest::Approx(1).epsilon(1e-14));
+      CHECK(N.sum() == near(1, 1e-14));
+      CHECK(corners.sum() == near(1, 1e-14));
       CHECK(corners.minCoeff() > -1e-15);
       Vec3 by_nodes = Vec3::Zero(), by_corners = Vec3::Zero();
       for (int a = 0; a < cell.n_nodes; ++a) by_nodes += N[a] * cell.node[a];
@@ -111,8 +112,7 @@ TEST_CASE(
   Mat3 F;
   F << 1.3, 0.2, -0.1, 0.3, 0.9, 0.2, 0.1, -0.2, 1.1;
   for_every_cell([&](const ReferenceCell& cell) {
-    CHECK(quality(alone(cell, F)).volume ==
-          doctest::Approx(F.determinant() * volume_by_corners(cell)).epsilon(1e-13));
+    CHECK(quality(alone(cell, F)).volume == near(F.determinant() * volume_by_corners(cell), 1e-13));
     for (double w : cell.weight) CHECK(w > 0);
     // divergence theorem for every shape function: the integral of its gradient is that of N n over
     // the facets
@@ -172,7 +172,7 @@ TEST_CASE(
     for (int e = 0; e < parts.n_cells(); ++e)
       least = std::min(least, jacobian(parts, e, Vec3::Zero()).determinant());
     CHECK(least > 0);
-    CHECK(quality(parts).volume == doctest::Approx(volume_by_corners(cell)).epsilon(1e-13));
+    CHECK(quality(parts).volume == near(volume_by_corners(cell), 1e-13));
     std::vector<Vec3> X(cell.node.begin(), cell.node.begin() + cell.n_corners);
     std::vector<int> corners;
     for (int c = 0; c < cell.n_corners; ++c) corners.push_back(c);

@@ -14,6 +14,7 @@
 #include "meshing/exchange.hpp"
 #include "meshing/gmsh/gmsh_session.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -121,7 +122,7 @@ TEST_CASE("what an .inp may say of a mesh is read, what it says of a model is le
   CHECK(mesh.n_nodes() == 8);  // node 99 is of no cell
   CHECK(mesh.n_cells() == 1);
   CHECK(mesh.bodies == std::vector<std::string>{"Cube"});
-  CHECK(quality(mesh).volume == doctest::Approx(1));
+  CHECK(quality(mesh).volume == near(1));
   CHECK(mesh.node_sets.at("Odd") == std::vector<int>{0, 2, 4, 6});
   CHECK(mesh.node_sets.at("both") == std::vector<int>{0, 1, 2, 4, 6});
   CHECK(mesh.node_sets.at("dots") == mesh.node_sets.at("Odd"));
@@ -194,7 +195,7 @@ TEST_CASE(
   CHECK(mesh.bodies.size() == 2);
   const Quality q = quality(mesh);
   CHECK(q.least_jacobian > 0);  // flat tetrahedra make flat hexahedra, none is folded
-  CHECK(q.volume == doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.02));
+  CHECK(q.volume == near(16 * 16 * 2 + 3.141592653589793 * 36 * 2, 0.02));
   CHECK(q.longest_edge < 4.5);
   CHECK_FALSE(coincident_nodes(mesh, 1e-6));
   CHECK(mesh.facet_sets.size() == 6 + 2 + 1);  // box, cylinder, the circle between them once
@@ -211,7 +212,7 @@ TEST_CASE(
   CHECK(split.bodies == mesh.bodies);
   CHECK(quality(split).least_jacobian > 0);
   CHECK(quality(split).volume ==
-        doctest::Approx(16 * 16 * 2 + 3.141592653589793 * 36 * 2).epsilon(0.05));  // straight edges
+        near(16 * 16 * 2 + 3.141592653589793 * 36 * 2, 0.05));  // straight edges
   CHECK(split.facet_sets.size() == mesh.facet_sets.size());
   CHECK_FALSE(coincident_nodes(split, 1e-6));
   for (const Facet& f : boundary(split)) {
@@ -235,11 +236,10 @@ TEST_CASE(
   const Mesh read = read_msh(tetrahedra, notes);
   CHECK(read.type == CellType::tet15);
   CHECK(read.bodies == std::vector<std::string>{"flesh"});
-  CHECK(quality(read).volume == doctest::Approx(48).epsilon(1e-12));
+  CHECK(quality(read).volume == near(48, 1e-12));
   for (int n : read.node_sets.at("ends"))
     CHECK((std::abs(read.X[n][0]) < 1e-9 || std::abs(read.X[n][0] - 6) < 1e-9));
-  CHECK(nodal_areas(read, read.facet_sets.at("ends")).sum() ==
-        doctest::Approx(2 * 2 * 4).epsilon(1e-12));
+  CHECK(nodal_areas(read, read.facet_sets.at("ends")).sum() == near(2 * 2 * 4, 1e-12));
   {
     const GmshSession session;
     gmsh::model::occ::addSphere(0, 0, 0, 5);
@@ -248,7 +248,7 @@ TEST_CASE(
   }
   const Mesh ball = read_solid(path, false, 1, CellType::hex8, notes);
   CHECK(ball.bodies == std::vector<std::string>{""});
-  CHECK(quality(ball).volume == doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+  CHECK(quality(ball).volume == near(4. / 3 * 3.141592653589793 * 125, 0.03));
   // the same ball and a box as triangles
   const std::string facets = folder() + "/facets.stl";
   const auto meshed = [&](auto add) {
@@ -262,12 +262,12 @@ TEST_CASE(
   };
   meshed([] { gmsh::model::occ::addBox(0, 0, 0, 6, 2, 4); });
   const Mesh box = read_solid(facets, true, 1, CellType::hex8, notes);
-  CHECK(quality(box).volume == doctest::Approx(48).epsilon(1e-6));
+  CHECK(quality(box).volume == near(48, 1e-6));
   CHECK(quality(box).least_jacobian > 0);
   CHECK(box.facet_sets.size() >= 6);  // gmsh may cut a face of triangles into several
   meshed([] { gmsh::model::occ::addSphere(0, 0, 0, 5); });
   CHECK(quality(read_solid(facets, true, 1, CellType::hex8, notes)).volume ==
-        doctest::Approx(4. / 3 * 3.141592653589793 * 125).epsilon(0.03));
+        near(4. / 3 * 3.141592653589793 * 125, 0.03));
   std::ofstream(folder() + "/no.stl") << "nothing";
   CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, CellType::hex8, notes), Failure);
   std::ofstream(folder() + "/no.step") << "nothing";

@@ -1,4 +1,5 @@
 #include "meshing/grading.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -26,10 +27,10 @@ TEST_CASE(
   CHECK(x.front() == 0);
   CHECK(x.back() == 15);
   const auto s = steps(x);
-  for (int i = 0; i < 6; ++i) CHECK(s[i] == doctest::Approx(0.36).epsilon(1e-12));
+  for (int i = 0; i < 6; ++i) CHECK(s[i] == near(0.36, 1e-12));
   const double growth = s[6] / s[5];
   CHECK(growth > 1);
-  for (int i = 7; i < 11; ++i) CHECK(s[i] / s[i - 1] == doctest::Approx(growth).epsilon(1e-9));
+  for (int i = 7; i < 11; ++i) CHECK(s[i] / s[i - 1] == near(growth, 1e-9));
 }
 
 TEST_CASE("lines about a centre at 0 are exact mirror images, for even and odd numbers of cells") {
@@ -45,12 +46,12 @@ TEST_CASE("lines about a centre at 0 are exact mirror images, for even and odd n
     }
   }
   const auto odd = lines_to_centre(-15, 15, 15, 0.5, 0, "edge");
-  CHECK(odd[8] - odd[7] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(odd[8] - odd[7] == near(0.5, 1e-12));
 }
 
 TEST_CASE("lines to the top: the uppermost cell has its edge") {
   const auto y = lines_to_top(0, 4, 5, 0.5, "edge");
-  CHECK(y.back() - y[4] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(y.back() - y[4] == near(0.5, 1e-12));
   CHECK(y.front() == 0);
   const auto s = steps(y);
   for (int i = 0; i < 4; ++i) CHECK(s[i] > s[i + 1]);
@@ -68,24 +69,23 @@ TEST_CASE(
     "lines in another number are graded alike: exactly where cells are even or grow by one factor") {
   for (int n : {3, 7, 12, 15, 24}) {
     const auto s = steps(resampled(even_lines(0, 6, 12), n));
-    for (double step : s) CHECK(step == doctest::Approx(6.0 / n).epsilon(1e-12));
+    for (double step : s) CHECK(step == near(6.0 / n, 1e-12));
   }
   std::vector<double> growing{0};
   for (int i = 0; i < 12; ++i) growing.push_back(growing.back() + std::pow(1.3, i));
   for (int n : {3, 4, 6, 8, 18, 24}) {
     const auto s = steps(resampled(growing, n));
     REQUIRE(s.size() == static_cast<std::size_t>(n));
-    for (int i = 1; i < n; ++i)
-      CHECK(s[i] / s[i - 1] == doctest::Approx(std::pow(1.3, 12.0 / n)).epsilon(1e-9));
+    for (int i = 1; i < n; ++i) CHECK(s[i] / s[i - 1] == near(std::pow(1.3, 12.0 / n), 1e-9));
   }
   const auto graded = lines_to_centre(-15, 15, 22, 0.36, 2.2, "edge");
   const auto same = resampled(graded, 22), twice = resampled(graded, 44),
              odd = resampled(graded, 17);
   for (int i = 0; i <= 22; ++i) {
-    CHECK(same[i] == doctest::Approx(graded[i]).epsilon(1e-12));
-    CHECK(twice[2 * i] == doctest::Approx(graded[i]).epsilon(1e-12));
+    CHECK(same[i] == near(graded[i], 1e-12));
+    CHECK(twice[2 * i] == near(graded[i], 1e-12));
   }
-  for (int i = 0; i <= 17; ++i) CHECK(odd[i] == doctest::Approx(-odd[17 - i]).epsilon(1e-12));
+  for (int i = 0; i <= 17; ++i) CHECK(odd[i] == near(-odd[17 - i], 1e-12));
   for (double step : steps(odd)) CHECK(step > 0);
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/traps.hpp"
 #include "meshing/gmsh/gmsh_session.hpp"
 #include "meshing/read_surface.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -103,8 +104,7 @@ TEST_CASE("what gmsh writes as STL is read as gmsh reads it") {
     CHECK(surface.points.size() == n_points);
     CHECK(2 * (surface.points.size() - 2) ==
           surface.corners.size());  // closed, like a sphere (Euler)
-    for (const Vec3& x : surface.points)
-      CHECK((x - Vec3(1, 2, 3)).norm() == doctest::Approx(5).epsilon(1e-6));
+    for (const Vec3& x : surface.points) CHECK((x - Vec3(1, 2, 3)).norm() == near(5, 1e-6));
   }
 }
 

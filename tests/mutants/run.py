@@ -30,12 +30,18 @@ def read_list():
     return mutants
 
 
+def pattern(old):
+    """of a piece of code, wherever a formatter breaks its lines"""
+    words = re.findall(r"\w+|[^\w\s]", old)
+    return re.compile(r"\s*".join(map(re.escape, words)))
+
+
 def misfit(m, root):
     missing = {"means", "file", "old", "new", "tests"} - set(m)
     if missing:
         return f"without {', '.join(sorted(missing))}"
     file = root / m["file"]
-    count = file.read_text().count(m["old"]) if file.exists() else 0
+    count = len(pattern(m["old"]).findall(file.read_text())) if file.exists() else 0
     return "" if count == 1 else f"its text stands {count} times in {m['file']}: {m['old']}"
 
 
@@ -171,7 +177,7 @@ def campaign(mutants, build, limit, results):
     for m in mutants:
         start, killed = time.time(), ""
         text = (ROOT / m["file"]).read_text()
-        build.changed(m["file"], text.replace(m["old"], m["new"]))
+        build.changed(m["file"], pattern(m["old"]).sub(lambda _: m["new"], text))
         for entry in m["tests"].split():
             if wrong := build.make(entry):
                 killed = "DOES NOT COMPILE"

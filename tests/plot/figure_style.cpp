@@ -16,6 +16,7 @@
 #include "results/plot/map_drawing.hpp"
 #include "results/plot/pictures.hpp"
 #include "support/marks.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -137,9 +138,9 @@ TEST_CASE("letters are as large on paper as they were asked to be, whatever the 
       FigureStyle style = column(width);
       style.font_size = points;
       const Drawing d = heat_map(correlations(3, "a"), style.look());
-      CHECK(d.width * style.drawing_unit() == doctest::Approx(width / 25.4 * 72));
+      CHECK(d.width * style.drawing_unit() == near(width / 25.4 * 72));
       for (const Label& label : test::marks_of<Label>(d))
-        if (label.text == "a1") CHECK(label.size * style.drawing_unit() == doctest::Approx(points));
+        if (label.text == "a1") CHECK(label.size * style.drawing_unit() == near(points));
       const std::string script =
           gnuplot_script(Plot{"", "t", "u", {{"c.csv", "t", "u_mm", "u"}}}, "f", style);
       CHECK(script.find("set terminal pdfcairo") != std::string::npos);

@@ -1,6 +1,7 @@
 // Matrices as coloured cells and groups of bars: what is drawn where.
 #include "results/plot/heat_map.hpp"
 #include "support/marks.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -76,13 +77,13 @@ TEST_CASE("Bars are as high as their values, intervals stand on them, a missing 
   const Drawing d = bars(b);
   const auto patches = test::marks_of<Patch>(d);
   REQUIRE(patches.size() == 2 + 3);  // bars, then the legend
-  CHECK(height(patches[0]) == doctest::Approx(2 * height(patches[1])));
+  CHECK(height(patches[0]) == near(2 * height(patches[1])));
   const auto labels = test::marks_of<Label>(d);
   for (const char* text : {"zone", "a1", "c1", "c2"}) CHECK(label(labels, text) != nullptr);
   int vertical = 0;
   for (const Stroke& s : test::marks_of<Stroke>(d))
     if (s.points[0][0] == s.points[1][0] &&
-        std::abs(s.points[0][1] - s.points[1][1]) == doctest::Approx(0.5 * height(patches[0])))
+        std::abs(s.points[0][1] - s.points[1][1]) == near(0.5 * height(patches[0])))
       ++vertical;
   CHECK(vertical == 1);
 }

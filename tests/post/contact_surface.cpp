@@ -11,6 +11,7 @@
 #include "mechanics/mesh/select.hpp"
 #include "results/post/energy_columns.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -44,15 +45,13 @@ TEST_CASE("a uniform pressure comes back at every node, over the deformed area")
   const Pressed p;
   const ContactPerArea state = ContactSurface(p.mesh, p.top).at(p.u, p.contact);
   for (const int node : p.top) {
-    CHECK(state.pressure[static_cast<std::size_t>(node)] ==
-          doctest::Approx(Pressed::pressure).epsilon(1e-12));
+    CHECK(state.pressure[static_cast<std::size_t>(node)] == near(Pressed::pressure, 1e-12));
     CHECK(state.traction[static_cast<std::size_t>(node)].isApprox(Vec3(0, -Pressed::pressure, 0),
                                                                   1e-12));
   }
-  CHECK(state.area == doctest::Approx(1.2 * 4 * 0.9 * 5).epsilon(1e-12));
-  CHECK(state.radius ==
-        doctest::Approx(std::sqrt(1.2 * 4 * 0.9 * 5 / std::numbers::pi)).epsilon(1e-12));
-  CHECK(state.pressure_max == doctest::Approx(Pressed::pressure).epsilon(1e-12));
+  CHECK(state.area == near(1.2 * 4 * 0.9 * 5, 1e-12));
+  CHECK(state.radius == near(std::sqrt(1.2 * 4 * 0.9 * 5 / std::numbers::pi), 1e-12));
+  CHECK(state.pressure_max == near(Pressed::pressure, 1e-12));
 }
 
 TEST_CASE(
@@ -66,8 +65,8 @@ TEST_CASE(
   CHECK(state.pressure[open] == 0);
   CHECK(state.traction[open].norm() == 0);
   CHECK(state.traction[slips].isApprox(Vec3(0.1, -Pressed::pressure, 0), 1e-12));
-  CHECK(state.pressure[slips] == doctest::Approx(Pressed::pressure).epsilon(1e-12));
-  CHECK(state.area == doctest::Approx(p.areas.sum() - p.areas[p.top[0]]).epsilon(1e-12));
+  CHECK(state.pressure[slips] == near(Pressed::pressure, 1e-12));
+  CHECK(state.area == near(p.areas.sum() - p.areas[p.top[0]], 1e-12));
   CHECK(state.pressure[static_cast<std::size_t>(p.mesh.node_sets.at("y_min")[0])] == 0);
 }
 
@@ -102,10 +101,9 @@ TEST_CASE("on a section the area is that of the whole circle, pressed and stretc
         contact.gap.push_back(0);
   }
   const ContactPerArea state = ContactSurface(mesh, top).at(u, contact);
-  CHECK(state.area == doctest::Approx(std::numbers::pi * std::pow(stretch * 2, 2)).epsilon(1e-9));
+  CHECK(state.area == near(std::numbers::pi * std::pow(stretch * 2, 2), 1e-9));
   for (const int node : top)
-    CHECK(state.pressure[static_cast<std::size_t>(node)] ==
-          doctest::Approx(pressure).epsilon(1e-9));
+    CHECK(state.pressure[static_cast<std::size_t>(node)] == near(pressure, 1e-9));
 }
 
 TEST_CASE(
@@ -121,8 +119,8 @@ TEST_CASE(
   add_contact_nodes(nodes, p.top, state, p.contact, slip);
   const ContactNode &slips = nodes[static_cast<std::size_t>(p.top[1])],
                     &sticks = nodes[static_cast<std::size_t>(p.top[2])];
-  CHECK(slips.pressure == doctest::Approx(Pressed::pressure).epsilon(1e-12));
-  CHECK(slips.friction == doctest::Approx(0.1).epsilon(1e-9));
+  CHECK(slips.pressure == near(Pressed::pressure, 1e-12));
+  CHECK(slips.friction == near(0.1, 1e-9));
   CHECK(slips.status == 2);
   CHECK(slips.slip == 0.25);
   CHECK(sticks.status == 1);
@@ -146,7 +144,7 @@ TEST_CASE(
   path.add(state(0.2, Vec3(0.7, 0, 0), 1));  // comes to the body: not known, and not counted
   for (const double s : path.slip(0)) CHECK(s == 0);
   path.add(state(0.6, Vec3(1.0, 0.4, 0), 1));
-  for (const double s : path.slip(0)) CHECK(s == doctest::Approx(0.1).epsilon(1e-12));
+  for (const double s : path.slip(0)) CHECK(s == near(0.1, 1e-12));
   path.add(state(1, Vec3(1.0, 0.1, 0), 1));
-  for (const double s : path.slip(0)) CHECK(s == doctest::Approx(0.3).epsilon(1e-12));
+  for (const double s : path.slip(0)) CHECK(s == near(0.3, 1e-12));
 }

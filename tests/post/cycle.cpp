@@ -1,5 +1,6 @@
 // Storage and loss of the last cycle, against what a linear material answers.
 #include "results/post/cycle.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -33,9 +34,9 @@ TEST_CASE(
       x[i] = 0.2 + 0.01 * std::sin(2 * pi * t[i] / period),
       y[i] = 5 + 0.01 * modulus * std::sin(2 * pi * t[i] / period + delta);
   const Cycle cycle = last_cycle(t, x, y, period);
-  CHECK(cycle.storage == doctest::Approx(modulus * std::cos(delta)).epsilon(1e-5));
-  CHECK(cycle.loss == doctest::Approx(modulus * std::sin(delta)).epsilon(1e-5));
-  CHECK(cycle.tan_delta() == doctest::Approx(std::tan(delta)).epsilon(1e-5));
+  CHECK(cycle.storage == near(modulus * std::cos(delta), 1e-5));
+  CHECK(cycle.loss == near(modulus * std::sin(delta), 1e-5));
+  CHECK(cycle.tan_delta() == near(std::tan(delta), 1e-5));
   CHECK(cycle.change < 1e-4);
 }
 
@@ -53,7 +54,7 @@ TEST_CASE(
     }
   const Cycle cycle = last_cycle(t, x, y, 1);
   CHECK(std::abs(cycle.storage) < 1e-8);
-  CHECK(cycle.loss == doctest::Approx(-1).epsilon(1e-8));
+  CHECK(cycle.loss == near(-1, 1e-8));
   CHECK(std::isnan(cycle.change));
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("cycle: a triangle's first harmonic has the modulus of a sine in a bra
   const std::complex<double> i_w_tau(0, 2 * pi * tau / period),
       exact = 1. + gamma * i_w_tau / (1. + i_w_tau);
   const Cycle cycle = last_cycle(t, x, sum, period);
-  CHECK(cycle.storage == doctest::Approx(exact.real()).epsilon(1e-4));
-  CHECK(cycle.loss == doctest::Approx(exact.imag()).epsilon(1e-4));
+  CHECK(cycle.storage == near(exact.real(), 1e-4));
+  CHECK(cycle.loss == near(exact.imag(), 1e-4));
   CHECK(cycle.change < 1e-9);
 }

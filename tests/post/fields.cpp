@@ -11,6 +11,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -75,11 +76,10 @@ TEST_CASE(
   const auto a = fibre_directions(material);
   const Mat3 sigma = cauchy(some_F, response(material, some_F.transpose() * some_F, a).S);
   CHECK((sigma_of(row) - sigma).norm() < rounding);
-  CHECK(J_of(row) == doctest::Approx(some_F.determinant()).epsilon(rounding));
+  CHECK(J_of(row) == near(some_F.determinant(), rounding));
   const double I4 = (some_F * a[0]).squaredNorm();
-  CHECK(
-      fibre_stretch_of(row, 0) ==
-      doctest::Approx(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3))).epsilon(rounding));
+  CHECK(fibre_stretch_of(row, 0) ==
+        near(std::sqrt(I4 * std::pow(some_F.determinant(), -2.0 / 3)), rounding));
 }
 
 TEST_CASE("a linear field is reproduced exactly by nodal averages, on distorted elements too") {
@@ -94,8 +94,7 @@ TEST_CASE("a linear field is reproduced exactly by nodal averages, on distorted 
     for (int node = 0; node < mesh.n_nodes(); ++node) {
       const VecX row = node_values(body, node, gauss, StressAt::nodal_average);
       for (int c = 0; c < body.n_values(); ++c)
-        if (c != 6)
-          CHECK(row[c] == doctest::Approx(linear(mesh.X[node], c)).epsilon(1e-11));  // J: see below
+        if (c != 6) CHECK(row[c] == near(linear(mesh.X[node], c), 1e-11));  // J: see below
     }
   }
 }
@@ -137,7 +136,7 @@ TEST_CASE("an element's mean of a linear field is its value at the centre of a b
   for (int e = 0; e < 2; ++e) {
     const Vec3 centre = element_nodes(mesh, e).colwise().mean();
     for (int c = 0; c < 7; ++c)
-      CHECK(element_mean(body, e, gauss[e])[c] == doctest::Approx(linear(centre, c)));
+      CHECK(element_mean(body, e, gauss[e])[c] == near(linear(centre, c)));
   }
 }
 
@@ -150,7 +149,7 @@ TEST_CASE("averages over the elements at a node are weighted with their referenc
       const double x = mesh.X[node][0], expected = x == 0   ? 10
                                                    : x == 4 ? 2
                                                             : (10 * 1 + 2 * 3) / 4.0;
-      CHECK(node_values(body, node, gauss, at)[0] == doctest::Approx(expected));
+      CHECK(node_values(body, node, gauss, at)[0] == near(expected));
     }
 }
 
@@ -174,7 +173,7 @@ TEST_CASE("the nearest Gauss point is the nearest of all, in each element at the
       sum += element_geometry(element_nodes(mesh, e)).V * (8 * e + nearest),
           V += element_geometry(element_nodes(mesh, e)).V;
     }
-    CHECK(node_values(body, node, gauss, StressAt::nearest_gauss)[0] == doctest::Approx(sum / V));
+    CHECK(node_values(body, node, gauss, StressAt::nearest_gauss)[0] == near(sum / V));
   }
 }
 
@@ -192,11 +191,11 @@ TEST_CASE("bodies of different materials are never averaged, of one material the
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     const double x = mesh.X[node][0];
     CHECK(node_values(two, node, filled(two, by_cell), StressAt::nodal_average)[0] ==
-          doctest::Approx(x < 2 ? 10 : 2));
+          near(x < 2 ? 10 : 2));
     CHECK(node_values(one, node, filled(one, by_cell), StressAt::nodal_average)[0] ==
-          doctest::Approx(x == 0   ? 10
-                          : x == 1 ? 6
-                                   : 2));
+          near(x == 0   ? 10
+               : x == 1 ? 6
+                        : 2));
   }
 }
 
@@ -205,18 +204,18 @@ TEST_CASE("von Mises and principal stresses: closed forms") {
   const auto vm = [](const Mat3& sigma) {
     return von_mises(sigma);
   };
-  CHECK(vm(Vec3(s, 0, 0).asDiagonal()) == doctest::Approx(s));
-  CHECK(vm(-s * Mat3::Identity()) == doctest::Approx(0).epsilon(1e-15));
+  CHECK(vm(Vec3(s, 0, 0).asDiagonal()) == near(s));
+  CHECK(vm(-s * Mat3::Identity()) == near(0));
   Mat3 shear = Mat3::Zero();
   shear(0, 2) = shear(2, 0) = t;
-  CHECK(vm(shear) == doctest::Approx(std::sqrt(3.0) * t));
+  CHECK(vm(shear) == near(std::sqrt(3.0) * t));
   CHECK((principal_stresses(shear) - Vec3(t, 0, -t)).norm() < 1e-15);
   Mat3 plane =
       Vec3(5, 1, 2)
           .asDiagonal();  // Mohr's circle of x and y: centre 3, radius sqrt(2^2 + 1.5^2) = 2.5
   plane(0, 1) = plane(1, 0) = 1.5;
   CHECK((principal_stresses(plane) - Vec3(5.5, 2, 0.5)).norm() < 1e-14);
-  CHECK(mean_stress(plane) == doctest::Approx(8.0 / 3));
+  CHECK(mean_stress(plane) == near(8.0 / 3));
 }
 
 TEST_CASE("uniaxial tension along the fibre: the law's own stress at every node, nothing across") {
@@ -231,11 +230,10 @@ TEST_CASE("uniaxial tension along the fibre: the law's own stress at every node,
     // kappa = 2e4 MPa times the rounding of J - 1 is 1e-11 MPa
     for (int node : {0, 5, 21, 63}) {
       const VecX row = node_values(body, node, gauss, StressAt::nodal_average);
-      CHECK(sigma_of(row)(0, 0) == doctest::Approx(state.sigma).epsilon(1e-8));
-      CHECK(von_mises(sigma_of(row)) == doctest::Approx(std::abs(state.sigma)).epsilon(1e-8));
+      CHECK(sigma_of(row)(0, 0) == near(state.sigma, 1e-8));
+      CHECK(von_mises(sigma_of(row)) == near(std::abs(state.sigma), 1e-8));
       CHECK((sigma_of(row) - state.sigma * Mat3(Vec3(1, 0, 0).asDiagonal())).norm() < 1e-8);
-      CHECK(fibre_stretch_of(row, 0) ==
-            doctest::Approx(lambda / std::cbrt(J_of(row))).epsilon(1e-10));
+      CHECK(fibre_stretch_of(row, 0) == near(lambda / std::cbrt(J_of(row)), 1e-10));
     }
   }
 }

@@ -16,6 +16,7 @@
 #include "results/post/render.hpp"
 #include "support/block.hpp"
 #include "support/marks.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -58,9 +59,9 @@ TEST_CASE("the colour scale grows evenly in lightness and stays within what a sc
     const Colour c = scale_colour(double(i) / n);
     for (double part : {c.r, c.g, c.b}) CHECK((part >= 0 && part <= 1));
     // 0.05 of 100: the digits that the published sRGB matrix has
-    CHECK(lightness(c) == doctest::Approx(first + (last - first) * i / n).epsilon(5e-4));
+    CHECK(lightness(c) == near(first + (last - first) * i / n, 5e-4));
   }
-  CHECK(lightness(Colour{1, 1, 1}) == doctest::Approx(100).epsilon(1e-6));
+  CHECK(lightness(Colour{1, 1, 1}) == near(100, 1e-6));
   CHECK(lightness(Colour{0, 0, 0}) == 0);
   CHECK(hex(scale_colour(-1)) == hex(scale_colour(0)));
   CHECK(hex(Colour{1, 0, 0.5}) == "#ff0080");
@@ -109,7 +110,7 @@ TEST_CASE("along z the picture is the x-y plane to scale, coloured by the nodes'
   for (const PagePoint& c : whole.corners)
     x0 = std::min(x0, c[0]), x1 = std::max(x1, c[0]), y0 = std::min(y0, c[1]),
     y1 = std::max(y1, c[1]);
-  CHECK((x1 - x0) / (y1 - y0) == doctest::Approx(2));
+  CHECK((x1 - x0) / (y1 - y0) == near(2));
   // upper parts are lighter: their value is larger, the shade is the same
   double above = 0, below = 100;
   for (std::size_t i = 1; i < patches.size(); ++i) {

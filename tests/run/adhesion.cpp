@@ -6,6 +6,7 @@
 
 #include "results/post/energy_columns.hpp"
 #include "scene/run/post_files.hpp"
+#include "support/near.hpp"
 #include "support/section.hpp"
 
 using namespace langer;
@@ -57,17 +58,17 @@ TEST_CASE("adhesion: a plate pulled off a stiff block bears what its bonds do an
     const ContactRecord& plate = step.contacts.at("plate");
     const double g = plate.gap[0], traction = g < g_0 ? 20 * g : 0.02 * 0.02 / (20 * g * g * g);
     CAPTURE(g);
-    CHECK(-step.force_ind[1] == doctest::Approx(area * traction).epsilon(1e-6));
+    CHECK(-step.force_ind[1] == near(area * traction, 1e-6));
     most = std::max(most, -step.force_ind[1]);
   }
-  CHECK(most == doctest::Approx(area * std::sqrt(0.02 * 20)).epsilon(0.02));
+  CHECK(most == near(area * std::sqrt(0.02 * 20), 0.02));
   const StepRecord& last = found.last();
   CHECK(last.scalars.at("energy_released") == 0);
   const double g = last.contacts.at("plate").gap[0];
   CHECK(last.scalars.at("adhesion_dissipated") ==
-        doctest::Approx(0.02 * area * (1 - 0.02 / (20 * g * g))).epsilon(1e-6));
+        near(0.02 * area * (1 - 0.02 / (20 * g * g)), 1e-6));
   CHECK(std::abs(sums_of(found).back().balance) < 1e-3);
-  CHECK(sums_of(found).back().pull_off == doctest::Approx(most));
+  CHECK(sums_of(found).back().pull_off == near(most));
 }
 
 TEST_CASE(
@@ -79,11 +80,11 @@ TEST_CASE(
   const test::Ended found = test::run(soft);
   const StepRecord& last = found.last();
   const double sigma = std::sqrt(0.02 * 2000), taken = 0.02 * area;
-  CHECK(last.scalars.at("adhesion_dissipated") == doctest::Approx(taken).epsilon(0.01));
+  CHECK(last.scalars.at("adhesion_dissipated") == near(taken, 0.01));
   // just before, the block held sigma^2/(2 k) per volume of 1 mm height, and the bonds w/2; of that
   // w is taken
   const double held = area * (0.5 * sigma * sigma / stiffness + 0.5 * 0.02);
-  CHECK(last.scalars.at("energy_released") == doctest::Approx(held - taken).epsilon(0.1));
+  CHECK(last.scalars.at("energy_released") == near(held - taken, 0.1));
   CHECK(std::abs(last.force_ind[1]) < 0.01 * area * sigma);
   CHECK(std::abs(sums_of(found).back().balance) < 1e-3);
 }
@@ -95,11 +96,10 @@ TEST_CASE(
   double pull = 0;
   for (const StepRecord& step : found.steps) pull = std::max(pull, -step.force_ind[1]);
   const double jkr = 1.5 * std::acos(-1.0) * 5e-4 * 5;
-  CHECK(pull == doctest::Approx(jkr).epsilon(
-                    0.15));  // cells and bonds that are coarse and long: docs/adhesion.md
+  CHECK(pull == near(jkr,
+                     0.15));  // cells and bonds that are coarse and long: docs/adhesion.md
   CHECK(std::abs(sums_of(found).back().balance) < 2e-3);
-  CHECK(sums_of(found).back().pull_off ==
-        doctest::Approx(pull));  // what points away from the axis is no pull
+  CHECK(sums_of(found).back().pull_off == near(pull));  // what points away from the axis is no pull
   for (const Vec3& r : found.last().contacts.at("ball").r) CHECK(r.isZero(0));
 }
 
@@ -116,7 +116,7 @@ TEST_CASE(
   put("d: 0.02", "d: 0.001"), put("[0, 0.14, 0]", "[0, 0.02, 0]");
   double pull = 0;
   for (const StepRecord& step : test::run(scene).steps) pull = std::max(pull, -step.force_ind[1]);
-  CHECK(pull == doctest::Approx(half_space).epsilon(0.02));
+  CHECK(pull == near(half_space, 0.02));
 }
 
 TEST_CASE("adhesion: the greatest pull is found on whichever indenter adheres") {
@@ -127,8 +127,8 @@ TEST_CASE("adhesion: the greatest pull is found on whichever indenter adheres") 
                  "{aside: {on: x_max, rigid: {plane: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
                  "motion: [{t: 1, to: [0, 0.1, 0]}]}, plate:");
   const double pull = sums_of(test::run(alone)).back().pull_off;
-  CHECK(pull == doctest::Approx(area * std::sqrt(0.02 * 20)).epsilon(0.02));
-  CHECK(sums_of(test::run(beside)).back().pull_off == doctest::Approx(pull).epsilon(1e-9));
+  CHECK(pull == near(area * std::sqrt(0.02 * 20), 0.02));
+  CHECK(sums_of(test::run(beside)).back().pull_off == near(pull, 1e-9));
 }
 
 TEST_CASE("adhesion: work 0 is no adhesion, bit for bit") {

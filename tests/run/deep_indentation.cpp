@@ -4,6 +4,7 @@
 #include "accuracy/estimate/error_estimate.hpp"
 #include "core/config/tree.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -28,5 +29,5 @@ symmetry: auto
       read_config<SolveConfig>(parse_yaml(text, folder + "/deep.yaml", folder)).config;
   const auto found =
       end_of_path(config, config.material, [](const std::string&) { return Place{}; });
-  CHECK(found[0].value == doctest::Approx(186.1).epsilon(0.01));
+  CHECK(found[0].value == near(186.1, 0.01));
 }

@@ -13,6 +13,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -172,8 +173,7 @@ TEST_CASE(
     for (std::size_t i = 0; i < point.size(); ++i) {
       CHECK(test::largest_difference(point[i].u, mesh[i].u) < 1e-6);
       CHECK(test::largest_difference(point[i].reaction, mesh[i].reaction) < 1e-6);
-      CHECK(point[i].scalars.at("energy") ==
-            doctest::Approx(mesh[i].scalars.at("energy")).epsilon(1e-6));
+      CHECK(point[i].scalars.at("energy") == near(mesh[i].scalars.at("energy"), 1e-6));
     }
   }
   bool reduced = true;
@@ -306,7 +306,7 @@ TEST_CASE(
     unstable += !mesh.warnings.empty(), stopped += !mesh.unstable.empty();
     REQUIRE(point.summary.size() == mesh.summary.size());
     for (std::size_t i = 0; i < mesh.summary.size(); ++i)
-      CHECK(point.summary[i].value == doctest::Approx(mesh.summary[i].value).epsilon(1e-6));
+      CHECK(point.summary[i].value == near(mesh.summary[i].value, 1e-6));
     REQUIRE(point.steps.size() == mesh.steps.size());
     for (std::size_t s = 0; s < mesh.steps.size(); ++s)
       for (const char* name :
@@ -315,8 +315,7 @@ TEST_CASE(
         CAPTURE(name);
         REQUIRE(point.steps[s].scalars.count(name) == mesh.steps[s].scalars.count(name));
         if (mesh.steps[s].scalars.count(name))
-          CHECK(point.steps[s].scalars.at(name) ==
-                doctest::Approx(mesh.steps[s].scalars.at(name)).epsilon(1e-6));
+          CHECK(point.steps[s].scalars.at(name) == near(mesh.steps[s].scalars.at(name), 1e-6));
       }
   }
   CHECK(unstable > 2);

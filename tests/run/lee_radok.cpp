@@ -3,6 +3,7 @@
 //   F(t) = 16 sqrt(R)/3 integral of G(t - s) d(d^1.5)/ds ds,   d the depth, G the relaxing shear modulus
 #include <doctest/doctest.h>
 
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -51,7 +52,7 @@ TEST_CASE("viscous: a sphere on a half space relaxes as Lee and Radok say, withi
     const double t = step.scalars.at("time"), force = step.force_ind.norm();
     if (t < 0.5 * ramp) return;  // few nodes touch
     CAPTURE(t);
-    CHECK(force == doctest::Approx(half_space(t)).epsilon(0.01));
+    CHECK(force == near(half_space(t), 0.01));
     ++compared;
   };
   CHECK(run.follow(each).path.complete);

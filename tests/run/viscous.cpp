@@ -9,6 +9,7 @@
 #include "mechanics/element/viscous_points.hpp"
 #include "results/post/cycle.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -95,8 +96,7 @@ TEST_CASE("viscous: seconds alone change no digit of an elastic scene") {
   for (std::size_t i = 0; i < with.steps.size(); ++i) {
     CHECK(with.steps[i].u == without.steps[i].u);
     CHECK(with.steps[i].reaction == without.steps[i].reaction);
-    CHECK(with.steps[i].scalars.at("time") ==
-          doctest::Approx(100 * with.steps[i].t).epsilon(1e-14));
+    CHECK(with.steps[i].scalars.at("time") == near(100 * with.steps[i].t, 1e-14));
     CHECK(!with.steps[i].scalars.count("viscous_work"));
     CHECK(!without.steps[i].scalars.count("time"));
   }
@@ -109,14 +109,14 @@ TEST_CASE(
     const Found law = follow(scene + material("") + "path: {steps: 2}\n");
     const Found slow = follow(scene + material(branches) + "path: {steps: 2, seconds: 1e14}\n");
     CHECK(farthest(law.last(), slow.last()) <= 1e-10);
-    CHECK(reaction(slow.last()) == doctest::Approx(reaction(law.last())).epsilon(1e-10));
+    CHECK(reaction(slow.last()) == near(reaction(law.last()), 1e-10));
     const std::string at_once =
         "material: {matrix: {yeoh: {a1: 0.4573, a2: 0.6392, a3: 0.7055}}, volume: {quadratic: {d: 1.0e-4}}, "
         "fibres: [{hgo: {c1: 0.5072, c2: 1.1}, alpha: 60}]}\n";  // 1.7 and 1.6 times
     const Found stiff = follow(scene + at_once + "path: {steps: 2}\n");
     const Found sudden = follow(scene + material(branches) + "path: {steps: 2, seconds: 1e-12}\n");
     CHECK(farthest(stiff.last(), sudden.last()) <= 1e-10);
-    CHECK(reaction(sudden.last()) == doctest::Approx(reaction(stiff.last())).epsilon(1e-10));
+    CHECK(reaction(sudden.last()) == near(reaction(stiff.last()), 1e-10));
   }
 }
 
@@ -133,12 +133,12 @@ TEST_CASE(
       for (const char* field : {"von_mises", "pressure", "J"}) {
         const auto& values = whole.steps[i].cell_fields.at(field);
         for (double v : values) {
-          CHECK(v == doctest::Approx(values[0]).epsilon(1e-8));
-          CHECK(v == doctest::Approx(point.steps[i].cell_fields.at(field)[0]).epsilon(1e-8));
+          CHECK(v == near(values[0], 1e-8));
+          CHECK(v == near(point.steps[i].cell_fields.at(field)[0], 1e-8));
         }
       }
       CHECK(whole.steps[i].scalars.at("viscous_work") ==
-            doctest::Approx(point.steps[i].scalars.at("viscous_work")).epsilon(1e-8));
+            near(point.steps[i].scalars.at("viscous_work"), 1e-8));
     }
   }
 }
@@ -150,7 +150,7 @@ TEST_CASE("viscous: equal increments have an error of second order") {
     return reaction(follow(scene + std::to_string(n) + "}\n", true).last());
   };
   const double exact = force(640), coarse = force(10) - exact, fine = force(20) - exact;
-  CHECK(std::log2(coarse / fine) == doctest::Approx(2).epsilon(0.05));
+  CHECK(std::log2(coarse / fine) == near(2, 0.05));
 }
 
 TEST_CASE("viscous: increments follow their error, from milliseconds to an hour in one path") {
@@ -182,9 +182,8 @@ TEST_CASE("viscous: increments follow their error, from milliseconds to an hour 
     for (const StepRecord& s : f.steps) most = std::max(most, s.force_ind.norm());
     return most;
   };
-  CHECK(peak(found) == doctest::Approx(peak(finer)).epsilon(2e-3));
-  CHECK(found.last().force_ind.norm() ==
-        doctest::Approx(finer.last().force_ind.norm()).epsilon(1e-4));
+  CHECK(peak(found) == near(peak(finer), 2e-3));
+  CHECK(found.last().force_ind.norm() == near(finer.last().force_ind.norm(), 1e-4));
 }
 
 TEST_CASE("viscous: symmetry and one thread or two solve the same body") {
@@ -195,10 +194,9 @@ TEST_CASE("viscous: symmetry and one thread or two solve the same body") {
   REQUIRE(whole.steps.size() == half.steps.size());
   for (std::size_t i = 0; i < whole.steps.size(); ++i) {
     CHECK(farthest(whole.steps[i], half.steps[i]) <= 1e-8);
-    CHECK(half.steps[i].force_ind.norm() ==
-          doctest::Approx(whole.steps[i].force_ind.norm()).epsilon(1e-7));
+    CHECK(half.steps[i].force_ind.norm() == near(whole.steps[i].force_ind.norm(), 1e-7));
     CHECK(half.steps[i].scalars.at("viscous_work") ==
-          doctest::Approx(whole.steps[i].scalars.at("viscous_work")).epsilon(1e-7));
+          near(whole.steps[i].scalars.at("viscous_work"), 1e-7));
     CHECK(threads.steps[i].u == whole.steps[i].u);
   }
 }
@@ -219,8 +217,7 @@ TEST_CASE("viscous: of a body of two materials only the viscous one relaxes") {
   const std::string viscous = ", viscous: [{tau: 1, gamma: 1}]";
   const double elastic = force("", ""), one = force(viscous, ""), other = force("", viscous),
                both = force(viscous, viscous);
-  for (double relaxed : {one, other, both})
-    CHECK(relaxed == doctest::Approx(elastic).epsilon(1e-5));
+  for (double relaxed : {one, other, both}) CHECK(relaxed == near(elastic, 1e-5));
   const std::string slow = ", viscous: [{tau: 1e9, gamma: 1}]";
   const double skin = force(slow, ""), fat = force("", slow), all = force(slow, slow);
   CHECK(elastic < 0.9 * std::min(skin, fat));
@@ -303,9 +300,9 @@ TEST_CASE(
       exact += gamma * x / (1. + x);
     }
     const Cycle cycle = last_cycle(cycles[0], cycles[1], cycles[2], period);
-    CHECK(cycle.storage == doctest::Approx(stiffness * exact.real()).epsilon(1e-3));
-    CHECK(cycle.loss == doctest::Approx(stiffness * exact.imag()).epsilon(1e-3));
-    CHECK(cycle.tan_delta() == doctest::Approx(exact.imag() / exact.real()).epsilon(1e-3));
+    CHECK(cycle.storage == near(stiffness * exact.real(), 1e-3));
+    CHECK(cycle.loss == near(stiffness * exact.imag(), 1e-3));
+    CHECK(cycle.tan_delta() == near(exact.imag() / exact.real(), 1e-3));
     CHECK(cycle.change < 1e-3);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -66,8 +67,8 @@ TEST_CASE(
                mesh)
         .force;
   };
-  CHECK(known(0) == doctest::Approx(0.0506).epsilon(2e-3));
-  CHECK(known(0) == doctest::Approx(known(1e-9)).epsilon(1e-6));
+  CHECK(known(0) == near(0.0506, 2e-3));
+  CHECK(known(0) == near(known(1e-9), 1e-6));
 
   std::mt19937 random(5);
   std::uniform_real_distribution<double> angle(-90, 90), slope(-60, 60);
@@ -85,7 +86,7 @@ TEST_CASE(
     };
     const Ended none = with(0), little = with(1e-9);
     CAPTURE(n);
-    CHECK(none.force == doctest::Approx(little.force).epsilon(1e-6));
+    CHECK(none.force == near(little.force, 1e-6));
     REQUIRE(none.scene.materials[0].fibres.size() == static_cast<std::size_t>(families));
     for (int e = 0; e < mesh.n_cells(); ++e) {
       const auto a = none.scene.directions.of(e), of_little = little.scene.directions.of(e);
@@ -97,7 +98,7 @@ TEST_CASE(
       CAPTURE(named);
       REQUIRE(none.last.cell_fields.count(name) == 1);
       for (std::size_t e = 0; e < values.size(); ++e)
-        CHECK(none.last.cell_fields.at(name)[e] == doctest::Approx(values[e]).epsilon(1e-6));
+        CHECK(none.last.cell_fields.at(name)[e] == near(values[e], 1e-6));
     }
     CHECK(none.scene.families() == families - 1);
   }
@@ -137,8 +138,8 @@ TEST_CASE(
     return along;
   };
   const auto is = [](const std::array<double, 2>& found, double a, double b) {
-    CHECK(found[0] == doctest::Approx(a).epsilon(1e-9));
-    CHECK(found[1] == doctest::Approx(b).epsilon(1e-9));
+    CHECK(found[0] == near(a, 1e-9));
+    CHECK(found[1] == near(b, 1e-9));
   };
   is(in_a_and_b(top + field + "materials: {b: {fibre_angles: [0]}}\n"), 0, 1);
   is(in_a_and_b(top + field + "materials: {b: {material: " + stiff + "}}\n"), 0, 1);
@@ -158,7 +159,7 @@ TEST_CASE(
                mesh)
         .force;
   };
-  CHECK(force(90, 0) == doctest::Approx(force(0, 90)).epsilon(1e-6));
+  CHECK(force(90, 0) == near(force(0, 90), 1e-6));
   CHECK(force(90, 0) > 1.2 * force(90, 90));
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/hdf5/h5.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -34,9 +35,8 @@ TEST_CASE(
     CHECK((directions.of(e)[0] - Vec3(std::cos(alpha), 0, std::sin(alpha))).norm() < 1e-14);
   }
   const FibreJump jump = largest_jump(mesh, directions);
-  CHECK(jump.degrees ==
-        doctest::Approx(4).epsilon(1e-10));  // 2 degrees per mm, 2 mm from centre to centre
-  CHECK(std::fmod(jump.place[0], 2) == doctest::Approx(0));
+  CHECK(jump.degrees == near(4, 1e-10));  // 2 degrees per mm, 2 mm from centre to centre
+  CHECK(std::fmod(jump.place[0], 2) == near(0));
 }
 
 TEST_CASE(
@@ -64,8 +64,7 @@ TEST_CASE(
     "directions between points do not depend on the points' signs, and opposite answers are said to be none") {
   MeasuredDirections points{{{0, 0, 0}, {2, 0, 0}}, {{1, 0, 0}, Vec3(1, 0, 1).normalized()}};
   const Vec3 middle(1, 0, 0), a = direction_at(points, middle, Between::inverse_distance, 2);
-  CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) ==
-        doctest::Approx(1));
+  CHECK(std::abs(a.dot(Vec3(std::cos(22.5 * degree), 0, std::sin(22.5 * degree)))) == near(1));
   points.a[1] = -points.a[1];
   CHECK(a.cross(direction_at(points, middle, Between::inverse_distance, 2)).norm() < 1e-14);
   CHECK(direction_at(points, {0.9, 0, 0}, Between::nearest, 2) == Vec3(1, 0, 0));

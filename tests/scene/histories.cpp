@@ -11,6 +11,7 @@
 #include "scene/run/homogeneous.hpp"
 #include "scene/run/post_files.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -65,12 +66,11 @@ TEST_CASE(
     for (std::size_t k = 0; k < 3; ++k) {
       const double t0 = k ? *config.points[k - 1].t : 0, t1 = *config.points[k].t,
                    v0 = k ? config.points[k - 1].to : 0, v1 = config.points[k].to;
-      CHECK(h.at(t1) == doctest::Approx(v1).epsilon(1e-14));
-      CHECK(h.at(0.25 * t0 + 0.75 * t1) == doctest::Approx(0.25 * v0 + 0.75 * v1).epsilon(1e-13));
-      CHECK(h.value * factor_rate(h.factor, 0.5 * (t0 + t1)) ==
-            doctest::Approx((v1 - v0) / (t1 - t0)).epsilon(1e-12));
+      CHECK(h.at(t1) == near(v1, 1e-14));
+      CHECK(h.at(0.25 * t0 + 0.75 * t1) == near(0.25 * v0 + 0.75 * v1, 1e-13));
+      CHECK(h.value * factor_rate(h.factor, 0.5 * (t0 + t1)) == near((v1 - v0) / (t1 - t0), 1e-12));
     }
-    CHECK(h.at(1) == doctest::Approx(config.points.back().to).epsilon(1e-14));
+    CHECK(h.at(1) == near(config.points.back().to, 1e-14));
     HistoryConfig mirrored = config;
     for (auto& point : mirrored.points) point.to *= -1;
     const History m = history_of(mirrored, {});

@@ -6,6 +6,7 @@
 
 #include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/section.hpp"
 
 using namespace langer;
@@ -26,8 +27,8 @@ TEST_CASE("how thin the wedge is makes no difference to what an indentation give
   }
   CHECK(force[2] > 5);
   for (std::size_t k : {1, 3, 4}) {
-    CHECK(force[k] == doctest::Approx(force[2]).epsilon(1e-7));
-    CHECK(stress[k] == doctest::Approx(stress[2]).epsilon(1e-6));
+    CHECK(force[k] == near(force[2], 1e-7));
+    CHECK(stress[k] == near(stress[2], 1e-6));
   }
 }
 
@@ -46,17 +47,17 @@ TEST_CASE("a disc under a sphere gives the reference force, and that of the bloc
       if (std::abs(step.t - depth) < 1e-12) {
         ++met;
         CAPTURE(step.t);
-        CHECK(-step.force_ind[1] == doctest::Approx(-force).epsilon(depth < 0.15 ? 0.01 : 0.005));
+        CHECK(-step.force_ind[1] == near(-force, depth < 0.15 ? 0.01 : 0.005));
         CHECK(step.force_ind[0] == 0);
       }
   CHECK(met == reference.size());
   // the resultant at the base, and what the sphere's work left in the body
-  CHECK(r.reaction("bottom")[1] == doctest::Approx(r.last().force_ind.norm()).epsilon(1e-8));
+  CHECK(r.reaction("bottom")[1] == near(r.last().force_ind.norm(), 1e-8));
 
   const std::string block =
       "{indented_block: {origin: [-15, 0, -15], size: [30, 4, 30], radius: 2.5, depth: 1, edge: 0.3536}}\n  cells: hex27";
   const Ended deep = run(indentation(block, ball(0) + "symmetry: quarter\n"));
-  CHECK(r.last().force_ind.norm() == doctest::Approx(deep.last().force_ind.norm()).epsilon(0.005));
+  CHECK(r.last().force_ind.norm() == near(deep.last().force_ind.norm(), 0.005));
 }
 
 TEST_CASE("friction raises the force on a disc as on the block") {
@@ -66,7 +67,7 @@ TEST_CASE("friction raises the force on a disc as on the block") {
       run(indentation(block, ball(0.34) + "symmetry: quarter\n")).last().force_ind.norm();
   const double flat = run(indentation(disc(0.0625, "hex8"), ball(0.34))).last().force_ind.norm();
   MESSAGE("block " << deep << " N, disc " << flat << " N");
-  CHECK(flat == doctest::Approx(deep).epsilon(0.015));
+  CHECK(flat == near(deep, 0.015));
   CHECK(flat > 1.05 * 10.76);
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("a shallow indentation of a deep body gives the force of Hertz") {
       "contacts: {ball: {on: contact, rigid: {sphere: {radius: 10, centre: [0, 160, 0]}}, motion: [{t: 1, to: [0, -0.02, 0]}]}}\n"
       "path: {first: 1, largest: 1}\n");
   CHECK(r.last().force_ind.norm() ==
-        doctest::Approx(16.0 / 9 * E * std::sqrt(R) * std::pow(depth, 1.5)).epsilon(0.01));
+        near(16.0 / 9 * E * std::sqrt(R) * std::pow(depth, 1.5), 0.01));
 }
 
 TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
@@ -100,7 +101,6 @@ TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
   SolveConfig held = config;
   held.supports.push_back({"all", {Axis::z}});
   const Ended deep = run(held, layer);
-  for (int k : {0, 1})
-    CHECK(flat.last().force_ind[k] == doctest::Approx(deep.last().force_ind[k]).epsilon(1e-4));
+  for (int k : {0, 1}) CHECK(flat.last().force_ind[k] == near(deep.last().force_ind[k], 1e-4));
   CHECK(flat.last().force_ind.norm() > 0.1);
 }

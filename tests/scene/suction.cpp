@@ -11,6 +11,7 @@
 #include "mechanics/mesh/select.hpp"
 #include "scene/model/scene_section.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/section.hpp"
 
 using namespace langer;
@@ -196,6 +197,6 @@ TEST_CASE("holes, rings and layers of a section are the same whatever the number
     CHECK(hole == 2.2);
     CHECK(inside == 2.2);
     CHECK(ring == 6.1);
-    CHECK(border == doctest::Approx(2.9).epsilon(1e-12));
+    CHECK(border == near(2.9, 1e-12));
   }
 }

@@ -8,6 +8,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -76,10 +77,10 @@ double compare(const Case& c) {
     CHECK(largest_difference(a.reaction, b.reaction) < 1e-8);
     CHECK(largest_difference(a.contacts.at("ball").r, b.contacts.at("ball").r) < 1e-8);
     CHECK((a.force_ind - b.force_ind).norm() < 1e-8);
-    CHECK(a.scalars.at("energy") == doctest::Approx(b.scalars.at("energy")).epsilon(1e-9));
+    CHECK(a.scalars.at("energy") == near(b.scalars.at("energy"), 1e-9));
     for (const auto& [name, values] : a.cell_fields)
       for (std::size_t e = 0; e < values.size(); ++e)
-        CHECK(values[e] == doctest::Approx(b.cell_fields.at(name)[e]).epsilon(1e-7));
+        CHECK(values[e] == near(b.cell_fields.at(name)[e], 1e-7));
     CHECK(a.contacts.at("ball").status == b.contacts.at("ball").status);
   }
   CHECK(whole.steps.back().force_ind.norm() > 0.5);
@@ -190,7 +191,7 @@ TEST_CASE("a reduced run continues from what was written of the whole body") {
   double kept = 0, all = 0;
   for (const Vec3& r : state.r[0]) kept += r[1];
   for (const Vec3& r : record.contacts.at("ball").r) all += r[1];
-  CHECK(kept == doctest::Approx(all).epsilon(1e-12));
+  CHECK(kept == near(all, 1e-12));
   for (int i = 0; i < part->mesh().n_nodes(); ++i)
     if (part->scene().dofs.tie[i].of != i) CHECK(state.u.segment<3>(3 * i).isZero(0));
 }

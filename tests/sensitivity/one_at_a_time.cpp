@@ -7,6 +7,7 @@
 
 #include "material/catalogue.hpp"
 #include "mechanics/material/uniaxial.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -27,15 +28,15 @@ TEST_CASE("a linear model has its slopes as effects and no spread, s is twice a 
   const OneAtATime e = one_at_a_time(phi, vec({1, 2}), vec({-4, 0}), vec({5, 10}), n);
   REQUIRE(e.complete);
   // differences over a step of 0.01 keep 1e-13
-  CHECK(e.mu_star(0, 0) == doctest::Approx(3).epsilon(1e-12));
-  CHECK(e.mu_star(1, 0) == doctest::Approx(2).epsilon(1e-12));
+  CHECK(e.mu_star(0, 0) == near(3, 1e-12));
+  CHECK(e.mu_star(1, 0) == near(2, 1e-12));
   CHECK(std::abs(e.mu_star(0, 1)) <= 1e-12);
-  CHECK(e.mu_star(1, 1) == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(e.mu_star(1, 1) == near(0.5, 1e-12));
   CHECK(e.spread.maxCoeff() <= 1e-11);
   CHECK(e.s(0, 0) <= 1e-11);
   CHECK(e.s(1, 1) <= 1e-11);
   // eq. 43: (d - mu_star)^2 = (2 d)^2 in every step
-  CHECK(e.s(1, 0) == doctest::Approx(2 * 2 * std::sqrt(n / (n - 1.))).epsilon(1e-10));
+  CHECK(e.s(1, 0) == near(2 * 2 * std::sqrt(n / (n - 1.)), 1e-10));
 }
 
 TEST_CASE(
@@ -46,11 +47,11 @@ TEST_CASE(
   };
   for (int n : {2, 10, 1000}) {
     const OneAtATime e = one_at_a_time(phi, vec({0.3}), vec({1}), vec({3}), n);
-    CHECK(e.mu_star(0, 0) == doctest::Approx(4).epsilon(1e-11));  // (9 - 1)/2
+    CHECK(e.mu_star(0, 0) == near(4, 1e-11));  // (9 - 1)/2
     //   effects 2 (1 + 2 i/n) + 2/n: n values 4/n apart have the variance (4/n)^2 n (n + 1)/12
     const double spread = 4. / n * std::sqrt(n * (n + 1.) / 12);
-    CHECK(e.spread(0, 0) == doctest::Approx(spread).epsilon(1e-9));
-    CHECK(e.s(0, 0) == doctest::Approx(spread).epsilon(1e-9));
+    CHECK(e.spread(0, 0) == near(spread, 1e-9));
+    CHECK(e.s(0, 0) == near(spread, 1e-9));
   }
 }
 
@@ -60,8 +61,7 @@ TEST_CASE("effects of both signs do not cancel in mu_star") {
     return true;
   };
   const OneAtATime e = one_at_a_time(phi, vec({0}), vec({-1}), vec({1}), 100);
-  CHECK(e.mu_star(0, 0) ==
-        doctest::Approx(1).epsilon(1e-12));  // mean of |2 p| over the midpoints of 100 steps
+  CHECK(e.mu_star(0, 0) == near(1, 1e-12));  // mean of |2 p| over the midpoints of 100 steps
 }
 
 TEST_CASE(
@@ -71,8 +71,8 @@ TEST_CASE(
     return true;
   };
   const OneAtATime e = one_at_a_time(phi, vec({5, -2}), vec({0, 0}), vec({1, 1}), 10);
-  CHECK(e.mu_star(0, 0) == doctest::Approx(2).epsilon(1e-12));
-  CHECK(e.mu_star(1, 0) == doctest::Approx(5).epsilon(1e-12));
+  CHECK(e.mu_star(0, 0) == near(2, 1e-12));
+  CHECK(e.mu_star(1, 0) == near(5, 1e-12));
   CHECK(e.spread.maxCoeff() <= 1e-12);
 }
 
@@ -115,13 +115,12 @@ TEST_CASE(
   for (int i = 0; i < 3; ++i) {
     const double l = 1 + strain[static_cast<std::size_t>(i)], x = l * l + 2 / l - 3, f = l * l - 1;
     const double matrix = 2 * (l * l - 1 / l), fibre = 2 * l * l * f;
-    CHECK(e.mu_star(0, i) == doctest::Approx(matrix).epsilon(1e-10));
-    CHECK(e.mu_star(1, i) == doctest::Approx(matrix * 2 * x).epsilon(1e-10));
-    CHECK(e.mu_star(2, i) == doctest::Approx(matrix * 3 * x * x).epsilon(1e-10));
-    CHECK(e.mu_star(3, i) == doctest::Approx(fibre * std::exp(0.319 * f * f)).epsilon(1e-10));
+    CHECK(e.mu_star(0, i) == near(matrix, 1e-10));
+    CHECK(e.mu_star(1, i) == near(matrix * 2 * x, 1e-10));
+    CHECK(e.mu_star(2, i) == near(matrix * 3 * x * x, 1e-10));
+    CHECK(e.mu_star(3, i) == near(fibre * std::exp(0.319 * f * f), 1e-10));
     // the effects of c2 have one sign: their mean is the change from bound to bound
-    CHECK(e.mu_star(4, i) ==
-          doctest::Approx(0.317 * fibre * (std::exp(2 * f * f) - 1) / 2).epsilon(1e-9));
+    CHECK(e.mu_star(4, i) == near(0.317 * fibre * (std::exp(2 * f * f) - 1) / 2, 1e-9));
     for (int j = 0; j < 4; ++j) CHECK(e.spread(j, i) <= 1e-9 * e.mu_star(j, i));
     CHECK(e.spread(4, i) > 1e-3 * e.mu_star(4, i));
     CHECK(e.s(4, i) > 2 * e.mu_star(4, i));  // as printed: c1 < 0 makes the effects negative

@@ -7,6 +7,7 @@
 
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -36,7 +37,7 @@ void compare(test::Indentation scene, const Material& law) {
   REQUIRE(condensed.steps.size() == sparse.steps.size());
   for (std::size_t i = 0; i < sparse.steps.size(); ++i) {
     const auto &a = condensed.steps[i], &b = sparse.steps[i];
-    CHECK(b.force == doctest::Approx(a.force).epsilon(1e-8));
+    CHECK(b.force == near(a.force, 1e-8));
     CHECK((b.defect.force - a.defect.force).norm() <= 1e-8 * a.defect.force.norm());
     CHECK(b.defect.penetration <= 1e-9);
     CHECK(b.defect.cone <= 1e-9);

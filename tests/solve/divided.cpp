@@ -9,6 +9,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 #include "support/thread_ranks.hpp"
 
 using namespace langer;
@@ -91,9 +92,9 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
       const std::lock_guard lock(alone);
       agree(part.f_int(), whole.f_int());
       agree(part.K_du(), whole.K_du());
-      CHECK(part.W() == doctest::Approx(whole.W()).epsilon(1e-13));
+      CHECK(part.W() == near(whole.W(), 1e-13));
       CHECK(part.J_min() == whole.J_min());
-      CHECK(part.rounding_floor() == doctest::Approx(whole.rounding_floor()).epsilon(1e-13));
+      CHECK(part.rounding_floor() == near(whole.rounding_floor(), 1e-13));
     });
   }
 }

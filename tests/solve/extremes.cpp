@@ -13,6 +13,7 @@
 #include "support/directions.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -99,7 +100,7 @@ TEST_CASE("extremes: d from 1e-1 to 1e-10, the force goes to its limit and stays
   }
   for (double d : {1e-5, 1e-6, 1e-8, 1e-9, 1e-10}) {
     CAPTURE(d);
-    CHECK(force(d) == doctest::Approx(limit).epsilon(2e-5));
+    CHECK(force(d) == near(limit, 2e-5));
   }
 }
 
@@ -109,9 +110,9 @@ TEST_CASE("extremes: c2 from 0 to 1000, the limit without a division by zero") {
     const Energy<double> e = HgoFibre{0.1, c2}(1.21);
     // W = c1/2 x^2 phi(c2 x^2),  phi(y) = (exp(y) - 1)/y
     const double x = 0.21, y = c2 * x * x, phi = y > 0 ? std::expm1(y) / y : 1;
-    CHECK(e.W == doctest::Approx(0.05 * x * x * phi).epsilon(1e-7));
-    CHECK(e.dW == doctest::Approx(0.1 * x * std::exp(y)).epsilon(1e-12));
-    CHECK(e.ddW == doctest::Approx(0.1 * std::exp(y) * (1 + 2 * y)).epsilon(1e-12));
+    CHECK(e.W == near(0.05 * x * x * phi, 1e-7));
+    CHECK(e.dW == near(0.1 * x * std::exp(y), 1e-12));
+    CHECK(e.ddW == near(0.1 * std::exp(y) * (1 + 2 * y), 1e-12));
   }
   for (double c2 : {0.0, 1.0, 30.0}) {
     CAPTURE(c2);
@@ -122,7 +123,7 @@ TEST_CASE("extremes: c2 from 0 to 1000, the limit without a division by zero") {
     REQUIRE(pull.path.complete);
     const Uniaxial exact = uniaxial(m, 1.2);
     REQUIRE(exact.converged);
-    CHECK(pull.sigma[0](0, 0) == doctest::Approx(exact.sigma).epsilon(1e-6));
+    CHECK(pull.sigma[0](0, 0) == near(exact.sigma, 1e-6));
   }
 }
 
@@ -183,7 +184,7 @@ TEST_CASE("extremes: pulled to 3 and pressed to 0.2, the closed form") {
     REQUIRE_MESSAGE(pull.path.complete, pull.path.why);
     const Uniaxial exact = uniaxial(yeoh(1e-9), stretch);
     for (const Mat3& s : pull.sigma) {
-      CHECK(s(0, 0) == doctest::Approx(exact.sigma).epsilon(1e-6));
+      CHECK(s(0, 0) == near(exact.sigma, 1e-6));
       CHECK(std::abs(s(1, 1)) < 1e-5 * std::abs(exact.sigma));
     }
   }
@@ -201,7 +202,7 @@ TEST_CASE("extremes: spheres from 0.1 mm to 1e5 mm, the largest is a plane") {
     before = force;
   }
   scene.shape = Plane{{0, 4, 0}, {0, -1, 0}};
-  CHECK(before == doctest::Approx(final_force(scene, test::stable(30, 1e-6))).epsilon(1e-3));
+  CHECK(before == near(final_force(scene, test::stable(30, 1e-6)), 1e-3));
 }
 
 TEST_CASE("extremes: friction from 0 to 10, more of it never makes it softer") {
@@ -227,7 +228,7 @@ TEST_CASE(
     pull.newton.largest_move = aspect;
     pull.run({yeoh(1e-6)}, 1.3);
     REQUIRE_MESSAGE(pull.path.complete, pull.path.why);
-    for (const Mat3& s : pull.sigma) CHECK(s(0, 0) == doctest::Approx(exact).epsilon(1e-5));
+    for (const Mat3& s : pull.sigma) CHECK(s(0, 0) == near(exact, 1e-5));
   }
   for (double amount : {0.1, 0.2, 0.27}) {
     CAPTURE(amount);
@@ -238,7 +239,7 @@ TEST_CASE(
     REQUIRE(q.least_jacobian > 0);
     pull.run({yeoh(1e-6)}, 1.3);
     REQUIRE_MESSAGE(pull.path.complete, pull.path.why);
-    for (const Mat3& s : pull.sigma) CHECK(s(0, 0) == doctest::Approx(exact).epsilon(1e-5));
+    for (const Mat3& s : pull.sigma) CHECK(s(0, 0) == near(exact, 1e-5));
   }
 }
 
@@ -272,7 +273,7 @@ TEST_CASE("extremes: metres and pascals give what millimetres and megapascals gi
   };
   const Pull mm = run(1, 1), m = run(1e-3, 1e6);
   CHECK((mm.u - m.u).lpNorm<Eigen::Infinity>() < 1e-9);
-  CHECK(m.reaction == doctest::Approx(mm.reaction).epsilon(1e-9));
+  CHECK(m.reaction == near(mm.reaction, 1e-9));
 }
 
 TEST_CASE("extremes: soft beside stiff by 1e6, in a row and around") {
@@ -338,6 +339,6 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
   };
   CHECK(run(true, 1).first < 1e-12);  // [N mm]
   const auto straight = run(false, 1.2), round = run(true, 1.2);
-  CHECK(round.first == doctest::Approx(straight.first).epsilon(1e-7));
+  CHECK(round.first == near(straight.first, 1e-7));
   CHECK((round.second - straight.second).norm() < 1e-6 * straight.second.norm());
 }

@@ -10,6 +10,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -120,8 +121,7 @@ TEST_CASE(
     for (std::size_t i = 0; i < here.size(); ++i) {
       CHECK(std::abs(here[i].travel - there[i].t) < 1e-8);
       CHECK((here[i].u - there[i].u).lpNorm<Eigen::Infinity>() < 2e-8);
-      CHECK(here[i].force.dot(scene.along) ==
-            doctest::Approx(there[i].force.dot(scene.along)).epsilon(1e-8));
+      CHECK(here[i].force.dot(scene.along) == near(there[i].force.dot(scene.along), 1e-8));
     }
     CHECK(iterations(here) <= 1.3 * iterations(there) + 3);
   }
@@ -138,8 +138,7 @@ TEST_CASE(
     REQUIRE(here.size() == there.size());
     for (std::size_t i = 0; i < here.size(); ++i) {
       CHECK(std::abs(here[i].travel - there[i].t) < 1e-8);
-      CHECK(here[i].force.dot(scene.along) ==
-            doctest::Approx(there[i].force.dot(scene.along)).epsilon(1e-8));
+      CHECK(here[i].force.dot(scene.along) == near(there[i].force.dot(scene.along), 1e-8));
     }
     CHECK(iterations(here) <= 1.15 * iterations(there));
   }
@@ -159,7 +158,7 @@ TEST_CASE(
   CHECK(back.back().force.norm() == 0);
   CHECK(back.back().u.lpNorm<Eigen::Infinity>() < 1e-9);
   // the surface is flat again: the sphere touches its nearest node
-  CHECK(back.back().travel == doctest::Approx(0.7).epsilon(0.01));
+  CHECK(back.back().travel == near(0.7, 0.01));
 }
 
 TEST_CASE(
@@ -173,9 +172,9 @@ TEST_CASE(
                  0.05};
   const std::vector<State> states = run(scene, way);
   for (const State& s : states)
-    if (s.t > 0.4) CHECK(s.force[1] == doctest::Approx(-1).epsilon(1e-8));
+    if (s.t > 0.4) CHECK(s.force[1] == near(-1, 1e-8));
   CHECK(states.back().force[0] ==
-        doctest::Approx(0.3).epsilon(0.15));  // normals of a sphere are not all along its force
+        near(0.3, 0.15));  // normals of a sphere are not all along its force
 }
 
 TEST_CASE(
@@ -186,7 +185,7 @@ TEST_CASE(
   force.value = 1.5;
   const Path way{{}, ForceControl{-Vec3::UnitY(), history_of(force, {})}, {}, 0.2};
   const std::vector<State> held = run(loose, way);
-  CHECK(held.back().force[1] == doctest::Approx(-1.5).epsilon(1e-8));
+  CHECK(held.back().force[1] == near(-1.5, 1e-8));
   CHECK(std::abs(held.back().force[0]) < 1e-6);
   Pressed by_kinsol;
   by_kinsol.kinsol = KinsolOptions{};

@@ -8,6 +8,7 @@
 
 #include "mechanics/material/uniaxial.hpp"
 #include "support/block.hpp"
+#include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
 using namespace langer;
@@ -49,8 +50,7 @@ TEST_CASE("A pulled cube of any fibre law and any volume law is in the homogeneo
           const Uniaxial exact = uniaxial(*config.material, stretch);
           REQUIRE(exact.converged);
           CHECK(force ==
-                doctest::Approx(exact.sigma * (1 + exact.J_minus_1) / stretch * length * length)
-                    .epsilon(1e-7));
+                near(exact.sigma * (1 + exact.J_minus_1) / stretch * length * length, 1e-7));
         }
 }
 
@@ -77,6 +77,6 @@ TEST_CASE(
   for (const auto& [law, force] : found) {
     const auto of_law = law;
     CAPTURE(of_law);
-    CHECK(force == doctest::Approx(found.at("quadratic")).epsilon(1e-3));
+    CHECK(force == near(found.at("quadratic"), 1e-3));
   }
 }

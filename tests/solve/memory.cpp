@@ -5,6 +5,7 @@
 #include "core/base/random.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -50,10 +51,10 @@ TEST_CASE(
       const Material material = test::table1(0, 1e-6, c1);
       const Way coarse = way(quarter(cells), material, 1, 0.5),
                 fine = way(quarter(cells), material, 1, 0.125);
-      CHECK(coarse.out == doctest::Approx(coarse.in).epsilon(1e-8));
-      CHECK(fine.out == doctest::Approx(fine.in).epsilon(1e-8));
-      CHECK(fine.in == doctest::Approx(coarse.in).epsilon(1e-8));
-      CHECK(fine.deepest == doctest::Approx(coarse.deepest).epsilon(1e-8));
+      CHECK(coarse.out == near(coarse.in, 1e-8));
+      CHECK(fine.out == near(fine.in, 1e-8));
+      CHECK(fine.in == near(coarse.in, 1e-8));
+      CHECK(fine.deepest == near(coarse.deepest, 1e-8));
     }
 }
 
@@ -72,9 +73,9 @@ TEST_CASE("no memory: spheres, depths, fibres and moduli drawn at random") {
     const double depth = draw(0.4, 1.1);
     const Way coarse = way(scene, material, depth, depth / 2),
               fine = way(scene, material, depth, depth / 6);
-    CHECK(coarse.out == doctest::Approx(coarse.in).epsilon(1e-8));
-    CHECK(fine.in == doctest::Approx(coarse.in).epsilon(1e-8));
-    CHECK(fine.deepest == doctest::Approx(coarse.deepest).epsilon(1e-8));
+    CHECK(coarse.out == near(coarse.in, 1e-8));
+    CHECK(fine.in == near(coarse.in, 1e-8));
+    CHECK(fine.deepest == near(coarse.deepest, 1e-8));
   }
 }
 

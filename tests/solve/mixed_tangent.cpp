@@ -9,6 +9,7 @@
 #include "mechanics/linear/petsc/petsc_load.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -44,7 +45,7 @@ void same_by_both(test::Indentation s, const Material& material) {
   CHECK(!gave_up);
   REQUIRE(found.steps.size() == direct.steps.size());
   for (std::size_t i = 0; i < direct.steps.size(); ++i) {
-    CHECK(found.steps[i].force == doctest::Approx(direct.steps[i].force).epsilon(1e-8));
+    CHECK(found.steps[i].force == near(direct.steps[i].force, 1e-8));
     CHECK(found.steps[i].defect.penetration <= 1e-9);
     CHECK(found.steps[i].defect.status == direct.steps[i].defect.status);
   }

@@ -10,6 +10,7 @@
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -95,7 +96,7 @@ TEST_CASE(
     Problem p = r.problem();
     p.moved = [&](const VecX& dx, double step) {
       const double longest = dx.lpNorm<Eigen::Infinity>();
-      CHECK(step == doctest::Approx(std::min(1.0, largest / longest)).epsilon(1e-14));
+      CHECK(step == near(std::min(1.0, largest / longest), 1e-14));
       CHECK(step * longest <= largest * (1 + 1e-14));
       shortened += step < 1;
     };
@@ -183,10 +184,10 @@ TEST_CASE(
   double t = taken[0];
   int grown = 0, kept = 0;
   for (std::size_t i = 1; t < 0.8; t += taken[i++]) {  // the last ones are made to end at 1
-    CHECK(taken[i] == doctest::Approx(asked[i - 1]).epsilon(1e-10));
+    CHECK(taken[i] == near(asked[i - 1], 1e-10));
     const bool hard = t > 0.1 && t < 0.3;
     const double expected = hard ? taken[i] : std::min(options.largest, 1.5 * taken[i]);
-    CHECK(asked[i] == doctest::Approx(expected).epsilon(1e-10));
+    CHECK(asked[i] == near(expected, 1e-10));
     ++(hard ? kept : grown);
   }
   CHECK(grown > 10);
@@ -316,8 +317,8 @@ TEST_CASE(
   };
   REQUIRE(load_path(options, 0, {}, {0.001}, attempt, accepted).complete);
   CHECK(std::count_if(reached.begin(), reached.end(), [](double t) { return t <= 0.001; }) == 4);
-  CHECK(reached[4] - reached[3] == doctest::Approx(0.00025));
-  CHECK(reached[5] - reached[4] == doctest::Approx(1.5 * 0.00025));
+  CHECK(reached[4] - reached[3] == near(0.00025));
+  CHECK(reached[5] - reached[4] == near(1.5 * 0.00025));
   for (std::size_t i = 5; i < reached.size(); ++i)
     CHECK(reached[i] - reached[i - 1] <= 0.25 * 0.999 + 1e-12);
   reached.clear();
@@ -325,7 +326,7 @@ TEST_CASE(
   REQUIRE(load_path(options, 0, {}, {0.001}, attempt, accepted).complete);
   REQUIRE(reached.size() == 10);
   CHECK(reached[4] == 0.001);
-  CHECK(reached[7] == doctest::Approx(0.001 + 0.6 * 0.999));
+  CHECK(reached[7] == near(0.001 + 0.6 * 0.999));
 }
 
 TEST_CASE(

@@ -17,6 +17,7 @@
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -264,10 +265,10 @@ TEST_CASE(
     of_set += top.axis.along.dot(cross(glued.mesh.X[i] + a.u.segment<3>(3 * i) - top.axis_at(1),
                                        a.reactions.segment<3>(3 * i)));
   CHECK(of_set > 0.01);
-  CHECK(b.torque.back() == doctest::Approx(of_set).epsilon(1e-7));
-  CHECK(a.sums.work == doctest::Approx(b.sums.work).epsilon(1e-7));
+  CHECK(b.torque.back() == near(of_set, 1e-7));
+  CHECK(a.sums.work == near(b.sums.work, 1e-7));
   CHECK(std::abs(a.sums.balance) < 1e-3);
-  CHECK(b.sums.dissipated == doctest::Approx(0).scale(b.sums.work).epsilon(1e-9));
+  CHECK(b.sums.dissipated == near(0, 0, 1e-9 * b.sums.work));
 }
 
 TEST_CASE(
@@ -297,9 +298,8 @@ TEST_CASE(
               std::hypot(x[0], x[2]);
     }
     // an increment's slip is a chord: friction points half the angle of the increment aside
-    CHECK(
-        found.torque.back() ==
-        doctest::Approx(most * std::cos(0.5 * c.degrees * degree * c.largest / 0.8)).epsilon(2e-3));
+    CHECK(found.torque.back() ==
+          near(most * std::cos(0.5 * c.degrees * degree * c.largest / 0.8), 2e-3));
     CHECK(found.sums.dissipated > 0.1 * found.sums.work);
     CHECK(std::abs(found.sums.balance) < c.balance);
   }
@@ -395,15 +395,13 @@ TEST_CASE(
   for (const Turned& at : pressed_and_turned(mu, 9 * degree, 0.1)) {
     const double a = radius(at.P);
     CAPTURE(at.theta / degree);
-    CHECK(
-        at.torque ==
-        doctest::Approx(Lubkin{a, 1.5 * at.P / (std::numbers::pi * a * a), mu, G}.torque(at.theta))
-            .epsilon(0.015));
+    CHECK(at.torque ==
+          near(Lubkin{a, 1.5 * at.P / (std::numbers::pi * a * a), mu, G}.torque(at.theta), 0.015));
     if (at.theta > 8.9 * degree)
-      CHECK(at.torque == doctest::Approx(3 * std::numbers::pi / 16 * mu * a * at.P).epsilon(0.005));
+      CHECK(at.torque == near(3 * std::numbers::pi / 16 * mu * a * at.P, 0.005));
   }
   // with so much friction next to nothing slips: a rigid disc [Reissner and Sagoci 1944]
   const Turned stuck = pressed_and_turned(20, 0.5 * degree, 0.2).back();
   const double a = radius(stuck.P);
-  CHECK(stuck.torque == doctest::Approx(16.0 / 3 * G * a * a * a * stuck.theta).epsilon(0.03));
+  CHECK(stuck.torque == near(16.0 / 3 * G * a * a * a * stuck.theta, 0.03));
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "identification/setup/fit_config_io.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -60,12 +61,12 @@ TEST_CASE(
   CHECK(t.kind == TestKind::biaxial);
   CHECK(t.measure == StressMeasure::second_piola);
   CHECK(t.fibre_angle_deg == 30);
-  CHECK(t.weight == doctest::Approx(50));
-  REQUIRE(t.points() == 2);                   // the third lies beyond strain_to
-  CHECK(t.first[1] == doctest::Approx(1.1));  // (1.1^2 - 1)/2 = 10.5 %
-  CHECK(t.second[1] == doctest::Approx(1.2));
-  CHECK(t.stress_x[1] == doctest::Approx(0.005));
-  CHECK(t.stress_z[1] == doctest::Approx(0.009));
+  CHECK(t.weight == near(50));
+  REQUIRE(t.points() == 2);        // the third lies beyond strain_to
+  CHECK(t.first[1] == near(1.1));  // (1.1^2 - 1)/2 = 10.5 %
+  CHECK(t.second[1] == near(1.2));
+  CHECK(t.stress_x[1] == near(0.005));
+  CHECK(t.stress_z[1] == near(0.009));
 }
 
 TEST_CASE("The config wins over the header, a YAML file beside the CSV does as well as a header") {
@@ -82,7 +83,7 @@ TEST_CASE("The config wins over the header, a YAML file beside the CSV does as w
   CHECK(t.weight == 3);
   // without either the config alone speaks
   write("plain.csv", "strain,cauchy_stress_kPa\n0,0\n0.1,5\n");
-  CHECK(measured_tests(read("{file: plain.csv}"))[0].stress_x[1] == doctest::Approx(0.005));
+  CHECK(measured_tests(read("{file: plain.csv}"))[0].stress_x[1] == near(0.005));
 }
 
 TEST_CASE("What is wrong in a header is told at its line and column in the CSV") {
@@ -136,11 +137,11 @@ TEST_CASE(
   write("lab.csv", "Weg [mm];Kraft [N]\n0,0;0,0\n4,0;2,5\n");
   const std::string sizes = "width: 10, thickness: 2, gauge_length: 40";
   const Test t = measured_tests(read("{file: lab.csv, " + sizes + "}"))[0];
-  CHECK(t.first[1] == doctest::Approx(1.1));
-  CHECK(t.stress_x[1] == doctest::Approx(0.125));
+  CHECK(t.first[1] == near(1.1));
+  CHECK(t.stress_x[1] == near(0.125));
   CHECK(t.measure == StressMeasure::nominal);
   write("lab.yaml", "width: 10\nthickness: 2\ngauge_length: 40\n");
-  CHECK(measured_tests(read("{file: lab.csv}"))[0].stress_x[1] == doctest::Approx(0.125));
+  CHECK(measured_tests(read("{file: lab.csv}"))[0].stress_x[1] == near(0.125));
   fs::remove(folder + "/lab.yaml");
   holds(refusal("{file: lab.csv, thickness: 2, gauge_length: 40}"),
         "lab.csv:1:10: width: missing, for the column \"Kraft [N]\"");

@@ -16,6 +16,7 @@
 #include "identification/statistics/study_files.hpp"
 #include "results/store/material_file.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 namespace fs = std::filesystem;
@@ -85,7 +86,7 @@ TEST_CASE("A study: what it finds, keeps and draws") {
     CHECK(r.effective == s.fit.noise.effective);
     // the misfit says more of the noise than the 1 % asked for, and is near the noise put in
     CHECK(r.noise == s.fit.noise.deviation);
-    CHECK(r.noise == doctest::Approx(0.012).epsilon(0.4));
+    CHECK(r.noise == near(0.012, 0.4));
     for (int i = 0; i < 3; ++i) {
       const ProfileRecord& p = r.profiles[static_cast<std::size_t>(i)];
       CHECK(r.error[i] > 0);
@@ -103,8 +104,8 @@ TEST_CASE("A study: what it finds, keeps and draws") {
       CHECK(r.advice[i].gain > 0);
       if (i > 0) CHECK(r.advice[i].worst >= r.advice[i - 1].worst);
     }
-    CHECK(s.record.range->I1_bar == doctest::Approx(1.96 + 2 / 1.4).epsilon(0.2));
-    CHECK(s.record.range->I4_bar.at(0) == doctest::Approx(1.96));
+    CHECK(s.record.range->I1_bar == near(1.96 + 2 / 1.4, 0.2));
+    CHECK(s.record.range->I4_bar.at(0) == near(1.96));
     CHECK(s.record.stability->verdict.starts_with(
         "uniaxial along the fibre: stable up to stretch 2.000, as far as looked"));
     CHECK(s.record.stability->verdict.ends_with("data reach 1.40"));

@@ -9,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "identification/setup/fit_report.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -46,10 +47,10 @@ TEST_CASE("the profile of a parameter in a box is that of an ellipse that is cut
   VecX lower(2), upper(2), r = VecX::Zero(2);
   lower << -10, 0, upper << 10, 10;
   const auto x = box_profile(J, r, lower, upper, 0, 2), y = box_profile(J, r, lower, upper, 1, 2);
-  CHECK(x[0] == doctest::Approx(-2).epsilon(1e-6));                        // y stays at 0
-  CHECK(x[1] == doctest::Approx(2 / std::sqrt(1 - c * c)).epsilon(1e-6));  // y follows
+  CHECK(x[0] == near(-2, 1e-6));                        // y stays at 0
+  CHECK(x[1] == near(2 / std::sqrt(1 - c * c), 1e-6));  // y follows
   CHECK(y[0] == 0);
-  CHECK(y[1] == doctest::Approx(2 / std::sqrt(1 - c * c)).epsilon(1e-6));
+  CHECK(y[1] == near(2 / std::sqrt(1 - c * c), 1e-6));
   // a bound that is pressed against lets go later: |x - c y|^2 + (1 - c^2) y^2 + 2 b y rises by
   // what presses
   VecX pressed(2);
@@ -62,8 +63,7 @@ TEST_CASE("the profile of a parameter in a box is that of an ellipse that is cut
   blind.col(1).setZero();
   CHECK(box_profile(blind, r, lower, upper, 1, 2)[1] == 10);
   lower.setConstant(-inf), upper.setConstant(inf);
-  CHECK(box_profile(J, r, lower, upper, 0, 2)[0] ==
-        doctest::Approx(-2 / std::sqrt(1 - c * c)).epsilon(1e-6));
+  CHECK(box_profile(J, r, lower, upper, 0, 2)[0] == near(-2 / std::sqrt(1 - c * c), 1e-6));
 }
 
 TEST_CASE(
@@ -81,8 +81,8 @@ TEST_CASE(
   CHECK(bounded->high[3] == 1e-3);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto interval = interval_95(record.parameters[i]);
-    CHECK(bounded->low[i] == doctest::Approx(interval[0]).epsilon(1e-3));
-    CHECK(bounded->high[i] == doctest::Approx(interval[1]).epsilon(1e-3));
+    CHECK(bounded->low[i] == near(interval[0], 1e-3));
+    CHECK(bounded->high[i] == near(interval[1], 1e-3));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "results/store/mesh_file.hpp"
 #include "results/store/provenance.hpp"
 #include "solution_example.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 using example::bytes;
@@ -211,7 +212,7 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(f.tests[1].model_x == std::vector{0., 1.1, 2.1});
   const auto correlation =
       h5::File::open(path).root().group("fit").read<double>("correlation", {2, 2}).values;
-  CHECK(correlation[1] == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(correlation[1] == near(0.5, 1e-14));
   bool found = false;
   for (const Summary& s : read_summary(path))
     if (s.name == "a1") found = s.value == 0.269 && s.unit == "MPa";
@@ -225,8 +226,8 @@ TEST_CASE(
   for (double scale :
        {1., 1e-200, 1e-300, 1e200}) {  // the product of two variances leaves the range of doubles
     const MatX r = correlation(scale * covariance);
-    CHECK(r(0, 1) == doctest::Approx(-0.5).epsilon(1e-14));
-    CHECK(r(1, 1) == doctest::Approx(1).epsilon(1e-14));
+    CHECK(r(0, 1) == near(-0.5, 1e-14));
+    CHECK(r(1, 1) == near(1, 1e-14));
   }
   covariance << std::nan(""), std::nan(""), std::nan(""), 9;
   CHECK(std::isnan(correlation(covariance)(0, 1)));

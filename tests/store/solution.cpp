@@ -8,6 +8,7 @@
 
 #include "core/hdf5/h5.hpp"
 #include "solution_example.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 using example::bytes;
@@ -79,7 +80,7 @@ TEST_CASE("histories: reactions are summed over each set, contact states are cou
                        .values;  // nodes 0 3 6 9, reaction (1, i, n/3)
   CHECK(sum[6] == 4);
   CHECK(sum[7] == 8);
-  CHECK(sum[8] == doctest::Approx(6).epsilon(1e-15));
+  CHECK(sum[8] == near(6, 1e-15));
   for (const char* name : {"contact_open", "contact_stick", "contact_slip"})
     CHECK(history.read<std::int64_t>(name, {3}).values == std::vector<std::int64_t>{1, 1, 1});
   CHECK(history.unit("force_ind") == "N");

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "pipeline/sweep/design_tables.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -61,12 +62,12 @@ TEST_CASE(
   REQUIRE(e.morris);
   CHECK(e.morris->trajectories == 8);
   for (int i = 0; i < 3; ++i) {
-    CHECK(e.morris->mu_star.value(i, 0) == doctest::Approx(expected[i]).epsilon(1e-12));
+    CHECK(e.morris->mu_star.value(i, 0) == near(expected[i], 1e-12));
     CHECK(e.morris->sigma.value(i, 0) <= 1e-12);
-    CHECK(e.one_at_a_time->mu_star(i, 0) == doctest::Approx(expected[i]).epsilon(1e-12));
+    CHECK(e.one_at_a_time->mu_star(i, 0) == near(expected[i], 1e-12));
     CHECK(e.one_at_a_time->spread(i, 0) <= 1e-11);
   }
-  CHECK(e.morris->mu.value(1, 0) == doctest::Approx(-9).epsilon(1e-12));
+  CHECK(e.morris->mu.value(1, 0) == near(-9, 1e-12));
   const QuantityEffects p = effects_of(d, "force", "N", answers(d, product));
   CHECK(p.morris->sigma.value(0, 0) > 0.05);
   CHECK(p.one_at_a_time->spread(0, 0) <= 1e-12);
@@ -84,7 +85,7 @@ TEST_CASE("Sobol's shares of a product through a design are those of the closed 
                total = first + Va * Vb / V;
   CHECK(e.sobol->first.low(0, 0) <= first);
   CHECK(e.sobol->first.high(0, 0) >= first);
-  CHECK(e.sobol->total.value(0, 0) == doctest::Approx(total).epsilon(0.05));
+  CHECK(e.sobol->total.value(0, 0) == near(total, 0.05));
   CHECK(std::abs(e.sobol->total.value(1, 0)) < 1e-12);
 }
 
@@ -96,7 +97,7 @@ TEST_CASE("Members without the quantity leave out what needs them, and are count
   const QuantityEffects e = effects_of(d, "force", "N", values);
   CHECK(e.morris->without_curve >= 1);
   CHECK(e.morris->trajectories == 10 - e.morris->without_curve);
-  CHECK(e.morris->mu_star.value(0, 0) == doctest::Approx(4).epsilon(1e-12));
+  CHECK(e.morris->mu_star.value(0, 0) == near(4, 1e-12));
   const auto lines = effects_lines(d, e);
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].starts_with("force: Morris mu* (95 %; sigma), N: fibre_angles0 9 ("));
@@ -106,7 +107,7 @@ TEST_CASE("Members without the quantity leave out what needs them, and are count
   const std::string before_mu_star = "\nforce,N,a1,MPa,1,3,,,";
   const auto row = csv.find(before_mu_star);
   REQUIRE(row != std::string::npos);
-  CHECK(std::stod(csv.substr(row + before_mu_star.size())) == doctest::Approx(4).epsilon(1e-12));
+  CHECK(std::stod(csv.substr(row + before_mu_star.size())) == near(4, 1e-12));
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
   CHECK(effects_bars(d, e).groups == std::vector<std::string>{"a1", "fibre_angles0", "mu"});
 }

@@ -1,5 +1,6 @@
 // Fronts and limits of refinement studies.
 #include "pipeline/sweep/work_precision.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,9 +14,9 @@ TEST_CASE("three members of a power law point to its limit and order") {
   };
   for (double order : {1.0, 2.0, 3.5}) {
     const Limit limit = richardson(f(0.5, order), f(0.25, order), f(0.125, order), 2);
-    CHECK(limit.value == doctest::Approx(10.8).epsilon(1e-12));
-    CHECK(limit.order == doctest::Approx(order).epsilon(1e-9));
-    CHECK(limit.uncertainty == doctest::Approx(3 * std::pow(0.125, order)).epsilon(1e-9));
+    CHECK(limit.value == near(10.8, 1e-12));
+    CHECK(limit.order == near(order, 1e-9));
+    CHECK(limit.uncertainty == near(3 * std::pow(0.125, order), 1e-9));
   }
 }
 
@@ -24,7 +25,7 @@ TEST_CASE(
   const std::vector<double> h{0.125, 0.1, 0.0884, 0.0707};
   std::vector<double> values;
   for (double x : h) values.push_back(9.36 + 6.9 * x * x);
-  CHECK(fitted_limit(h, values, 2).value == doctest::Approx(9.36).epsilon(1e-13));
+  CHECK(fitted_limit(h, values, 2).value == near(9.36, 1e-13));
   CHECK(fitted_limit(h, values, 2).uncertainty < 1e-10);
   const double noise[]{0.003, -0.004, 0.002, -0.001};
   for (std::size_t i = 0; i < h.size(); ++i) values[i] += noise[i];
@@ -33,20 +34,20 @@ TEST_CASE(
   CHECK(noisy.uncertainty < 0.02);
   // a line through (1, 1), (2, 3), (3, 4): 1.5 x - 1/3, residual variance 1/6
   const Limit line = fitted_limit({1, 2, 3}, {1, 3, 4}, 1);
-  CHECK(line.value == doctest::Approx(-1.0 / 3));
-  CHECK(line.uncertainty == doctest::Approx(std::sqrt(1.0 / 6 * (1.0 / 3 + 2))));
+  CHECK(line.value == near(-1.0 / 3));
+  CHECK(line.uncertainty == near(std::sqrt(1.0 / 6 * (1.0 / 3 + 2))));
 }
 
 TEST_CASE("members that do not approach a limit give the finest and their last difference") {
   const Limit turns = richardson(1.0, 1.2, 1.1, 2), grows = richardson(1.0, 1.1, 1.4, 2);
   CHECK(turns.value == 1.1);
   CHECK(turns.order == 0);
-  CHECK(turns.uncertainty == doctest::Approx(0.1));
+  CHECK(turns.uncertainty == near(0.1));
   const Limit slow = richardson(10.7951, 10.7810, 10.7676, 1.4142);
   CHECK(slow.value == 10.7676);
-  CHECK(slow.uncertainty == doctest::Approx(0.0134));
+  CHECK(slow.uncertainty == near(0.0134));
   CHECK(grows.value == 1.4);
-  CHECK(grows.uncertainty == doctest::Approx(0.3));
+  CHECK(grows.uncertainty == near(0.3));
   CHECK(richardson(1, 2, 2, 2).uncertainty == 0);
 }
 
