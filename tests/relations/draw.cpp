@@ -129,18 +129,21 @@ void name_sets(Body& body) {
   }
 }
 
-// nodes of the top not farther from its middle than a share of its sides
-BoxSet patch(const Body& body, const std::string& name, double share_x, double share_z) {
+// Nodes of the top not farther from its middle than a quarter of its sides. Grid lines of four
+// cells go there; a block of two hex27 has to have more.
+void add_patch(Body& body, const std::string& name) {
+  if (body.cells == "hex27") {
+    body.divisions = {4, body.divisions[1], 4};
+  }
   BoxSet set = side(body, name, 1, true);
   const Vec3 middle = body.origin + 0.5 * body.size;
   const double margin = 1e-6 * body.size.maxCoeff();
-  const std::array<double, 3> share{share_x, 0, share_z};
   for (const int axis : {0, 2}) {
-    const double half = 0.5 * share[axis] * body.size[axis] + margin;
+    const double half = 0.25 * body.size[axis] + margin;
     set.from[axis] = middle[axis] - half;
     set.to[axis] = middle[axis] + half;
   }
-  return set;
+  body.sets.push_back(set);
 }
 
 Body drawn_block(Draw& draw) {
@@ -246,7 +249,7 @@ Scene loaded_by_force(Draw& draw) {
   scene.body = drawn_block(draw);
   add_laws(draw, scene, false);
   hold_bottom(draw, scene);
-  scene.body.sets.push_back(patch(scene.body, "patch", 0.5, 0.5));
+  add_patch(scene.body, "patch");
   const std::array<std::string, 4> where{"high", "patch", "right", "left"};
   const int n = 1 + draw.below(2);
   for (int i = 0; i < n; ++i) {
@@ -272,7 +275,7 @@ Scene under_pressure(Draw& draw) {
   scene.body = drawn_block(draw);
   add_laws(draw, scene, false);
   hold_bottom(draw, scene);
-  scene.body.sets.push_back(patch(scene.body, "patch", 0.5, 0.5));
+  add_patch(scene.body, "patch");
   const std::array<std::string, 3> where{"high", "patch", "right"};
   Load load{where[draw.below(3)], LoadKind::pressure};
   // negative: suction
@@ -291,8 +294,10 @@ Scene twisted(Draw& draw) {
   scene.body = drawn_block(draw);
   add_laws(draw, scene, false);
   hold_bottom(draw, scene);
-  scene.body.sets.push_back(patch(scene.body, "disc", 0.5, 0.5));
-  Load load{draw.coin() ? "disc" : "high", LoadKind::rotation};
+  add_patch(scene.body, "disc");
+  // nodes that a side holds cannot turn
+  const bool all = scene.supports.size() == 1 && draw.coin();
+  Load load{all ? "high" : "disc", LoadKind::rotation};
   load.history = drawn_history(draw, draw.sign() * draw.uniform(5, 25));
   load.through = Vec3(0, scene.body.size[1], 0);
   scene.loads = {load};

@@ -17,7 +17,7 @@ struct Twin {
   Change change;           // from the answer of the scene to that of the twin
   bool last_only = false;  // other increments: only the ends of the paths are compared
   bool killed = false;     // killed on its way, and run again
-  bool may_fail = false;   // another way of solving need not converge
+  bool may_fail = false;   // another way of solving, which need not converge
 };
 
 // all twins that a scene has; `seed` decides what is drawn of them, such as an angle
