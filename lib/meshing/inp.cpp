@@ -1,422 +1,554 @@
-// Abaqus and CalculiX input: the cards that describe a mesh. Keywords and set names of other cards
-// are skipped, those that make nodes or elements by rule are refused.
+// A mesh of what an Abaqus or CalculiX input file says (inp_model.hpp): instances are placed, their
+// nodes and cells get our numbers, sets and bodies their names.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <Eigen/LU>
 
 #include "core/base/error.hpp"
-#include "core/base/split.hpp"
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/raise.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "mechanics/mesh/select.hpp"
 #include "meshing/exchange.hpp"
-#include "meshing/inp_cells.hpp"
+#include "meshing/inp_model.hpp"
 
 namespace langer {
 
 namespace {
 
-std::string trimmed(const std::string& s) {
-  const std::size_t from = s.find_first_not_of(" \t\r\""), to = s.find_last_not_of(" \t\r\"");
-  return from == std::string::npos ? "" : s.substr(from, to - from + 1);
-}
-std::string upper(std::string s) {
-  for (char& c : s) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return s;
-}
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (const std::string& cell : split(line, ',')) cells.push_back(trimmed(cell));
-  return cells;
-}
+using Numbers = std::map<long long, int>;  // the file's number of a node or cell: ours
 
-struct Card {
-  std::string word;  // upper case, without the star
-  std::map<std::string, std::string> parameters;
-  std::string value(const std::string& key) const {
-    const auto found = parameters.find(key);
-    return found == parameters.end() ? "" : found->second;
+// One that has nodes of its own: the model, or an instance.
+struct Placed {
+  const InpScope* scope = nullptr;
+  const InpInstance* instance = nullptr;  // none: the model
+  Numbers node_at, cell_at;
+
+  std::string name() const {
+    if (instance) return instance->name;
+    return "";
   }
 };
 
-class Reader {
- public:
-  Reader(const std::string& text, const std::string& name, std::vector<std::string>& notes)
-      : in_(text), name_(name), notes_(notes) {}
+// The same cell seen in a mirror: our local node and facet for each of the cell that is turned.
+struct Mirror {
+  std::vector<int> node, facet;
+};
 
-  Mesh read() {
-    for (std::string line; next(line);) {
-      if (line[0] == '*')
-        begin(line);
-      else
-        data(line);
+// Hexahedra are mirrored along zeta. In a tetrahedron xi and eta change places.
+Mirror mirror_of(const ReferenceCell& cell) {
+  const auto image = [&](const Vec3& xi) {
+    if (cell.hexahedron()) return Vec3(xi[0], xi[1], -xi[2]);
+    return Vec3(xi[1], xi[0], xi[2]);
+  };
+  Mirror mirror;
+  for (const Vec3& xi : cell.node) {
+    const auto there = std::find_if(cell.node.begin(), cell.node.end(), [&](const Vec3& other) {
+      return (other - image(xi)).norm() < 1e-12;
+    });
+    mirror.node.push_back(static_cast<int>(there - cell.node.begin()));
+  }
+  for (const std::vector<int>& facet : cell.facet) {
+    std::vector<int> nodes;
+    for (int a : facet) nodes.push_back(mirror.node[static_cast<std::size_t>(a)]);
+    const auto there =
+        std::find_if(cell.facet.begin(), cell.facet.end(), [&](const std::vector<int>& other) {
+          return std::is_permutation(other.begin(), other.end(), nodes.begin(), nodes.end());
+        });
+    mirror.facet.push_back(static_cast<int>(there - cell.facet.begin()));
+  }
+  return mirror;
+}
+
+// Gmsh calls the elements of a volume "Volume7" unless a physical group names them.
+bool named_by_gmsh(const std::string& name) {
+  const std::string key = upper_case(name);
+  return key.starts_with("VOLUME") && is_digits(key.substr(6));
+}
+
+class Builder {
+ public:
+  Builder(const InpModel& model, const std::string& file, std::vector<std::string>& notes)
+      : model_(model), file_{file, 0, 0}, notes_(notes) {
+    placed_.push_back({&model.scope, nullptr, {}, {}});
+    for (const InpInstance& instance : model.instances) {
+      placed_.push_back({&instance.scope, &instance, {}, {}});
     }
-    end_element();
-    if (cells_.empty())
-      refuse(0, "no hexahedra or tetrahedra", "*ELEMENT, TYPE=, " + known_inp_cells());
-    return mesh();
+  }
+
+  Mesh build() {
+    bool any = false;
+    for (const Placed& one : placed_) any = any || !one.scope->cells.empty();
+    if (!any) {
+      refuse_inp(file_, "no hexahedra or tetrahedra", "*ELEMENT, TYPE=, " + known_inp_cells());
+    }
+    add_cells();
+    turn_reversed_cells();
+    refuse_folded_cells();
+    add_bodies();
+    add_surfaces();
+    add_face_elements();
+    add_node_sets();
+    add_facets_of_node_sets();
+    add_notes();
+    return std::move(mesh_);
   }
 
  private:
-  std::istringstream in_;
-  std::string name_;
+  const InpModel& model_;
+  Place file_;
   std::vector<std::string>& notes_;
-  int line_ = 0;
-  Card card_;
-  std::map<long long, Vec3> nodes_;
-  InpCell kind_;      // of all cells
-  std::string type_;  // as the file calls it first
-  std::map<long long, std::pair<std::vector<long long>, int>>
-      cells_;                       // nodes in their order, with the line
-  std::vector<long long> element_;  // as far as it is read
-  int element_line_ = 0;
-  struct Range {
-    long long first, last, step;
-    auto operator<=>(const Range&) const = default;
-  };
-  struct Named {  // as the file writes it: sets are looked up without regard to case
-    std::string name;
-    std::vector<Range> members;
-    void add(long long id) { members.push_back({id, id, 1}); }
-  };
-  std::map<std::string, Named> node_sets_, element_sets_;
-  struct Side {
-    std::string what, side;
-    int line;
-  };
-  std::map<std::string, std::pair<std::string, std::vector<Side>>> surfaces_;
-  std::vector<std::string> bodies_, element_bodies_;  // keys of element sets
-  std::set<std::string> left_out_;
-  int instances_ = 0, parts_ = 0;
+  std::vector<Placed> placed_;
+  Mesh mesh_;
+  int n_given_nodes_ = 0;                            // before the new ones between them
+  std::vector<std::pair<long long, Place>> origin_;  // of each cell: its number, its line
+  std::vector<bool> reversed_;                       // cells that were turned
+  Mirror mirror_;                                    // filled where a cell is
+  std::set<std::pair<const InpScope*, std::string>> as_bodies_;  // element sets
 
-  [[noreturn]] void refuse(int line, const std::string& found, const std::string& expected = "",
-                           const std::string& hint = "") const {
-    throw Failure(Exit::input, Error{{name_, line, line ? 1 : 0}, "", found, expected, hint});
-  }
+  // ---- nodes and cells
 
-  bool next(std::string& line) {
-    while (std::getline(in_, line)) {
-      ++line_;
-      line = trimmed(line);
-      if (!line.empty() && !line.starts_with("**")) return true;
-    }
-    return false;
-  }
-
-  long long whole(const std::string& text) const {
-    long long n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc() || end != text.data() + text.size())
-      refuse(line_, "found \"" + text + "\"", "a whole number");
-    return n;
-  }
-  double real(std::string text) const {
-    if (text.empty()) return 0;  // as in Abaqus
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
-    const char* begin = text.data() + (text[0] == '+');
-    double x = 0;
-    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), x);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x))
-      refuse(line_, "found \"" + text + "\"", "a number");
-    return x;
-  }
-  static bool is_number(const std::string& text) {
-    return !text.empty() &&
-           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
-  }
-
-  void begin(std::string line) {
-    end_element();
-    const int first = line_;
-    while (line.ends_with(',')) {
-      std::string more;
-      if (!next(more)) break;
-      line += more;
-    }
-    const std::vector<std::string> cells = cells_of(line.substr(1));
-    card_ = {};
-    card_.word = cells.empty() ? "" : upper(cells[0]);
-    for (std::size_t i = 1; i < cells.size(); ++i) {
-      const std::size_t equals = cells[i].find('=');
-      card_.parameters[upper(trimmed(cells[i].substr(0, equals)))] =
-          equals == std::string::npos ? "" : trimmed(cells[i].substr(equals + 1));
-    }
-    static const std::set<std::string> made_by_rule{"NGEN",   "NFILL",   "NCOPY",  "ELGEN",
-                                                    "ELCOPY", "INCLUDE", "SYSTEM", "NMAP"};
-    if (made_by_rule.count(card_.word))
-      refuse(first, "found *" + card_.word, "all nodes and elements written out in this file");
-    if (card_.word == "PART" && ++parts_ > 1) refuse(first, "found a second *PART", "one");
-    if (card_.word == "INSTANCE" && ++instances_ > 1)
-      refuse(first, "found a second *INSTANCE", "one");
-    if (card_.word == "ELEMENT") {
-      begin_elements(first);
-    } else if (card_.word == "NSET" || card_.word == "ELSET") {
-      if (card_.value(card_.word).empty())
-        refuse(first, "*" + card_.word + " without a name", card_.word + "=name");
-      named(card_.word == "NSET" ? node_sets_ : element_sets_, card_.value(card_.word));
-    } else if (card_.word == "SURFACE") {
-      if (card_.value("NAME").empty()) refuse(first, "*SURFACE without a name", "NAME=name");
-      surfaces_[upper(card_.value("NAME"))].first = card_.value("NAME");
-    } else if (card_.word == "SOLID SECTION") {
-      const std::string key = upper(card_.value("ELSET"));
-      if (std::find(bodies_.begin(), bodies_.end(), key) == bodies_.end()) bodies_.push_back(key);
-    } else if (card_.word != "NODE" && card_.word != "INSTANCE") {
-      static const std::set<std::string> nothing{
-          "HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "END INSTANCE", "PREPRINT"};
-      if (!nothing.count(card_.word)) left_out_.insert("*" + card_.word);
-    }
-  }
-
-  void begin_elements(int line) {
-    const std::string type = upper(card_.value("TYPE"));
-    const auto kind = inp_cell(type);
-    if (!kind) {
-      if (type.starts_with("C3D")) refuse(line, "found elements " + type, known_inp_cells());
-      left_out_.insert("elements " + type);
-      card_.word = "";
-      return;
-    }
-    if (kind_.theirs && kind->theirs != kind_.theirs)
-      refuse(line, fmt::format("found elements {} beside {}", type, type_), "cells of one kind");
-    kind_ = *kind;
-    if (type_.empty()) type_ = type;
-    if (const std::string set = card_.value("ELSET"); !set.empty())
-      if (const std::string key = named(element_sets_, set);
-          std::find(element_bodies_.begin(), element_bodies_.end(), key) == element_bodies_.end())
-        element_bodies_.push_back(key);
-  }
-
-  static std::string named(std::map<std::string, Named>& sets, const std::string& name) {
-    const std::string key = upper(name);
-    sets.try_emplace(key, Named{name, {}});
-    return key;
-  }
-
-  void data(const std::string& line) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (card_.word == "NODE") {
-      if (cells.size() < 2) refuse(line_, "found \"" + line + "\"", "number, x, y, z");
-      const long long id = whole(cells[0]);
-      Vec3 x = Vec3::Zero();
-      for (int k = 0; k < 3 && k + 1 < static_cast<int>(cells.size()); ++k)
-        x[k] = real(cells[static_cast<std::size_t>(k) + 1]);
-      if (!nodes_.try_emplace(id, x).second)
-        refuse(line_, fmt::format("node {} is there twice", id));
-      if (const std::string set = card_.value("NSET"); !set.empty())
-        node_sets_[named(node_sets_, set)].add(id);
-    } else if (card_.word == "ELEMENT") {
-      if (element_.empty()) element_line_ = line_;
-      for (const std::string& cell : cells)
-        if (!cell.empty()) element_.push_back(whole(cell));
-      if (element_.size() > kind_.theirs->order.size()) end_element();
-    } else if (card_.word == "NSET")
-      members(cells, node_sets_, card_.value("NSET"));
-    else if (card_.word == "ELSET")
-      members(cells, element_sets_, card_.value("ELSET"));
-    else if (card_.word == "SURFACE")
-      surface(cells);
-    else if (card_.word == "INSTANCE")
-      refuse(line_, "found an *INSTANCE that is moved or turned",
-             "one that lies where its part does");
-  }
-
-  void end_element() {
-    if (element_.empty()) return;
-    const std::size_t n = kind_.theirs->order.size();
-    if (element_.size() != n + 1)
-      refuse(element_line_, fmt::format("an element of {} nodes", element_.size() - 1),
-             fmt::format("{} nodes, on one line or on lines ending with a comma", n));
-    std::vector<long long> nodes(element_.begin() + 1, element_.end());
-    if (!cells_.try_emplace(element_[0], std::pair(std::move(nodes), element_line_)).second)
-      refuse(element_line_, fmt::format("element {} is there twice", element_[0]));
-    if (const std::string set = card_.value("ELSET"); !set.empty())
-      element_sets_[named(element_sets_, set)].add(element_[0]);
-    element_.clear();
-  }
-
-  void members(const std::vector<std::string>& cells, std::map<std::string, Named>& sets,
-               const std::string& name) {
-    Named& set = sets[upper(name)];
-    if (card_.parameters.count("GENERATE")) {
-      if (cells.size() < 2) refuse(line_, "one number", "first, last, step");
-      const long long first = whole(cells[0]), last = whole(cells[1]),
-                      step = cells.size() > 2 && !cells[2].empty() ? whole(cells[2]) : 1;
-      if (step <= 0 || first < 0 || last < first)
-        refuse(line_, "a range that does not ascend", "first, last, step");
-      set.members.push_back({first, last, step});
-      return;
-    }
-    for (const std::string& cell : cells) {
-      if (cell.empty()) continue;
-      if (is_number(cell)) {
-        set.add(whole(cell));
-        continue;
+  void add_cells() {
+    std::vector<Vec3> X;
+    std::vector<int> connectivity;  // in our order
+    const std::vector<int>& order = model_.kind.theirs->order;
+    for (Placed& one : placed_) {
+      add_nodes_of_cells(one, X);
+      for (const auto& [id, cell] : one.scope->cells) {
+        one.cell_at[id] = static_cast<int>(origin_.size());
+        origin_.emplace_back(id, cell.place);
+        const std::size_t begin = connectivity.size();
+        connectivity.resize(begin + order.size());
+        for (std::size_t a = 0; a < order.size(); ++a) {
+          const long long n = cell.nodes[a];
+          if (one.node_at.at(n) < 0) {
+            refuse_inp(cell.place,
+                       fmt::format("element {} has the node {}, which is not there", id, n));
+          }
+          connectivity[begin + static_cast<std::size_t>(order[a])] = one.node_at.at(n);
+        }
       }
-      const auto other = sets.find(upper(cell));
-      if (other == sets.end())
-        refuse(line_, "there is no set \"" + cell + "\" above",
-               "numbers, or a set that stands above");
-      const std::vector<Range> copy = other->second.members;
-      set.members.insert(set.members.end(), copy.begin(), copy.end());
-      std::sort(set.members.begin(), set.members.end());
-      set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+    }
+    n_given_nodes_ = static_cast<int>(X.size());
+    const ReferenceCell& cell = *model_.kind.cell;
+    const int n_read = static_cast<int>(order.size());
+    if (n_read == cell.n_corners) {
+      mesh_ = raised(X, connectivity, cell.type);
+    } else if (n_read < cell.n_nodes) {
+      mesh_ = raised_with_edges(X, connectivity, cell.type);
+    } else {
+      mesh_.type = cell.type;
+      mesh_.X = std::move(X);
+      mesh_.connectivity = std::move(connectivity);
     }
   }
 
-  // those of a set that are there, as our numbers
-  static std::vector<int> there(const Named& set, const std::map<long long, int>& numbers) {
+  // Nodes that no cell has are left out.
+  static void add_nodes_of_cells(Placed& one, std::vector<Vec3>& X) {
+    for (const auto& [id, cell] : one.scope->cells) {
+      for (long long n : cell.nodes) one.node_at[n] = -1;
+    }
+    for (const auto& [id, x] : one.scope->nodes) {
+      const auto node = one.node_at.find(id);
+      if (node == one.node_at.end()) continue;
+      node->second = static_cast<int>(X.size());
+      if (one.instance) {
+        X.push_back(one.instance->moved(x));
+      } else {
+        X.push_back(x);
+      }
+    }
+  }
+
+  // ---- orientation
+
+  // A cell whose nodes are numbered the other way round has a negative Jacobian. Its nodes are
+  // taken as those of the mirrored cell.
+  void turn_reversed_cells() {
+    const ReferenceCell& cell = mesh_.cell();
+    const auto n_nodes = static_cast<std::size_t>(cell.n_nodes);
+    Vec3 middle = Vec3::Zero();
+    if (!cell.hexahedron()) middle = Vec3::Constant(0.25);
+    reversed_.assign(origin_.size(), false);
+    int n_reversed = 0;
+    int first = -1;
+    for (int e = 0; e < mesh_.n_cells(); ++e) {
+      if (!(jacobian(mesh_, e, middle).determinant() < 0)) continue;
+      if (n_reversed == 0) {
+        mirror_ = mirror_of(cell);
+        first = e;
+      }
+      ++n_reversed;
+      reversed_[static_cast<std::size_t>(e)] = true;
+      const auto begin = mesh_.connectivity.begin() + static_cast<std::ptrdiff_t>(n_nodes) * e;
+      const std::vector<int> before(begin, begin + static_cast<std::ptrdiff_t>(n_nodes));
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        begin[static_cast<std::ptrdiff_t>(a)] = before[static_cast<std::size_t>(mirror_.node[a])];
+      }
+    }
+    if (n_reversed == 0) return;
+    const auto& [id, place] = origin_[static_cast<std::size_t>(first)];
+    notes_.push_back(fmt::format(
+        "the nodes of {} of {} elements are numbered the other way round (first: element {}, "
+        "{}:{}): they are read as their mirror image",
+        n_reversed, mesh_.n_cells(), id, place.file, place.line));
+  }
+
+  void refuse_folded_cells() {
+    const Quality found = quality(mesh_);
+    if (found.least_jacobian > 0) return;
+    const auto& [id, place] = origin_.at(static_cast<std::size_t>(std::max(found.at_cell, 0)));
+    refuse_inp(place,
+               fmt::format("element {} is folded: its Jacobian is {:.3g} at ({:.4g}, {:.4g}, "
+                           "{:.4g})",
+                           id, found.least_jacobian, found.at[0], found.at[1], found.at[2]),
+               "a positive Jacobian everywhere in the element",
+               "look at the order of its nodes and at their places in the program that meshed it");
+  }
+
+  // ---- names
+
+  // Names of one kind in all scopes. A name that several scopes have is qualified by the instance.
+  class Names {
+   public:
+    void add(const std::string& name) { ++count_[upper_case(name)]; }
+    std::string of(const Placed& one, const std::string& name) const {
+      const auto found = count_.find(upper_case(name));
+      const bool several = found != count_.end() && found->second > 1;
+      if (!several || !one.instance) return name;
+      return one.name() + "." + name;
+    }
+
+   private:
+    std::map<std::string, int> count_;
+  };
+
+  // Members of a set that are in the mesh, ascending. `at` gives the numbers of one scope.
+  std::vector<int> members(const Placed& one, const InpSet& set, Numbers Placed::*at) const {
     std::set<int> found;
-    for (const Range& range : set.members)
-      if (range.first == range.last) {
-        if (const auto one = numbers.find(range.first); one != numbers.end())
-          found.insert(one->second);
-      } else
-        for (auto one = numbers.lower_bound(range.first);
-             one != numbers.end() && one->first <= range.last; ++one)
-          if ((one->first - range.first) % range.step == 0) found.insert(one->second);
+    for (const InpMembers& range : set.members) {
+      const Placed* of = &one;
+      if (range.instance != own_scope) of = &placed_[static_cast<std::size_t>(range.instance) + 1];
+      const Numbers& numbers = of->*at;
+      auto next = numbers.lower_bound(range.first);
+      for (; next != numbers.end() && next->first <= range.last; ++next) {
+        if ((next->first - range.first) % range.step == 0) found.insert(next->second);
+      }
+    }
     return {found.begin(), found.end()};
   }
 
-  void surface(const std::vector<std::string>& cells) {
-    const std::string key = upper(card_.value("NAME")), type = upper(card_.value("TYPE"));
-    if (type == "NODE") {
-      node_sets_.try_emplace(key, Named{card_.value("NAME"), {}});
-      members({cells.at(0)}, node_sets_, card_.value("NAME"));
+  // ---- bodies
+
+  // Element sets that are bodies: of *SOLID SECTION, without any those of *ELEMENT. Those that Gmsh
+  // names give way to its physical groups, which are further sets that share no element.
+  std::vector<std::string> body_sets(const Placed& one) const {
+    const InpScope& scope = *one.scope;
+    if (!scope.sections.empty()) return scope.sections;
+    const bool by_gmsh =
+        !scope.cells_by_card.empty() &&
+        std::all_of(scope.cells_by_card.begin(), scope.cells_by_card.end(), named_by_gmsh);
+    if (!by_gmsh) return scope.cells_by_card;
+    std::vector<std::string> groups;
+    std::set<int> taken;
+    for (const auto& [key, set] : scope.element_sets) {
+      const std::vector<std::string>& by_card = scope.cells_by_card;
+      if (std::find(by_card.begin(), by_card.end(), key) != by_card.end()) continue;
+      const std::vector<int> cells = members(one, set, &Placed::cell_at);
+      if (cells.empty()) continue;
+      for (int cell : cells) {
+        if (!taken.insert(cell).second) return scope.cells_by_card;
+      }
+      groups.push_back(key);
+    }
+    if (taken.size() != one.cell_at.size()) return scope.cells_by_card;
+    return groups;
+  }
+
+  void add_bodies() {
+    std::vector<std::vector<std::string>> keys;
+    Names names;
+    for (const Placed& one : placed_) {
+      keys.push_back(body_sets(one));
+      for (const std::string& key : keys.back()) {
+        const auto set = one.scope->element_sets.find(key);
+        if (set == one.scope->element_sets.end()) {
+          refuse_inp(file_,
+                     "*SOLID SECTION of the element set \"" + key + "\", which is not there");
+        }
+        names.add(set->second.name);
+      }
+    }
+    mesh_.body.assign(origin_.size(), -1);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      for (const std::string& key : keys[i]) {
+        const InpSet& set = placed_[i].scope->element_sets.at(key);
+        as_bodies_.insert({placed_[i].scope, key});
+        add_body(names.of(placed_[i], set.name), members(placed_[i], set, &Placed::cell_at));
+      }
+    }
+    name_cells_without_body();
+  }
+
+  void add_body(const std::string& name, const std::vector<int>& cells) {
+    const int body = static_cast<int>(mesh_.bodies.size());
+    mesh_.bodies.push_back(name);
+    for (int cell : cells) {
+      int& body_of_cell = mesh_.body[static_cast<std::size_t>(cell)];
+      if (body_of_cell >= 0) {
+        const auto& [id, place] = origin_[static_cast<std::size_t>(cell)];
+        refuse_inp(place,
+                   fmt::format("element {} belongs to \"{}\" and to \"{}\"", id,
+                               mesh_.bodies[static_cast<std::size_t>(body_of_cell)], name),
+                   "one body for each element");
+      }
+      body_of_cell = body;
+    }
+  }
+
+  // What has no name is one body. Of several instances each is a body of its own.
+  void name_cells_without_body() {
+    std::vector<const Placed*> without;
+    for (const Placed& one : placed_) {
+      const bool any = std::any_of(one.cell_at.begin(), one.cell_at.end(), [&](const auto& cell) {
+        return mesh_.body[static_cast<std::size_t>(cell.second)] < 0;
+      });
+      if (any) without.push_back(&one);
+    }
+    for (const Placed* one : without) {
+      const int body = static_cast<int>(mesh_.bodies.size());
+      std::string name;
+      if (without.size() > 1) name = one->name();
+      mesh_.bodies.push_back(name);
+      for (const auto& [id, cell] : one->cell_at) {
+        int& body_of_cell = mesh_.body[static_cast<std::size_t>(cell)];
+        if (body_of_cell < 0) body_of_cell = body;
+      }
+    }
+  }
+
+  // ---- facets
+
+  void add_surfaces() {
+    Names names;
+    for (const Placed& one : placed_) {
+      for (const auto& [key, surface] : one.scope->surfaces) names.add(surface.name);
+    }
+    for (const Placed& one : placed_) {
+      for (const auto& [key, surface] : one.scope->surfaces) {
+        std::vector<Facet> facets;
+        for (const InpSide& side : surface.sides) {
+          for (int cell : cells_of_side(one, side)) facets.push_back(facet_of(side, cell));
+        }
+        if (!facets.empty()) name_facets(mesh_, names.of(one, surface.name), facets);
+      }
+    }
+  }
+
+  // of "7", "instance.7", "set" or "instance.set"
+  std::vector<int> cells_of_side(const Placed& one, const InpSide& side) const {
+    const auto found = one.scope->element_sets.find(upper_case(side.what));
+    if (found != one.scope->element_sets.end()) {
+      return members(one, found->second, &Placed::cell_at);
+    }
+    if (is_digits(side.what)) return {cell_of_number(one, side.what, side)};
+    if (!one.instance) {
+      for (const Placed& other : placed_) {
+        const std::string prefix = upper_case(other.name() + ".");
+        if (!other.instance || !upper_case(side.what).starts_with(prefix)) continue;
+        InpSide rest = side;
+        rest.what = side.what.substr(prefix.size());
+        return cells_of_side(other, rest);
+      }
+    }
+    refuse_inp(side.place, "there is no element set \"" + side.what + "\"");
+  }
+
+  static int cell_of_number(const Placed& one, const std::string& number, const InpSide& side) {
+    const auto cell = one.cell_at.find(whole_number(number, side.place));
+    if (cell == one.cell_at.end()) refuse_inp(side.place, "there is no element " + number);
+    return cell->second;
+  }
+
+  // S1, S2, ... count the facets of the element as the file numbers its nodes.
+  Facet facet_of(const InpSide& side, int cell) const {
+    const std::vector<int>& facets = model_.kind.cell->names.abaqus.sides;
+    for (std::size_t s = 0; s < facets.size(); ++s) {
+      if (side.side != fmt::format("S{}", s + 1)) continue;
+      int local = facets[s];
+      if (reversed_[static_cast<std::size_t>(cell)]) {
+        local = mirror_.facet[static_cast<std::size_t>(local)];
+      }
+      return {cell, local};
+    }
+    refuse_inp(side.place, "found the side \"" + side.side + "\"",
+               fmt::format("S1 to S{}", facets.size()));
+  }
+
+  // Element sets of plane elements are the facets that these lie on.
+  void add_face_elements() {
+    bool any = false;
+    Names names;
+    for (const Placed& one : placed_) {
+      any = any || !one.scope->faces.empty();
+      for (const auto& [key, set] : one.scope->element_sets) names.add(set.name);
+    }
+    if (!any) return;
+    std::map<std::array<int, 4>, Facet> facet_at;     // by corners
+    for (int e = mesh_.n_cells() - 1; e >= 0; --e) {  // of two cells that share it the first
+      for (int f = 0; f < mesh_.cell().n_facets(); ++f) {
+        facet_at[facet_key(mesh_, {e, f})] = {e, f};
+      }
+    }
+    for (Placed& one : placed_) {
+      std::vector<Facet> facets;
+      Numbers face_at;
+      for (const auto& [id, face] : one.scope->faces) {
+        const auto found = facet_at.find(key_of_face(one, face));
+        face_at[id] = -1;
+        if (found == facet_at.end()) continue;
+        face_at[id] = static_cast<int>(facets.size());
+        facets.push_back(found->second);
+      }
+      for (const auto& [key, set] : one.scope->element_sets) {
+        add_facet_set(names.of(one, set.name), set, face_at, facets);
+      }
+    }
+  }
+
+  static std::array<int, 4> key_of_face(const Placed& one, const InpElement& face) {
+    std::array<int, 4> key{-1, -1, -1, -1};
+    for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+      const auto node = one.node_at.find(face.nodes[k]);
+      if (node != one.node_at.end()) key[k] = node->second;
+    }
+    std::sort(key.begin(), key.end());
+    return key;
+  }
+
+  void add_facet_set(const std::string& name, const InpSet& set, const Numbers& face_at,
+                     const std::vector<Facet>& facets) {
+    std::vector<Facet> found;
+    int lost = 0;
+    for (const InpMembers& range : set.members) {
+      if (range.instance != own_scope) continue;
+      auto next = face_at.lower_bound(range.first);
+      for (; next != face_at.end() && next->first <= range.last; ++next) {
+        if ((next->first - range.first) % range.step != 0) continue;
+        if (next->second < 0) {
+          ++lost;
+        } else {
+          found.push_back(facets[static_cast<std::size_t>(next->second)]);
+        }
+      }
+    }
+    if (lost > 0) {
+      notes_.push_back(fmt::format(
+          "left out: element set {}, as {} of its plane elements lie on no facet of a cell", name,
+          lost));
       return;
     }
-    surfaces_[key].second.push_back({cells[0], cells.size() > 1 ? upper(cells[1]) : "", line_});
+    if (found.empty() || mesh_.facet_sets.count(name)) return;
+    std::sort(found.begin(), found.end(), [](const Facet& a, const Facet& b) {
+      return std::pair(a.cell, a.local) < std::pair(b.cell, b.local);
+    });
+    const auto same = [](const Facet& a, const Facet& b) {
+      return a.cell == b.cell && a.local == b.local;
+    };
+    found.erase(std::unique(found.begin(), found.end(), same), found.end());
+    name_facets(mesh_, name, found);
   }
 
-  using Numbers =
-      std::map<long long, int>;  // the file's number of a node or cell: ours, without gaps
+  // ---- nodes
 
-  Mesh made_of_cells(Numbers& cell_at, Numbers& node_at) {
-    std::vector<Vec3> X;
-    std::vector<int> connectivity;  // in our order
-    const std::vector<int>& order = kind_.theirs->order;
-    for (const auto& [id, cell] : cells_)
-      for (long long n : cell.first) node_at[n] = -1;
-    for (const auto& [id, x] : nodes_)
-      if (const auto node = node_at.find(id); node != node_at.end())
-        node->second = static_cast<int>(X.size()), X.push_back(x);
-    for (const auto& [id, cell] : cells_) {
-      cell_at[id] = static_cast<int>(connectivity.size() / order.size());
-      connectivity.resize(connectivity.size() + order.size());
-      for (std::size_t a = 0; a < order.size(); ++a) {
-        const long long n = cell.first[a];
-        if (node_at[n] < 0)
-          refuse(cell.second, fmt::format("element {} has the node {}, which is not there", id, n));
-        connectivity[connectivity.size() - order.size() + static_cast<std::size_t>(order[a])] =
-            node_at[n];
+  void add_node_sets() {
+    Names names;
+    for (const Placed& one : placed_) {
+      for (const auto& [key, set] : one.scope->node_sets) names.add(set.name);
+    }
+    for (const Placed& one : placed_) {
+      for (const auto& [key, set] : one.scope->node_sets) {
+        const std::vector<int> nodes = members(one, set, &Placed::node_at);
+        if (!nodes.empty()) mesh_.node_sets[names.of(one, set.name)] = nodes;
       }
     }
-    if (static_cast<int>(order.size()) == kind_.cell->n_corners)
-      return raised(X, connectivity, kind_.cell->type);
-    if (static_cast<int>(order.size()) < kind_.cell->n_nodes)
-      return raised_with_edges(X, connectivity, kind_.cell->type);
-    Mesh mesh;
-    mesh.type = kind_.cell->type, mesh.X = X, mesh.connectivity = connectivity;
-    return mesh;
+    if (n_given_nodes_ < mesh_.n_nodes()) add_new_middles(mesh_, n_given_nodes_);
   }
 
-  void add_bodies(Mesh& mesh, const Numbers& cell_at) {
-    mesh.body.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
-    for (const std::string& key : bodies_.empty() ? element_bodies_ : bodies_) {
-      const auto set = element_sets_.find(key);
-      if (set == element_sets_.end())
-        refuse(0, "*SOLID SECTION of the element set \"" + key + "\", which is not there");
-      const int body = static_cast<int>(mesh.bodies.size());
-      mesh.bodies.push_back(set->second.name);
-      for (int cell : there(set->second, cell_at)) {
-        if (mesh.body[cell] >= 0)
-          refuse(0,
-                 fmt::format("the {}. element belongs to \"{}\" and to \"{}\"", cell + 1,
-                             mesh.bodies[mesh.body[cell]], mesh.bodies[body]),
-                 "one body for each element");
-        mesh.body[cell] = body;
-      }
-    }
-    if (std::count(mesh.body.begin(), mesh.body.end(), -1) > 0) {
-      for (int& body : mesh.body)
-        if (body < 0) body = static_cast<int>(mesh.bodies.size());
-      mesh.bodies.push_back("");
+  // Facets of the surface whose nodes all lie in a node set are a facet set of its name.
+  void add_facets_of_node_sets() {
+    std::vector<Facet> outer;
+    for (const auto& [name, nodes] : mesh_.node_sets) {
+      if (mesh_.facet_sets.count(name)) continue;
+      if (static_cast<int>(nodes.size()) < mesh_.cell().facet_corners) continue;
+      if (outer.empty()) outer = boundary(mesh_);
+      const std::vector<Facet> facets = facets_within(mesh_, outer, nodes);
+      if (!facets.empty()) mesh_.facet_sets[name] = facets;
     }
   }
 
-  std::vector<int> cells_of_side(const Side& side, const Numbers& cell_at) {
-    if (is_number(side.what)) {
-      const auto cell = cell_at.find(side.what.size() < 18 ? std::stoll(side.what) : -1);
-      if (cell == cell_at.end()) refuse(side.line, "there is no element " + side.what);
-      return {cell->second};
-    }
-    const auto set = element_sets_.find(upper(side.what));
-    if (set == element_sets_.end())
-      refuse(side.line, "there is no element set \"" + side.what + "\"");
-    return there(set->second, cell_at);
-  }
+  // ---- what is not used
 
-  int facet_of(const Side& side) const {
-    const std::vector<int>& facets = kind_.cell->names.abaqus.sides;
-    for (std::size_t s = 0; s < facets.size(); ++s)
-      if (side.side == fmt::format("S{}", s + 1)) return facets[s];
-    refuse(side.line, "found the side \"" + side.side + "\"",
-           fmt::format("S1 to S{}", facets.size()));
-  }
-
-  void add_sets(Mesh& mesh, const Numbers& cell_at, const Numbers& node_at) {
-    for (const auto& [key, surface] : surfaces_) {
-      const auto& [name, sides] = surface;
-      std::vector<Facet> facets;
-      for (const Side& side : sides)
-        for (int cell : cells_of_side(side, cell_at)) facets.push_back({cell, facet_of(side)});
-      if (!facets.empty()) name_facets(mesh, name, facets);
-    }
-    for (const auto& [key, set] : node_sets_) {
-      const std::vector<int> nodes = there(set, node_at);
-      if (!nodes.empty()) mesh.node_sets[set.name] = nodes;
-    }
-    const auto n_given = static_cast<int>(node_at.size());
-    if (n_given < mesh.n_nodes()) add_new_middles(mesh, n_given);
-  }
-
-  Mesh mesh() {
-    Numbers cell_at, node_at;
-    Mesh mesh = made_of_cells(cell_at, node_at);
-    add_bodies(mesh, cell_at);
-    add_sets(mesh, cell_at, node_at);
+  void add_notes() {
     std::vector<std::string> others;
-    for (const auto& [key, set] : element_sets_)
-      if (std::find(mesh.bodies.begin(), mesh.bodies.end(), set.name) == mesh.bodies.end())
-        others.push_back(set.name);
-    if (!others.empty())
+    for (const Placed& one : placed_) {
+      // Without physical groups Gmsh's own names stay; with them they say nothing more.
+      for (const auto& [key, set] : one.scope->element_sets) {
+        const bool used = as_bodies_.count({one.scope, key}) > 0 || set.internal ||
+                          mesh_.facet_sets.count(set.name) > 0 || named_by_gmsh(set.name);
+        if (!used) others.push_back(set.name);
+      }
+    }
+    if (!others.empty()) {
       notes_.push_back(
           fmt::format("left out, as they are no bodies: element sets {}", fmt::join(others, ", ")));
-    if (!left_out_.empty())
+    }
+    if (!model_.left_out.empty()) {
       notes_.push_back(
-          fmt::format("left out, as they are no mesh: {}", fmt::join(left_out_, ", ")));
-    return mesh;
+          fmt::format("left out, as they are no mesh: {}", fmt::join(model_.left_out, ", ")));
+    }
   }
 };
 
-}  // namespace
-
-Mesh parse_inp(const std::string& text, const std::string& shown_name,
-               std::vector<std::string>& notes) {
-  return Reader(text, shown_name, notes).read();
+Mesh mesh_of(InpScanner& scanner, const std::string& shown_name, std::vector<std::string>& notes) {
+  const InpModel model = read_inp_model(scanner);
+  return Builder(model, shown_name, notes).build();
 }
 
-Mesh read_inp(const std::string& path, std::vector<std::string>& notes) {
+std::string text_of(const std::string& path) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) throw Failure(Exit::input, Error{{path}, "", "cannot be read", "", ""});
-  return parse_inp(text.str(), path, notes);
+  return text.str();
+}
+
+}  // namespace
+
+Mesh parse_inp(const std::string& text, const std::string& shown_name,
+               std::vector<std::string>& notes, const InpOpener& opener) {
+  InpScanner scanner(text, shown_name, opener);
+  return mesh_of(scanner, shown_name, notes);
+}
+
+Mesh read_inp(const std::string& path, std::vector<std::string>& notes) {
+  InpScanner scanner(text_of(path), path, inp_opener(path));
+  return mesh_of(scanner, path, notes);
+}
+
+std::vector<std::string> included_inp_files(const std::string& path) {
+  InpScanner scanner(text_of(path), path, inp_opener(path));
+  while (scanner.next()) {
+  }
+  return scanner.included();
 }
 
 }  // namespace langer
